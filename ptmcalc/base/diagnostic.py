@@ -1,0 +1,217 @@
+"""The one currency of everything said about a file: code, place, reason, fix."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+
+from ptmcalc.base.span import KeyPath, Span
+
+
+class Severity(StrEnum):
+    """How much a diagnostic weighs: only an error makes a file invalid."""
+
+    NOTE = "note"
+    WARNING = "warning"
+    ERROR = "error"
+
+    @property
+    def rank(self) -> int:
+        return list(Severity).index(self)
+
+
+class Verdict(StrEnum):
+    """What a check says. `worst` order: fail, undecided, not checked, waived, pass."""
+
+    FAIL = "fail"
+    UNDECIDED = "undecided"
+    NOT_CHECKED = "not_checked"
+    WAIVED = "waived"
+    PASS = "pass"
+
+    @property
+    def rank(self) -> int:
+        return list(Verdict).index(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One thing said about a file, at its place, with the reason and a fix that can be copied."""
+
+    code: str
+    message: str
+    span: Span | None = None
+    path: KeyPath = ()
+    hint: str = ""
+    severity: Severity = Severity.ERROR
+
+
+@dataclass(frozen=True, slots=True)
+class CodeText:
+    """What `explain CODE` says about a diagnostic."""
+
+    title: str
+    why: str
+    fix: str
+
+
+CODES: Mapping[str, CodeText] = MappingProxyType(
+    {
+        "TXT101": CodeText(
+            "a file that cannot be read",
+            "The path does not exist, is not a file, or may not be opened.",
+            "Check the path and its permissions.",
+        ),
+        "TXT102": CodeText(
+            "a folder without design files",
+            "No file ending in .yaml or .yml stands in the folder or below it, so nothing was checked.",
+            "Name the folder that holds the design files; `ptmcalc new conveyor > conveyor.yaml` writes a first one.",
+        ),
+        "TXT103": CodeText(
+            "text that is not UTF-8",
+            "A design file is UTF-8 text; another encoding would silently change characters.",
+            "Save the file as UTF-8.",
+        ),
+        "TXT104": CodeText(
+            "an empty file",
+            "The file holds no YAML document.",
+            "`ptmcalc new conveyor` prints a commented template to start from.",
+        ),
+        "TXT105": CodeText(
+            "text that is not YAML",
+            "The YAML parser stopped at this place; nothing behind it could be read.",
+            "Mend the place named; indentation by tabs and a missing space after a colon are the usual causes.",
+        ),
+        "TXT106": CodeText(
+            "a key written twice",
+            "YAML tools keep the last of two equal keys and drop the first without a word.",
+            "Delete one of them.",
+        ),
+        "TXT107": CodeText(
+            "a YAML tag",
+            "A design file is data; tags ask the reader to construct objects and are refused.",
+            "Delete the tag (the word that starts with an exclamation mark).",
+        ),
+        "TXT108": CodeText(
+            "a file beyond its budget",
+            "A file may have 1 MiB, 50 000 nodes with its aliases expanded, and 100 levels.",
+            "Split the file, or remove the nested aliases.",
+        ),
+        "TXT109": CodeText(
+            "more than one document",
+            "A design file describes one machine; `---` starts a second one.",
+            "Put each machine into a file of its own.",
+        ),
+        "TXT110": CodeText(
+            "an alias or merge that leads nowhere",
+            "An alias must follow its anchor, and `<<` takes a mapping or a list of mappings.",
+            "Define the anchor first, outside the value that uses it.",
+        ),
+        "TXT111": CodeText(
+            "a key that is not a word",
+            "Keys are plain words; a list or a mapping cannot be a key.",
+            "Write `key: value`.",
+        ),
+        "TXT112": CodeText(
+            "a document that is not a mapping",
+            "A design file is a mapping of keys to values and starts with `kind:`.",
+            "Start the file with `kind: conveyor` or another kind of `ptmcalc kinds`.",
+        ),
+        "SPC101": CodeText(
+            "a missing kind",
+            "Every design file names the kind of machine it describes.",
+            "Add `kind: conveyor` or another kind of `ptmcalc kinds`.",
+        ),
+        "SPC102": CodeText(
+            "an unknown kind",
+            "No machine of that name is installed.",
+            "`ptmcalc kinds` lists the kinds.",
+        ),
+        "SPC103": CodeText(
+            "a missing key",
+            "The machine cannot be computed without it and no default is honest.",
+            "Add the key; `ptmcalc schema KIND` describes it.",
+        ),
+        "SPC104": CodeText(
+            "an unknown key",
+            "A key that is not read would be lost without a word, so it is refused.",
+            "Correct the spelling or delete it.",
+        ),
+        "SPC105": CodeText(
+            "a unit of another dimension",
+            "The value is a different physical quantity from the one the key takes.",
+            "Write the value in a unit of the right dimension.",
+        ),
+        "SPC106": CodeText(
+            "a number without its unit",
+            "A bare number is a guess about its unit; only ratios are written without one.",
+            "Write the unit behind the number.",
+        ),
+        "SPC107": CodeText(
+            "a decimal comma",
+            "`3,5` reads as 35 in some tools and as 3.5 in others.",
+            "Write a decimal point.",
+        ),
+        "SPC108": CodeText(
+            "an unknown unit",
+            "The table of units is closed, so that no unit is guessed.",
+            "Use an SI or engineering unit.",
+        ),
+        "SPC109": CodeText(
+            "a number that is not finite",
+            "NaN compares false with everything and infinity spoils every sum.",
+            "Write a finite number.",
+        ),
+        "SPC110": CodeText(
+            "a value out of its range",
+            "No machine has this value, or the formulas do not hold there.",
+            "Write a value inside the range named.",
+        ),
+        "SPC111": CodeText(
+            "a value of the wrong form",
+            "The key takes another form: a mapping, a list, a word, a number with a unit.",
+            "Write it in the form named.",
+        ),
+        "SPC112": CodeText(
+            "a word that is none of the choices",
+            "The key takes one of a few words.",
+            "Use one of the words named.",
+        ),
+        "SPC113": CodeText(
+            "values that do not go together",
+            "Two keys say the same thing twice, leave a gap, or contradict each other.",
+            "Keep one of them, or give the missing one.",
+        ),
+        "SPC114": CodeText(
+            "a number that cannot be read",
+            "The value is not a number with a unit.",
+            "Write digits, a decimal point, a space and the unit.",
+        ),
+        "SPC201": CodeText(
+            "numbers that disagree",
+            "Two values of the file that should agree do so only roughly; the check goes on with the first.",
+            "Correct the one that is wrong.",
+        ),
+        "NUM101": CodeText(
+            "a computation that did not converge",
+            "The numerics could not reach a trustworthy number; the verdicts that need it are undecided.",
+            "See the message; report the file if the machine is a sound one.",
+        ),
+        "NUM102": CodeText(
+            "a model used beyond its range",
+            "The simulation left the range in which its equations hold; what came after is not trusted.",
+            "Change the design so that the range is kept, or judge the event by other means.",
+        ),
+        "NUM103": CodeText(
+            "an answer beyond the work budget",
+            "A finer or richer computation would be needed and its predicted work is over the budget.",
+            "Accept the undecided verdict, relax `accuracy`, or simplify the scene.",
+        ),
+        "NUM104": CodeText(
+            "a simplification the simulation ran into",
+            "The simulation met a state that its model treats only roughly; the numbers stand, with that remark.",
+            "See the message.",
+        ),
+    }
+)
+"""Every code that is not a check of a machine. Codes are never reused."""

@@ -1,0 +1,289 @@
+"""Units: text with a unit in, SI floats inside, readable text out.
+
+The table is closed: a unit that is not in it is an error, never a guess. Angle is a dimension of its own,
+so revolutions per minute (angle/time) and hertz (1/time) cannot be mistaken for each other.
+
+A unit is a product of factors with at most one slash: `kg*m^2`, `N*s/m`, `t/h`, `N/mm2`.
+"""
+
+import difflib
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+Dimension = tuple[int, int, int, int]
+"""Exponents of mass, length, time, angle."""
+
+_PURE: Dimension = (0, 0, 0, 0)
+_FORCE: Dimension = (1, 1, -2, 0)
+_PRESSURE: Dimension = (1, -1, -2, 0)
+_ENERGY: Dimension = (1, 2, -2, 0)
+_POWER: Dimension = (1, 2, -3, 0)
+
+UNITS: Mapping[str, tuple[float, Dimension]] = MappingProxyType(
+    {
+        "1": (1.0, _PURE),
+        "%": (1e-2, _PURE),
+        "kg": (1.0, (1, 0, 0, 0)),
+        "g": (1e-3, (1, 0, 0, 0)),
+        "t": (1e3, (1, 0, 0, 0)),
+        "m": (1.0, (0, 1, 0, 0)),
+        "mm": (1e-3, (0, 1, 0, 0)),
+        "cm": (1e-2, (0, 1, 0, 0)),
+        "km": (1e3, (0, 1, 0, 0)),
+        "s": (1.0, (0, 0, 1, 0)),
+        "ms": (1e-3, (0, 0, 1, 0)),
+        "min": (60.0, (0, 0, 1, 0)),
+        "h": (3600.0, (0, 0, 1, 0)),
+        "Hz": (1.0, (0, 0, -1, 0)),
+        "rad": (1.0, (0, 0, 0, 1)),
+        "mrad": (1e-3, (0, 0, 0, 1)),
+        "deg": (math.pi / 180, (0, 0, 0, 1)),
+        "°": (math.pi / 180, (0, 0, 0, 1)),
+        "rev": (2 * math.pi, (0, 0, 0, 1)),
+        "rpm": (2 * math.pi / 60, (0, 0, -1, 1)),
+        "N": (1.0, _FORCE),
+        "kN": (1e3, _FORCE),
+        "MN": (1e6, _FORCE),
+        "Pa": (1.0, _PRESSURE),
+        "kPa": (1e3, _PRESSURE),
+        "MPa": (1e6, _PRESSURE),
+        "GPa": (1e9, _PRESSURE),
+        "bar": (1e5, _PRESSURE),
+        "J": (1.0, _ENERGY),
+        "kJ": (1e3, _ENERGY),
+        "MJ": (1e6, _ENERGY),
+        "kWh": (3.6e6, _ENERGY),
+        "W": (1.0, _POWER),
+        "kW": (1e3, _POWER),
+        "MW": (1e6, _POWER),
+    }
+)
+
+_HINTS: Mapping[str, str] = MappingProxyType(
+    {
+        "ton": "a tonne is `t` (1000 kg); a US ton (907 kg) or a UK ton (1016 kg) must be converted",
+        "tons": "a tonne is `t` (1000 kg); a US ton (907 kg) or a UK ton (1016 kg) must be converted",
+        "tonne": "write `t`",
+        "mt": "a tonne is `t`",
+        "U/min": "write `rpm`",
+        "rev/min": "write `rpm`",
+        "1/min": "a rotational speed is `rpm`; a frequency is `Hz`",
+        "kgf": "a force is `N`: 1 kgf = 9.80665 N",
+        "kp": "a force is `N`: 1 kp = 9.80665 N",
+        "tf": "a force is `kN`: 1 tf = 9.80665 kN",
+        "kgm2": "write `kg*m^2`",
+        "Nm": "write `N*m`",
+        "kNm": "write `kN*m`",
+        "Nmm": "write the torque in `N*m`",
+        "sec": "write `s`",
+        "grad": "write `deg` (a gon is 0.9 deg)",
+        "degree": "write `deg`",
+        "degrees": "write `deg`",
+        "hp": "write `kW`: 1 hp = 0.7457 kW, 1 metric horsepower = 0.7355 kW",
+        "PS": "write `kW`: 1 PS = 0.7355 kW",
+        "ft": "write `m`: 1 ft = 0.3048 m",
+        "in": "write `mm`: 1 in = 25.4 mm",
+        "lb": "write `kg`: 1 lb = 0.45359 kg",
+        "lbf": "write `N`: 1 lbf = 4.44822 N",
+        "fpm": "write `m/s`: 1 ft/min = 0.00508 m/s",
+    }
+)
+
+
+class UnitError(ValueError):
+    """A quantity that cannot be read: `reason` says why, `hint` what to write instead, `code` which kind."""
+
+    def __init__(self, code: str, reason: str, hint: str = "") -> None:
+        super().__init__(reason)
+        self.code, self.reason, self.hint = code, reason, hint
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A physical quantity as the field uses it: its SI unit, the units it is shown in, an example to copy.
+
+    `display` is ordered from small to large; the largest unit that keeps the number at 1 or above is shown.
+    """
+
+    name: str
+    si: str
+    display: tuple[str, ...]
+    example: str
+
+    @property
+    def dimension(self) -> Dimension:
+        return unit_of(self.si)[1]
+
+
+def _quantity(name: str, si: str, *display: str, example: str) -> Quantity:
+    return Quantity(name, si, display or (si,), example)
+
+
+RATIO = _quantity("ratio", "1", example="0.94")
+SHARE = _quantity("ratio", "1", "%", example="1 %")
+MASS = _quantity("mass", "kg", "kg", "t", example="1200 kg")
+LENGTH = _quantity("length", "m", "mm", "m", example="1200 mm")
+SPAN = _quantity("distance", "m", "m", example="850 m")
+TIME = _quantity("time", "s", "ms", "s", example="12 s")
+ANGLE = _quantity("angle", "rad", "deg", example="210 deg")
+SPEED = _quantity("speed", "m/s", "m/s", example="3.15 m/s")
+ACCELERATION = _quantity("acceleration", "m/s^2", example="0.3 m/s^2")
+ANGULAR_SPEED = _quantity("rotational speed", "rad/s", "rpm", example="1485 rpm")
+FREQUENCY = _quantity("frequency", "Hz", example="0.8 Hz")
+FORCE = _quantity("force", "N", "N", "kN", "MN", example="12 kN")
+LINE_MASS = _quantity("mass per length", "kg/m", example="24 kg/m")
+LINE_FORCE = _quantity("force per length", "N/m", "N/m", "kN/m", example="1600 N/mm")
+LINE_STIFFNESS = _quantity("stiffness per width", "N/m", "kN/m", "MN/m", example="72000 N/mm")
+FLOW = _quantity("mass flow", "kg/s", "t/h", example="1500 t/h")
+TORQUE = _quantity("torque", "N*m", "N*m", "kN*m", example="3000 N*m")
+INERTIA = _quantity("moment of inertia", "kg*m^2", example="4.2 kg*m^2")
+IMPEDANCE = _quantity("mechanical impedance", "N*s/m", "N*s/m", "kN*s/m", example="180 kN*s/m")
+ENERGY = _quantity("energy", "J", "J", "kJ", "MJ", example="25 kJ")
+POWER = _quantity("power", "W", "W", "kW", example="250 kW")
+STRESS = _quantity("stress", "Pa", "MPa", example="210 MPa")
+
+_NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*", re.DOTALL)
+_NOT_FINITE = re.compile(r"\s*[-+]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
+_DECIMAL_COMMA = re.compile(r"\s*([-+]?[0-9]+),([0-9]+)(.*)", re.DOTALL)
+_SPACED = re.compile(r"\s*([-+]?[0-9]{1,3}(?:[ '_][0-9]{3})+)(.*)", re.DOTALL)
+_FACTOR = re.compile(r"([A-Za-z°%]+|1)(?:\^?([-+]?[0-9]))?")
+_SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "⁴": "^4", "·": "*", "×": "*", "−": "-"})
+
+
+def unit_of(text: str) -> tuple[float, Dimension]:
+    """Factor to SI and dimension of a unit: products, one slash, powers.
+
+    Raises UnitError for a unit that is not in the table or is not of that form.
+    """
+    known = UNITS.get(text)
+    if known:
+        return known
+    plain = text.translate(_SUPERSCRIPT).replace(" ", "")
+    numerator, slash, denominator = plain.partition("/")
+    if "/" in denominator:
+        raise UnitError("unit", f"the unit `{text}` has more than one slash", "write it with one: `N*s/m`")
+    factor, dimension = _product(text, numerator)
+    if slash:
+        below, of_below = _product(text, denominator)
+        factor /= below
+        dimension = _combine(dimension, of_below, -1)
+    return factor, dimension
+
+
+def _product(text: str, factors: str) -> tuple[float, Dimension]:
+    factor, dimension = 1.0, _PURE
+    for part in factors.split("*"):
+        match = _FACTOR.fullmatch(part)
+        known = UNITS.get(match[1]) if match else None
+        if match is None or known is None:
+            raise UnitError("unit", f"`{text}` is not a unit ptmcalc knows", _suggest(text, part))
+        power = int(match[2] or 1)
+        factor *= known[0] ** power
+        dimension = _combine(dimension, known[1], power)
+    return factor, dimension
+
+
+def _combine(a: Dimension, b: Dimension, power: int) -> Dimension:
+    return (a[0] + power * b[0], a[1] + power * b[1], a[2] + power * b[2], a[3] + power * b[3])
+
+
+def _suggest(text: str, part: str) -> str:
+    for candidate in (text, part):
+        if candidate in _HINTS:
+            return _HINTS[candidate]
+    folded = {name.lower(): name for name in UNITS if name != "1"}
+    name = re.sub(r"[\^0-9+-]", "", part)
+    close = folded.get(name.lower()) or next(iter(difflib.get_close_matches(name, folded.values(), 1)), None)
+    if close:
+        return f"did you mean `{close}`?"
+    return "units are SI and engineering ones: " + " ".join(name for name in UNITS if name not in {"1", "°"})
+
+
+def read(text: str, quantity: Quantity) -> float:
+    """SI value of `text`, e.g. `read("1200 mm", LENGTH)` is 1.2.
+
+    Raises UnitError with a code: `comma` (decimal comma), `number` (no number in front), `bare` (unit missing),
+    `unit` (unknown unit), `dimension` (unit of something else), `finite` (NaN or infinite).
+    """
+    match = _VALUE.fullmatch(text)
+    if match is None or (match[2] and not match[2][0].isalpha() and match[2][0] not in "°%1"):
+        raise _not_a_number(text, quantity)
+    number, unit = float(match[1]), match[2]
+    if not math.isfinite(number):
+        raise not_finite(text.strip(), quantity)
+    if not unit:
+        if quantity.dimension == _PURE:
+            return number
+        raise bare_number(match[1], quantity)
+    factor, dimension = unit_of(unit)
+    if dimension != quantity.dimension:
+        raise UnitError(
+            "dimension",
+            f"`{text.strip()}` is a {_name_of(dimension)}, not a {quantity.name}",
+            f"write a {quantity.name}, e.g. `{quantity.example}`",
+        )
+    if not math.isfinite(number * factor):
+        raise not_finite(text.strip(), quantity)
+    return number * factor
+
+
+def bare_number(number: object, quantity: Quantity) -> UnitError:
+    """The error for a number without its unit, with the units that would do."""
+    units = " or ".join(f"`{number} {unit}`" for unit in quantity.display)
+    return UnitError("bare", f"`{number}` has no unit: a {quantity.name} needs one", f"write {units}")
+
+
+def not_finite(text: object, quantity: Quantity) -> UnitError:
+    """The error for NaN and infinity, and for a number too large for a float."""
+    return UnitError("finite", f"`{text}` is not a finite number", f"write a number, e.g. `{quantity.example}`")
+
+
+def _not_a_number(text: str, quantity: Quantity) -> UnitError:
+    stripped = text.strip()
+    if _NOT_FINITE.fullmatch(text):
+        return not_finite(stripped, quantity)
+    if match := _DECIMAL_COMMA.fullmatch(text):
+        fixed = f"{match[1]}.{match[2]}{match[3]}".strip()
+        return UnitError("comma", f"`{stripped}` has a decimal comma", f"write a decimal point: `{fixed}`")
+    if match := _SPACED.fullmatch(text):
+        fixed = (re.sub(r"[ '_]", "", match[1]) + " " + match[2].strip()).strip()
+        return UnitError("number", f"`{stripped}` groups its digits", f"write them together: `{fixed}`")
+    return UnitError(
+        "number",
+        f"`{stripped}` is not a {quantity.name}",
+        f"write a number with a unit, e.g. `{quantity.example}`",
+    )
+
+
+def _name_of(dimension: Dimension) -> str:
+    for quantity in (value for value in globals().values() if isinstance(value, Quantity)):
+        if quantity.dimension == dimension:
+            return quantity.name
+    return "quantity of another dimension"
+
+
+def digits(value: float, significant: int = 4) -> str:
+    """A number with so many significant digits, without an exponent where a reader would not expect one."""
+    if value == 0 or not math.isfinite(value):
+        return "0" if value == 0 else str(value)
+    exponent = math.floor(math.log10(abs(value)))
+    if -4 <= exponent < 7:
+        text = f"{value:.{max(significant - 1 - exponent, 0)}f}"
+        return text.rstrip("0").rstrip(".") if "." in text else text
+    return f"{value:.{significant - 1}e}"
+
+
+def display_unit(value: float, quantity: Quantity) -> str:
+    """The unit in which a value of this quantity reads best."""
+    fitting = [unit for unit in quantity.display if abs(value) / unit_of(unit)[0] >= 1]
+    return max(fitting or quantity.display[:1], key=lambda unit: unit_of(unit)[0])
+
+
+def show(value: float, quantity: Quantity, significant: int = 4) -> str:
+    """Readable text of an SI value: `show(189504.0, FORCE)` is `189.5 kN`."""
+    unit = display_unit(value, quantity)
+    return f"{digits(value / unit_of(unit)[0], significant)} {unit}".removesuffix(" 1")

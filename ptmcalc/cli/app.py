@@ -1,0 +1,253 @@
+"""`ptmcalc`: the commands and their options."""
+
+import os
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+
+from ptmcalc import __version__
+from ptmcalc.base.diagnostic import Severity
+from ptmcalc.base.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ptmcalc.contract.report import FileReport
+
+app = typer.Typer(
+    name="ptmcalc",
+    help="Design check for material-handling machines: dynamic loads and pass/fail checks from a YAML description.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+EXIT_USAGE, EXIT_BUG = 2, 4
+
+
+class CheckFormat(StrEnum):
+    """Formats of `check`."""
+
+    TABLE = "table"
+    PLAIN = "plain"
+    JSON = "json"
+
+
+class ListFormat(StrEnum):
+    """Formats of the commands that answer with rows."""
+
+    TABLE = "table"
+    JSON = "json"
+
+
+ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
+AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
+EffectsOption = Annotated[
+    list[str] | None,
+    typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
+]
+ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
+
+
+def main() -> None:
+    """Entry point: maps what can go wrong to exit statuses."""
+    try:
+        app()
+    except UsageError as error:
+        _fail(error)
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)
+    except Exception as error:
+        if os.environ.get("PTMCALC_TRACEBACK"):
+            raise
+        typer.echo(
+            f"ptmcalc: internal error: {type(error).__name__}: {error}\n"
+            "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
+            " command under PTMCALC_TRACEBACK=1.",
+            err=True,
+        )
+        sys.exit(EXIT_BUG)
+
+
+def _fail(error: UsageError) -> NoReturn:
+    typer.echo(f"ptmcalc: {error.message}" + (f" ({error.hint})" if error.hint else ""), err=True)
+    sys.exit(EXIT_USAGE)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"ptmcalc {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Options before the command."""
+
+
+@app.command()
+def check(
+    paths: Annotated[list[str], typer.Argument(help="Design files, and folders of them.")],
+    form: Annotated[
+        CheckFormat | None,
+        typer.Option("--format", help="How to print; a table on a terminal, else plain lines."),
+    ] = None,
+    output: Annotated[
+        list[str] | None,
+        typer.Option("--output", "-o", help="FORMAT=FILE, besides what is printed; may be repeated."),
+    ] = None,
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    effects: EffectsOption = None,
+    fail_level: Annotated[
+        Severity, typer.Option("--fail-level", help="Findings from this severity up make the exit status 1.")
+    ] = Severity.ERROR,
+) -> None:
+    """Check design files: loads, verdicts, and what would make a failed check pass.
+
+    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a bug of ours.
+    """
+    from ptmcalc.contract.report import exit_status
+    from ptmcalc.engine.check import Options, check_paths
+    from ptmcalc.report import Format
+
+    files = [_target(text) for text in output or ()]
+    options = Options(tuple(scene or ()), accuracy, _effects(effects))
+    reports = check_paths(paths, options)
+    for target, name in files:
+        _write(Path(name), _rendered(Format(target), reports, to_terminal=False))
+    terminal = sys.stdout.isatty()
+    chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
+    typer.echo(_rendered(chosen, reports, to_terminal=terminal), nl=False)
+    status = exit_status(reports)
+    if status in (0, 3) and _reaches(reports, fail_level):
+        status = 1
+    raise typer.Exit(status)
+
+
+def _rendered(form: Any, reports: "Sequence[FileReport]", *, to_terminal: bool) -> str:
+    from shutil import get_terminal_size
+
+    from ptmcalc.report import render
+
+    if not to_terminal:
+        return render(form, reports)
+    color = "NO_COLOR" not in os.environ and os.environ.get("TERM") != "dumb"
+    return render(form, reports, width=get_terminal_size((120, 40)).columns, color=color)
+
+
+def _reaches(reports: "Sequence[FileReport]", level: Severity) -> bool:
+    return any(d.severity.rank >= level.rank for report in reports for d in report.diagnostics)
+
+
+def _target(text: str) -> tuple[str, str]:
+    form, separator, name = text.partition("=")
+    if not separator or not name or form not in list(CheckFormat):
+        raise UsageError(f"`{text}` is not FORMAT=FILE", f"formats: {', '.join(CheckFormat)}")
+    return form, name
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"cannot write `{path}`: {error.strerror}") from None
+
+
+def _effects(given: list[str] | None) -> dict[str, str]:
+    chosen = {}
+    for text in given or ():
+        name, separator, wish = text.partition("=")
+        if not separator or wish not in ("on", "off", "auto"):
+            raise UsageError(f"`{text}` is not NAME=on|off|auto", "e.g. --effects sag=off")
+        chosen[name] = wish
+    return chosen
+
+
+@app.command()
+def plan(
+    paths: Annotated[list[str], typer.Argument(help="Design files.")],
+    form: ListOption = ListFormat.TABLE,
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    effects: EffectsOption = None,
+) -> None:
+    """Show which effects each scene calls for, the number that decides, and the predicted cost."""
+    from ptmcalc.cli.listing import show_plan
+    from ptmcalc.engine.check import Options
+
+    raise typer.Exit(
+        show_plan(paths, Options(tuple(scene or ()), accuracy, _effects(effects)), form == ListFormat.JSON)
+    )
+
+
+@app.command()
+def explain(
+    name: Annotated[str, typer.Argument(help="A code such as CNV101, or the name of an effect or a solver.")],
+) -> None:
+    """Explain a check, an effect, a solver or a finding: formula, range, error, source."""
+    from ptmcalc.cli.listing import explanation
+
+    typer.echo(explanation(name), nl=False)
+
+
+@app.command()
+def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "") -> None:
+    """Print the JSON Schema of design files, for completion and checks in an editor."""
+    from ptmcalc.cli.listing import json_schema
+
+    typer.echo(json_schema(kind), nl=False)
+
+
+@app.command()
+def new(kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")]) -> None:
+    """Print a commented design file to start from."""
+    from ptmcalc.engine.registry import load_kind
+
+    typer.echo(load_kind(kind).template, nl=False)
+
+
+@app.command()
+def kinds(form: ListOption = ListFormat.TABLE) -> None:
+    """List the kinds of machines."""
+    from ptmcalc.cli.listing import show_kinds
+
+    typer.echo(show_kinds(form == ListFormat.JSON), nl=False)
+
+
+@app.command()
+def solvers(
+    kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "",
+    form: ListOption = ListFormat.TABLE,
+) -> None:
+    """List the solvers: scene, effects they carry, predicted cost on the kind's template, error, source."""
+    from ptmcalc.cli.listing import show_solvers
+
+    typer.echo(show_solvers(kind, form == ListFormat.JSON), nl=False)
+
+
+@app.command()
+def solve(
+    path: Annotated[str, typer.Argument(help="A design file.")],
+    code: Annotated[str, typer.Option("--check", help="The check that is to pass, e.g. CNV101.")],
+    vary: Annotated[str, typer.Option("--vary", help="The key that may move, e.g. takeup.tension.")],
+    scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
+    form: ListOption = ListFormat.TABLE,
+) -> None:
+    """Find the value of one key at which a check just passes, its error bar included.
+
+    Exit status 1 when no value within three decades passes.
+    """
+    from ptmcalc.cli.listing import show_solution
+
+    raise typer.Exit(show_solution(path, code, vary, scene, form == ListFormat.JSON))

@@ -1,0 +1,313 @@
+"""What the commands besides `check` print."""
+
+import difflib
+import inspect
+import re
+import textwrap
+from collections.abc import Iterator, Sequence
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from ptmcalc.base.diagnostic import CODES
+from ptmcalc.base.errors import UsageError
+from ptmcalc.base.span import dotted, key_path
+from ptmcalc.base.units import TIME, digits, show
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.contract.effect import AnyEffect, EffectState
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.report import FileReport, exit_status
+from ptmcalc.contract.solver import AnySolver, Fidelity
+from ptmcalc.engine.check import Options, chosen_scenes
+from ptmcalc.engine.load import Loaded, load_file, load_text
+from ptmcalc.engine.plan import Plan, ScenePlan, plan
+from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.solve import solve
+from ptmcalc.report import Format, json, render
+
+Row = dict[str, Any]
+
+
+def _table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in columns:
+        table.add_column(column)
+    for row in rows:
+        table.add_row(*row)
+    out = StringIO()
+    Console(file=out, width=150, no_color=True, highlight=False).print(table)
+    return "\n".join(line.rstrip() for line in out.getvalue().split("\n"))
+
+
+def _loaded(path: str, options: Options) -> Loaded:
+    return load_file(Path(path), Path(path).as_posix(), options.effects, options.accuracy)
+
+
+def _reported(loaded: Loaded) -> int:
+    """Prints what is wrong with a file that could not be loaded."""
+    report = FileReport(loaded.document.name, diagnostics=loaded.diagnostics)
+    typer.echo(render(Format.PLAIN, [report]), nl=False, err=True)
+    return exit_status((report,))
+
+
+# -- plan -----------------------------------------------------------------------------------------------------------
+
+
+def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
+    """Print the plans of some files; the exit status."""
+    status, rows = 0, []
+    for path in paths:
+        loaded = _loaded(path, options)
+        if loaded.kind is None or loaded.spec is None:
+            status = max(status, _reported(loaded))
+            continue
+        made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
+        rows += [{"path": path} | row for scene in made.scenes for row in _plan_rows(made, scene)]
+    if as_json:
+        typer.echo(json.rows(rows), nl=False)
+    elif rows:
+        columns = (
+            "file",
+            "scene",
+            "effect",
+            "will be",
+            "number",
+            "threshold",
+            "what it says",
+            "solver",
+            "predicted",
+        )
+        typer.echo(_table(columns, [_plan_cells(row) for row in rows]), nl=False)
+    return status
+
+
+def _plan_rows(made: Plan, scene: ScenePlan) -> Iterator[Row]:
+    """A row per effect, with the solver that the ladder comes to; closed forms are evaluated to see how far."""
+    settled = settle(
+        made.kind,
+        made.spec,
+        scene,
+        until=lambda rung: rung.solver.fidelity is Fidelity.FORMULA and rung.level == 0,
+    )
+    last = settled.next_rung or settled.runs[-1].rung
+    seconds = sum(run.rung.seconds for run in settled.runs) + (settled.next_rung.seconds if settled.next_rung else 0.0)
+    common = {"scene": scene.scene.label, "solver": last.solver.name, "predicted_seconds": seconds}
+    for planned in scene.effects:
+        carried = planned.effect.name in (last.carried | settled.carried)
+        state = EffectState.SIMULATED if carried else EffectState.BOUNDED if planned.active else EffectState.SKIPPED
+        yield common | {
+            "effect": planned.effect.name,
+            "state": state.value,
+            "forced": planned.forced,
+            "criterion": json.criterion(planned.criterion),
+        }
+    if not scene.effects:
+        yield common | {"effect": None, "state": None, "forced": False, "criterion": None}
+
+
+def _plan_cells(row: Row) -> list[str]:
+    number = row["criterion"] or {}
+    value = number.get("value")
+    shown = "unlimited" if value is None else digits(value, 3)
+    return [
+        row["path"],
+        row["scene"],
+        row["effect"] or "",
+        (row["state"] or "") + (" (forced)" if row["forced"] else ""),
+        f"{number['symbol']} = {shown}" if number else "",
+        digits(number["threshold"], 3) if number else "",
+        number.get("meaning", ""),
+        row["solver"],
+        show(row["predicted_seconds"], TIME, 2),
+    ]
+
+
+# -- explain --------------------------------------------------------------------------------------------------------
+
+
+def explanation(name: str) -> str:
+    """The text of `explain`.
+
+    Raises:
+        UsageError: nothing has that name.
+    """
+    texts = dict(_everything())
+    wanted = name.upper() if name.upper() in texts else name
+    if wanted not in texts:
+        close = difflib.get_close_matches(name, texts, 1)
+        raise UsageError(
+            f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
+        )
+    return texts[wanted].rstrip() + "\n"
+
+
+def _everything() -> Iterator[tuple[str, str]]:
+    for code, text in CODES.items():
+        yield code, f"{code}: is there {text.title}?\n\n{text.why}\n\nWhat to do: {text.fix}"
+    for kind in map(load_kind, kind_names()):
+        for check in kind.checks:
+            yield check.code, _explained_check(kind, check)
+        for effect in kind.effects:
+            yield effect.name, _explained_effect(kind, effect)
+        for solver in kind.solvers:
+            yield solver.name, _explained_solver(kind, solver)
+
+
+def _doc(function: Any) -> str:
+    return inspect.cleandoc(function.__doc__ or "")
+
+
+def _explained_check(kind: AnyKind, check: AnyCheck) -> str:
+    scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
+    loads = ", ".join(check.loads)
+    return (
+        f"{check.code}: is there {check.title}?   ({kind.name}; scenes: {scenes})\n\n{check.what}\n\n{check.why}\n\n"
+        f"Formula\n{textwrap.indent(check.formula, '    ')}\n\nReads: {loads}\n\nLimit: {_doc(check.limit)}\n\n"
+        f"Source: {check.source}"
+    )
+
+
+def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
+    inside = f"\nPart of: {effect.part_of}" if effect.part_of else ""
+    return (
+        f"{effect.name}: {effect.title}   ({kind.name}){inside}\n\n"
+        f"When it matters\n{textwrap.indent(_doc(effect.criterion), '    ')}\n\n"
+        f"What leaving it out can change\n{textwrap.indent(_doc(effect.bound), '    ')}"
+    )
+
+
+def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
+    carried = ", ".join(sorted(solver.represents)) or "none"
+    decides = "" if solver.decides else "\nIt is shown beside the reported load and never decides."
+    return (
+        f"{solver.name}: {solver.title}   ({kind.name})\nEffects it carries: {carried}{decides}\n\n{_doc(solver.run)}"
+    )
+
+
+# -- schema, kinds, solvers -----------------------------------------------------------------------------------------
+
+
+def json_schema(kind: str) -> str:
+    """JSON Schema of one kind, or of any design file."""
+    names = [kind] if kind else list(kind_names())
+    schemas = [load_kind(name).spec.model_json_schema() for name in names]
+    top: Row = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    if len(schemas) == 1:
+        return json.dump(top | schemas[0])
+    definitions: Row = {}
+    for name, one in zip(names, schemas, strict=True):
+        inner = {f"{name}.{key}": value for key, value in one.pop("$defs", {}).items()}
+        definitions |= {key: _renamed(value, name) for key, value in inner.items()}
+        definitions[name] = _renamed(one, name)
+    return json.dump(top | {"oneOf": [{"$ref": f"#/$defs/{name}"} for name in names], "$defs": definitions})
+
+
+def _renamed(node: Any, kind: str) -> Any:
+    """A schema whose references point at definitions of its own kind."""
+    if isinstance(node, dict):
+        return {
+            key: re.sub("^#/\\$defs/", f"#/$defs/{kind}.", value) if key == "$ref" else _renamed(value, kind)
+            for key, value in node.items()
+        }
+    if isinstance(node, list):
+        return [_renamed(item, kind) for item in node]
+    return node
+
+
+def show_kinds(as_json: bool) -> str:
+    """The list of kinds."""
+    rows = [{"kind": kind.name, "title": kind.title} for kind in map(load_kind, kind_names())]
+    return json.rows(rows) if as_json else _table(("kind", "what it checks"), [list(row.values()) for row in rows])
+
+
+def show_solvers(kind: str, as_json: bool) -> str:
+    """The list of solvers with their predicted cost on the kind's own template."""
+    rows = [row for one in map(load_kind, [kind] if kind else kind_names()) for row in _solver_rows(one)]
+    if as_json:
+        return json.rows(rows)
+    columns = (
+        "kind",
+        "scene",
+        "solver",
+        "fidelity",
+        "effects it carries",
+        "cost on template",
+        "error",
+        "source",
+    )
+    cells = [
+        [
+            row["kind"],
+            row["scene"],
+            row["solver"],
+            row["fidelity"] + ("" if row["decides"] else ", shown only"),
+            ", ".join(row["effects"]),
+            show(row["predicted_seconds"], TIME, 2) if row["predicted_seconds"] is not None else "not valid there",
+            row["error"],
+            row["source"],
+        ]
+        for row in rows
+    ]
+    return _table(columns, cells)
+
+
+def _solver_rows(kind: AnyKind) -> Iterator[Row]:
+    template = load_text(kind.template.encode(), kind.name).spec
+    assert template is not None, "a template passes its own check"
+    scenes = {type(scene): scene for scene in reversed(template.all_scenes)}
+    for solver in kind.solvers:
+        for scene_type in sorted(solver.scenes, key=lambda one: one.__name__):
+            scene = scenes.get(scene_type)
+            fits = scene is not None and solver.usable_for(template, scene)
+            yield {
+                "kind": kind.name,
+                "scene": scene_type.model_fields["type"].default,
+                "solver": solver.name,
+                "fidelity": solver.fidelity.value,
+                "decides": solver.decides,
+                "effects": sorted(solver.represents),
+                "predicted_seconds": solver.cost(template, scene, solver.represents, 0) if fits else None,
+                "error": _part(solver.run, "Error"),
+                "source": solver.source,
+            }
+
+
+def _part(function: Any, name: str) -> str:
+    """One marked paragraph of a docstring on one line."""
+    match = re.search(rf"\*\*{name}\*\*(.*?)(?=\*\*[A-Z]|\Z)", _doc(function), re.DOTALL)
+    return " ".join(match[1].split()) if match else ""
+
+
+# -- solve ----------------------------------------------------------------------------------------------------------
+
+
+def show_solution(path: str, code: str, key: str, scene: str, as_json: bool) -> int:
+    """Print the value at which a check just passes; the exit status."""
+    loaded = _loaded(path, Options())
+    if loaded.kind is None or loaded.spec is None:
+        return _reported(loaded)
+    check = next((check for check in loaded.kind.checks if check.code == code.upper()), None)
+    if check is None:
+        codes = ", ".join(check.code for check in loaded.kind.checks)
+        raise UsageError(f"a {loaded.kind.name} has no check `{code}`", f"checks: {codes}")
+    if scene:
+        chosen_scenes(loaded.spec, (scene,))
+    solution = solve(loaded.kind, loaded.spec, check, key_path(key), scene)
+    if solution is None:
+        typer.echo(f"ptmcalc: no value of `{key}` within three decades makes {check.code} pass", err=True)
+        return 1
+    if as_json:
+        found = {"path": list(solution.path), "value": solution.value, "unit": solution.quantity.si}
+        typer.echo(json.dump(found), nl=False)
+    else:
+        where = f" in {scene}" if scene else ""
+        typer.echo(
+            f"{dotted(solution.path)}: {show(solution.value, solution.quantity, 6)}   {check.code} just passes{where}"
+        )
+    return 0

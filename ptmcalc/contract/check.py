@@ -1,0 +1,55 @@
+"""A check: a load against a limit, and what to say when it does not hold."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Generic
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.effect import C, S
+from ptmcalc.spec.scene import Scene
+
+
+class Sense(StrEnum):
+    """Which side of the limit is sound."""
+
+    AT_LEAST = "at_least"
+    AT_MOST = "at_most"
+
+
+@dataclass(frozen=True, slots=True)
+class Check(Generic[S, C]):
+    """One design check. `title` finishes the sentence "is there ...?".
+
+    `loads` are the loads it reads and `value` what it makes of them (the first one itself when left out); `limit`
+    is what that is held against; `needs` are the optional keys without which it
+    is not checked. `blame` names the key that governs a bad verdict, from the loads found; `repair` the key a
+    bracketing solve may move, or an empty path.
+    """
+
+    code: str
+    title: str
+    scenes: frozenset[type[Scene]]
+    loads: tuple[str, ...]
+    sense: Sense
+    limit: Callable[[S, C], Estimate]
+    needs: Callable[[S, C], tuple[KeyPath, ...]]
+    blame: Callable[[S, C, Mapping[str, Estimate]], KeyPath]
+    repair: Callable[[S, C], KeyPath]
+    what: str
+    why: str
+    formula: str
+    source: str
+    value: Callable[[S, C, Mapping[str, Estimate]], Estimate] | None = None
+
+    def applies_to(self, scene: Scene) -> bool:
+        """Whether this type of scene is held against the check."""
+        return type(scene) in self.scenes
+
+    def read(self, spec: S, scene: C, loads: Mapping[str, Estimate]) -> Estimate:
+        """What is held against the limit."""
+        return self.value(spec, scene, loads) if self.value else loads[self.loads[0]]
+
+
+AnyCheck = Check[Any, Any]

@@ -1,0 +1,59 @@
+"""The manifest of a machine kind: everything the rest of the house needs to know of it."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, Generic
+
+from ptmcalc.base.estimate import Interval
+from ptmcalc.base.span import KeyPath
+from ptmcalc.base.units import Quantity
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.contract.effect import AnyEffect, S
+from ptmcalc.contract.result import Finding, LoadInfo
+from ptmcalc.contract.solver import AnySolver
+from ptmcalc.spec.machine import MachineSpec
+
+
+@dataclass(frozen=True, slots=True)
+class Assumption(Generic[S]):
+    """A value that is filled in where the file does not write it, with the interval it may really lie in.
+
+    `value` is None where the machine does not need it. Verdicts are tried at both ends of `interval`.
+    """
+
+    path: KeyPath
+    quantity: Quantity
+    value: Callable[[S], float | None]
+    interval: Callable[[S], Interval]
+    source: str
+
+
+def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
+    """A kind that compares no values of the file with each other."""
+    return ()
+
+
+@dataclass(frozen=True, slots=True)
+class MachineKind(Generic[S]):
+    """A kind of machine: its spec, its loads, and the effects, solvers and checks that work on it.
+
+    `template` is a commented design file that passes `check`. `inspect` notes values that disagree.
+    """
+
+    name: str
+    title: str
+    spec: type[S]
+    loads: tuple[LoadInfo, ...]
+    effects: tuple[AnyEffect, ...]
+    solvers: tuple[AnySolver, ...]
+    checks: tuple[AnyCheck, ...]
+    template: str
+    assumptions: tuple[Assumption[S], ...] = ()
+    inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
+
+    def load_info(self, name: str) -> LoadInfo:
+        """What is known of a load by its name."""
+        return next(info for info in self.loads if info.name == name)
+
+
+AnyKind = MachineKind[Any]

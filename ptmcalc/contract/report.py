@@ -1,0 +1,184 @@
+"""What is said about a file, before anyone decides how to print it."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
+from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.span import KeyPath, Span
+from ptmcalc.base.units import Quantity
+from ptmcalc.contract.check import Sense
+from ptmcalc.contract.effect import Criterion, EffectState
+from ptmcalc.contract.result import LoadInfo
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A key and where it stands (or, when the file does not write it, where its parent does)."""
+
+    path: KeyPath
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class FormulaValue:
+    """The textbook value beside the reported one; `ratio` is reported over textbook."""
+
+    name: str
+    value: float
+    ratio: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class LoadReport:
+    """One load of a scene with its error bar and where it comes from."""
+
+    info: LoadInfo
+    estimate: Estimate
+    solver: str
+    source: str
+    at: Mapping[str, float] = field(default_factory=dict)
+    window: tuple[float, float] | None = None
+    formula: FormulaValue | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What leaving out an effect near its threshold changes: the load it moves most, relative."""
+
+    load: str
+    relative: float
+
+
+@dataclass(frozen=True, slots=True)
+class EffectReport:
+    """A line of the effects ledger."""
+
+    name: str
+    title: str
+    state: EffectState
+    forced: bool
+    criterion: Criterion | None
+    note: str = ""
+    change: Change | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class NextSolver:
+    """The next rung of the ladder and its price."""
+
+    name: str
+    predicted_seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class SolverReport:
+    """A solver that ran in a scene."""
+
+    name: str
+    fidelity: str
+    effects: tuple[str, ...]
+    predicted_seconds: float
+    work: int
+    decides: bool
+    next: NextSolver | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """The value of a key at which the check just passes."""
+
+    path: KeyPath
+    value: float
+    quantity: Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """The verdict of one check in one scene."""
+
+    code: str
+    title: str
+    verdict: Verdict
+    value: Estimate | None
+    limit: Estimate | None
+    sense: Sense
+    quantity: Quantity
+    margin: float | None
+    blame: Place
+    reason: str = ""
+    without: tuple[str, ...] = ()
+    repair: Repair | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SceneReport:
+    """Everything found out about one scene."""
+
+    name: str
+    type: str
+    effects: tuple[EffectReport, ...]
+    solvers: tuple[SolverReport, ...]
+    loads: tuple[LoadReport, ...]
+    checks: tuple[Judgement, ...]
+    health: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class AssumedReport:
+    """A value the file did not write and a default filled in."""
+
+    path: KeyPath
+    value: float
+    quantity: Quantity
+    interval: Interval
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """Everything said about one file."""
+
+    path: str
+    kind: str = ""
+    name: str = ""
+    diagnostics: tuple[Diagnostic, ...] = ()
+    assumed: tuple[AssumedReport, ...] = ()
+    scenes: tuple[SceneReport, ...] = ()
+
+    @property
+    def valid(self) -> bool:
+        """Whether the file could be read as a machine at all."""
+        return all(d.severity is not Severity.ERROR for d in self.diagnostics)
+
+    @property
+    def judgements(self) -> Iterator[tuple[SceneReport, Judgement]]:
+        """Every verdict with its scene, in the order of the file."""
+        return ((scene, judgement) for scene in self.scenes for judgement in scene.checks)
+
+    @property
+    def verdict(self) -> str:
+        """`invalid`, `fail`, `undecided` or `pass`: a check that was not made is not a pass."""
+        if not self.valid:
+            return "invalid"
+        verdicts = {judgement.verdict for _, judgement in self.judgements}
+        if Verdict.FAIL in verdicts:
+            return "fail"
+        if verdicts & {Verdict.UNDECIDED, Verdict.NOT_CHECKED}:
+            return "undecided"
+        return "pass"
+
+
+def count(reports: tuple[FileReport, ...]) -> dict[str, int]:
+    """Files, verdicts and invalid files of a run."""
+    totals = {"files": len(reports)} | dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived"), 0)
+    for report in reports:
+        for _, judgement in report.judgements:
+            totals[judgement.verdict.value] += 1
+    return totals | {"invalid": sum(not report.valid for report in reports)}
+
+
+def exit_status(reports: tuple[FileReport, ...]) -> int:
+    """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided; the worst wins in the order 2, 1, 3."""
+    verdicts = {report.verdict for report in reports}
+    return next((status for name, status in (("invalid", 2), ("fail", 1), ("undecided", 3)) if name in verdicts), 0)

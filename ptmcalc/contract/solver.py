@@ -1,0 +1,55 @@
+"""A solver: one way to compute a scene, and the effects it can carry, all at once."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Generic
+
+from ptmcalc.contract.effect import C, Criterion, S
+from ptmcalc.contract.result import Result
+from ptmcalc.spec.scene import Scene
+
+
+class Fidelity(StrEnum):
+    """How a solver works."""
+
+    FORMULA = "formula"
+    MODAL = "modal"
+    TRANSIENT = "transient"
+
+
+def always_valid(spec: object, scene: object) -> None:
+    """A solver without a range of its own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solver(Generic[S, C]):
+    """One way to compute a scene.
+
+    `run(spec, scene, carried, level)` computes with the effects `carried`, at refinement `level` (0 is the
+    coarsest); `cost` predicts its seconds. `valid` gives the criterion that must not be exceeded.
+    A solver that does not decide is a textbook formula: shown beside the reported load, never judged.
+    """
+
+    name: str
+    title: str
+    fidelity: Fidelity
+    scenes: frozenset[type[Scene]]
+    represents: frozenset[str]
+    gives: frozenset[str]
+    run: Callable[[S, C, frozenset[str], int], Result]
+    cost: Callable[[S, C, frozenset[str], int], float]
+    source: str
+    valid: Callable[[S, C], Criterion | None] = always_valid
+    levels: int = 1
+    decides: bool = True
+
+    def usable_for(self, spec: S, scene: C) -> bool:
+        """Whether it handles this type of scene and the machine lies in its range."""
+        if type(scene) not in self.scenes:
+            return False
+        criterion = self.valid(spec, scene)
+        return criterion is None or not criterion.exceeded
+
+
+AnySolver = Solver[Any, Any]

@@ -1,0 +1,1 @@
+"""Floor 6: text to verdicts, one arrow a file."""

@@ -1,0 +1,313 @@
+"""One design file from its bytes to its report."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
+from ptmcalc.base.errors import UsageError
+from ptmcalc.base.span import Span, dotted
+from ptmcalc.base.units import show
+from ptmcalc.contract.effect import EffectState
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.report import (
+    AssumedReport,
+    Change,
+    EffectReport,
+    FileReport,
+    FormulaValue,
+    Judgement,
+    LoadReport,
+    NextSolver,
+    Place,
+    Repair,
+    SceneReport,
+    SolverReport,
+)
+from ptmcalc.engine.judge import Ruling
+from ptmcalc.engine.load import Loaded, load_file
+from ptmcalc.engine.plan import Plan, PlannedEffect, plan
+from ptmcalc.engine.run import Run, Settled, sensitive, settle, without
+from ptmcalc.engine.solve import solve
+from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.scene import Scene
+from ptmcalc.text.document import Document
+
+SUFFIXES = (".yaml", ".yml")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What the command line asks besides the files: some scenes, an accuracy, forced effects."""
+
+    scenes: tuple[str, ...] = ()
+    accuracy: str = ""
+    effects: Mapping[str, str] = field(default_factory=dict)
+
+
+def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
+    """The reports of files and of all design files in folders, sorted by path within each folder."""
+    reports = []
+    for path in paths:
+        found = Path(path)
+        if found.is_dir():
+            files = design_files(found)
+            if not files:
+                problem = Diagnostic(
+                    "TXT102", "the folder holds no design file", hint="design files end in .yaml or .yml"
+                )
+                reports.append(FileReport(path, diagnostics=(problem,)))
+            reports += [check_file(file, options) for file in files]
+        else:
+            reports.append(check_file(found, options))
+    return tuple(reports)
+
+
+def design_files(folder: Path) -> list[Path]:
+    """All design files in a folder and below it, sorted; hidden folders are left out."""
+    return sorted(
+        file
+        for file in folder.rglob("*")
+        if file.suffix in SUFFIXES
+        and file.is_file()
+        and not any(part.startswith(".") for part in file.relative_to(folder).parts)
+    )
+
+
+def check_file(path: Path, options: Options) -> FileReport:
+    """Everything there is to say about one file."""
+    return check(load_file(path, path.as_posix(), options.effects, options.accuracy), options)
+
+
+def check(loaded: Loaded, options: Options) -> FileReport:
+    """Everything there is to say about a loaded file."""
+    name = loaded.document.name
+    if loaded.kind is None or loaded.spec is None:
+        return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
+    kind, spec = loaded.kind, loaded.spec
+    made = plan(kind, spec, chosen_scenes(spec, options.scenes))
+    settled = [settle(kind, spec, scene) for scene in made.scenes]
+    flips = _flips(kind, spec, made, settled, loaded.assumed)
+    findings = [finding for scene in settled for run in scene.runs for finding in run.result.findings]
+    findings += [finding for scene in settled for finding in scene.findings]
+    diagnostics = loaded.diagnostics + tuple(
+        Diagnostic(f.code, f.message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
+        for f in dict.fromkeys(findings)
+    )
+    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips).scene() for scene in settled)
+    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
+
+
+def _text(loaded: Loaded, key: str) -> str:
+    data = loaded.document.data
+    value = data.get(key, "") if isinstance(data, dict) else ""
+    return value if isinstance(value, str) else ""
+
+
+def chosen_scenes(spec: MachineSpec, names: tuple[str, ...]) -> list[Scene] | None:
+    """The scenes of the given names.
+
+    Raises:
+        UsageError: the file has no scene of that name.
+    """
+    if not names:
+        return None
+    scenes = {scene.label: scene for scene in spec.all_scenes}
+    for name in names:
+        if name not in scenes:
+            raise UsageError(f"no scene is called `{name}`", f"scenes: {', '.join(scenes)}")
+    return [scenes[name] for name in names]
+
+
+Flips = Mapping[tuple[str, str], tuple[AssumedReport, float, Verdict]]
+"""For a (scene, check code): the assumed value that changes its verdict, at which end, and to what."""
+
+
+def _flips(
+    kind: AnyKind, spec: MachineSpec, made: Plan, settled: list[Settled], assumed: Iterable[AssumedReport]
+) -> Flips:
+    """Verdicts that change when an assumed value goes to an end of its interval.
+
+    A check that fails as it stands fails whatever is assumed only if both ends say so too.
+    """
+    base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
+    found: dict[tuple[str, str], tuple[AssumedReport, float, Verdict]] = {}
+    for value in assumed:
+        for end in dict.fromkeys((value.interval.low, value.interval.high)):
+            if end == value.value:
+                continue
+            changed = spec.with_value(value.path, end)
+            chosen = [scene.scene.label for scene in made.scenes]
+            again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
+            for key, ruling in _by_key(again, [settle(kind, changed, scene) for scene in again.scenes]):
+                if ruling.verdict is not base.get(key) and key not in found:
+                    found[key] = (value, end, ruling.verdict)
+    return found
+
+
+def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[tuple[str, str], Ruling]]:
+    for scene, result in zip(made.scenes, settled, strict=True):
+        for ruling in result.rulings:
+            yield (scene.scene.label, ruling.check.code), ruling
+
+
+@dataclass(frozen=True, slots=True)
+class _Assembly:
+    """Puts the report of one settled scene together."""
+
+    loaded: Loaded
+    kind: AnyKind
+    spec: MachineSpec
+    settled: Settled
+    flips: Flips
+
+    def scene(self) -> SceneReport:
+        scene = self.settled.plan.scene
+        return SceneReport(
+            name=scene.label,
+            type=scene.type,
+            effects=tuple(self._effects()),
+            solvers=tuple(self._solvers()),
+            loads=tuple(self._loads()),
+            checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
+            health=self._health(),
+        )
+
+    def _effects(self) -> Iterator[EffectReport]:
+        near = {planned.effect.name for planned in sensitive(self.settled)}
+        for planned in self.settled.plan.effects:
+            name = planned.effect.name
+            yield EffectReport(
+                name=name,
+                title=planned.effect.title,
+                state=self._state(planned),
+                forced=planned.forced,
+                criterion=planned.criterion,
+                note=_note(planned),
+                change=self._change(name) if name in near else None,
+            )
+
+    def _state(self, planned: PlannedEffect) -> EffectState:
+        if planned.effect.name in self.settled.carried:
+            return EffectState.SIMULATED
+        return EffectState.BOUNDED if planned.active else EffectState.SKIPPED
+
+    def _change(self, name: str) -> Change | None:
+        """The load of a check that leaving the effect out changes most."""
+        other = without(self.settled, self.spec, name)
+        loads = dict.fromkeys(load for ruling in self.settled.rulings for load in ruling.check.loads)
+        changes = [
+            Change(load, other[load].value / best.value - 1)
+            for load in loads
+            if other is not None
+            and load in other
+            and (best := self.settled.loads[load].estimate).bounded
+            and other[load].bounded
+            and best.value != 0
+        ]
+        return max(changes, key=lambda change: abs(change.relative), default=None)
+
+    def _solvers(self) -> Iterator[SolverReport]:
+        for run in self.settled.runs:
+            yield _solver(run, True, self._next() if run is self.settled.runs[-1] else None)
+        for run in self.settled.shown:
+            yield _solver(run, False, None)
+
+    def _next(self) -> NextSolver | None:
+        """The cheapest run that would carry more or compute finer than all that ran."""
+        ran = [(run.rung.solver.name, run.rung.carried, run.rung.level) for run in self.settled.runs]
+        most = max((len(carried) for _, carried, _ in ran), default=0)
+        finest = max((level for _, carried, level in ran if len(carried) == most), default=0)
+        for rung in self.settled.plan.rungs:
+            more = len(rung.carried) > most or (len(rung.carried) == most and rung.level > finest)
+            if more and (rung.solver.name, rung.carried, rung.level) not in ran:
+                return NextSolver(rung.solver.name, rung.seconds)
+        return None
+
+    def _loads(self) -> Iterator[LoadReport]:
+        for info in self.kind.loads:
+            best = self.settled.loads.get(info.name)
+            if best is None:
+                continue
+            yield LoadReport(
+                info=info,
+                estimate=best.estimate,
+                solver=best.rung.solver.name,
+                source=best.rung.solver.source,
+                at=best.found.at,
+                window=best.result.window,
+                formula=self._formula(info.name, best.estimate.value),
+            )
+
+    def _formula(self, load: str, value: float) -> FormulaValue | None:
+        if load not in self.settled.formulas:
+            return None
+        name, textbook = self.settled.formulas[load]
+        return FormulaValue(name, textbook, value / textbook if textbook else None)
+
+    def _judgement(self, ruling: Ruling) -> Judgement:
+        check, scene = ruling.check, self.settled.plan.scene
+        verdict, reason = ruling.verdict, ruling.reason
+        blame = ruling.blame
+        flip = self.flips.get((scene.label, check.code))
+        if flip and verdict in (Verdict.PASS, Verdict.FAIL):
+            assumed, end, other = flip
+            verdict, blame = Verdict.UNDECIDED, assumed.path
+            reason = f"{other.value} if `{dotted(assumed.path)}` is {show(end, assumed.quantity)}: give its value"
+        document = self.loaded.document
+        return Judgement(
+            code=check.code,
+            title=check.title,
+            verdict=verdict,
+            value=ruling.value,
+            limit=ruling.limit,
+            sense=check.sense,
+            quantity=self.kind.load_info(check.loads[0]).quantity,
+            margin=ruling.margin,
+            blame=Place(blame, _span(document, blame)),
+            reason=reason,
+            without=tuple(
+                planned.effect.name
+                for planned in self.settled.plan.effects
+                if planned.forced and planned.excluded and verdict is not Verdict.NOT_CHECKED
+            ),
+            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
+        )
+
+    def _repair(self, ruling: Ruling) -> Repair | None:
+        scene = self.settled.plan.scene
+        path = ruling.check.repair(self.spec, scene)
+        try:
+            solution = solve(self.kind, self.spec, ruling.check, path, scene.label) if path else None
+        except UsageError:
+            return None
+        return Repair(solution.path, solution.value, solution.quantity) if solution else None
+
+    def _health(self) -> Mapping[str, float]:
+        """The health of the richest run, and the work of all of them."""
+        health: dict[str, float] = {}
+        for run in self.settled.runs:
+            health |= run.result.health
+        return health | {"evaluations": float(sum(run.result.work for run in self.settled.runs))}
+
+
+def _solver(run: Run, decides: bool, following: NextSolver | None) -> SolverReport:
+    return SolverReport(
+        name=run.rung.solver.name,
+        fidelity=run.rung.solver.fidelity.value,
+        effects=tuple(sorted(run.rung.carried)),
+        predicted_seconds=run.rung.seconds,
+        work=run.result.work,
+        decides=decides,
+        next=following,
+    )
+
+
+def _note(planned: PlannedEffect) -> str:
+    if planned.forced:
+        return f"forced {'off' if planned.excluded else 'on'} by the file"
+    return "an input it needs is not given: loads are those without it" if planned.criterion is None else ""
+
+
+def _span(document: Document, path: tuple[str | int, ...]) -> Span:
+    return document.value_span(path) if document.holds(path) else document.key_span(path)

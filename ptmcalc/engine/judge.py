@@ -1,0 +1,66 @@
+"""Loads -> verdicts: a margin smaller than its error bar is not a pass."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath, dotted
+from ptmcalc.contract.check import AnyCheck, Sense
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Ruling:
+    """The verdict of one check on one scene, before anyone looks up where its key stands."""
+
+    check: AnyCheck
+    verdict: Verdict
+    value: Estimate | None
+    limit: Estimate | None
+    blame: KeyPath
+    reason: str = ""
+
+    @property
+    def margin(self) -> float | None:
+        """Signed distance of the value from the limit; positive on the sound side."""
+        if self.value is None or self.limit is None:
+            return None
+        distance = self.value.value - self.limit.value
+        return distance if self.check.sense is Sense.AT_LEAST else -distance
+
+
+def judge(kind: AnyKind, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> tuple[Ruling, ...]:
+    """The rulings of every check that applies to this scene and is not switched off by the file."""
+    return tuple(
+        rule(check, spec, scene, loads)
+        for check in kind.checks
+        if check.applies_to(scene) and not spec.settings.switched_off(check.code)
+    )
+
+
+def rule(check: AnyCheck, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> Ruling:
+    """The ruling of one check."""
+    for path in check.needs(spec, scene):
+        if spec.value_at(path) is None:
+            return Ruling(check, Verdict.NOT_CHECKED, None, None, path, f"`{dotted(path)}` is not given")
+    missing = [name for name in check.loads if name not in loads]
+    limit = check.limit(spec, scene)
+    if missing:
+        reason = f"no solver could compute {', '.join(missing)}"
+        return Ruling(check, Verdict.UNDECIDED, None, limit, check.blame(spec, scene, loads), reason)
+    value = check.read(spec, scene, loads)
+    verdict = decide(value, limit, check.sense)
+    reason = "the error bar straddles the limit" if verdict is Verdict.UNDECIDED else ""
+    return Ruling(check, verdict, value, limit, check.blame(spec, scene, loads), reason)
+
+
+def decide(value: Estimate, limit: Estimate, sense: Sense) -> Verdict:
+    """Pass or fail when the whole bar lies on one side; a value that equals the limit without a bar passes."""
+    if sense is Sense.AT_LEAST:
+        sound, bad = value.low >= limit.high, value.high < limit.low
+    else:
+        sound, bad = value.high <= limit.low, value.low > limit.high
+    return Verdict.PASS if sound else Verdict.FAIL if bad else Verdict.UNDECIDED

@@ -1,0 +1,226 @@
+"""Plan -> results: climb the ladder of a scene only while something is undecided."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import NOTHING, Estimate
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.engine.judge import Ruling, judge
+from ptmcalc.engine.plan import PlannedEffect, Rung, ScenePlan
+from ptmcalc.spec.machine import MachineSpec
+
+WORK_BUDGET = 60.0
+"""Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
+
+
+@dataclass(frozen=True, slots=True)
+class Best:
+    """A load as the best run so far knows it: all bars included, and the run it came from."""
+
+    found: Found
+    rung: Rung
+    result: Result
+
+    @property
+    def estimate(self) -> Estimate:
+        """The number with its whole bar."""
+        return self.found.estimate
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One solver run that was made."""
+
+    rung: Rung
+    result: Result
+
+
+@dataclass(slots=True)
+class Settled:
+    """A scene after the climb."""
+
+    plan: ScenePlan
+    loads: dict[str, Best] = field(default_factory=dict)
+    formulas: dict[str, tuple[str, float]] = field(default_factory=dict)
+    runs: list[Run] = field(default_factory=list)
+    shown: list[Run] = field(default_factory=list)
+    rulings: tuple[Ruling, ...] = ()
+    findings: list[Finding] = field(default_factory=list)
+    next_rung: Rung | None = None
+
+    @property
+    def estimates(self) -> dict[str, Estimate]:
+        """The loads as numbers with bars."""
+        return {name: best.estimate for name, best in self.loads.items()}
+
+    @property
+    def carried(self) -> frozenset[str]:
+        """Effects that a run behind a reported load carried."""
+        return frozenset(name for best in self.loads.values() for name in best.rung.carried)
+
+
+def settle(
+    kind: AnyKind,
+    spec: MachineSpec,
+    scene: ScenePlan,
+    *,
+    budget: float = WORK_BUDGET,
+    only: AnyCheck | None = None,
+    until: Callable[[Rung], bool] = lambda rung: True,
+) -> Settled:
+    """Run the cheapest rung, then the next that can help, until every verdict and the accuracy asked for stand.
+
+    `only` settles one check and nothing else; `until` limits the rungs that may run (for predictions).
+    """
+    settled = Settled(scene)
+    for solver in scene.formulas if only is None else ():
+        shown = Run(Rung(solver, solver.represents, 0, 0.0), solver.run(spec, scene.scene, solver.represents, 0))
+        settled.shown.append(shown)
+        for name, found in shown.result.loads.items():
+            settled.formulas[name] = (solver.name, found.estimate.value)
+    waiting = list(scene.rungs)
+    spent = 0.0
+    while True:
+        settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
+        if only is not None:
+            settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check is only)
+        rung = _next(settled, waiting, _wanted(kind, spec, settled))
+        settled.next_rung = rung
+        if rung is None or not until(rung):
+            return settled
+        if spent + rung.seconds > budget:
+            settled.findings.append(
+                Finding(
+                    "NUM103",
+                    f"scene `{scene.scene.label}`: the next run ({rung.solver.name}) is predicted to take"
+                    f" {rung.seconds:.3g} s, beyond the budget of {budget:.3g} s",
+                )
+            )
+            return settled
+        waiting.remove(rung)
+        spent += rung.seconds
+        _climb(settled, spec, rung)
+
+
+def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
+    """Run a rung and keep every load it knows better."""
+    scene = settled.plan.scene
+    try:
+        result = rung.solver.run(spec, scene, rung.carried, rung.level)
+    except NumericsError as error:
+        settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
+        return
+    settled.runs.append(Run(rung, result))
+    estimates = widen(settled.plan, spec, rung, result)
+    for name, estimate in estimates.items():
+        if math.isnan(estimate.value):
+            settled.findings.append(
+                Finding("NUM101", f"scene `{scene.label}`, {rung.solver.name}: `{name}` is not a number")
+            )
+            continue
+        known = settled.loads.get(name)
+        if known is None or _better(estimate, known.estimate):
+            settled.loads[name] = Best(replace(result.loads[name], estimate=estimate), rung, result)
+
+
+def _better(new: Estimate, old: Estimate) -> bool:
+    """A smaller bar, or the same none."""
+    return new.bar <= old.bar
+
+
+def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dict[str, Estimate]:
+    """The loads of a run with the bounds of every effect it leaves out, in the order of the kind's list.
+
+    An excluded effect puts no bar on a load, and a part of an effect that is left out is inside that one's bound.
+    """
+    estimates = {name: found.estimate for name, found in result.loads.items()}
+    for planned in plan.effects:
+        effect = planned.effect
+        if planned.excluded or effect.name in rung.carried:
+            continue
+        if effect.part_of and effect.part_of not in rung.carried:
+            continue
+        offsets = effect.bound(spec, plan.scene, estimates)
+        estimates = {name: estimate.widened(offsets.get(name, NOTHING)) for name, estimate in estimates.items()}
+    return estimates
+
+
+def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled) -> set[str]:
+    """Loads whose bars are still too wide: behind an undecided verdict, or wider than the accuracy asked for."""
+    wanted = set()
+    for ruling in settled.rulings:
+        if ruling.verdict is Verdict.NOT_CHECKED:
+            continue
+        for name in ruling.check.loads:
+            known = settled.loads.get(name)
+            if ruling.verdict is Verdict.UNDECIDED or known is None or not _accurate(known.estimate, spec.accuracy):
+                wanted.add(name)
+    if spec.accuracy is not None:
+        wanted |= {
+            info.name
+            for info in kind.loads
+            if info.headline
+            and info.name in settled.loads
+            and not _accurate(settled.loads[info.name].estimate, spec.accuracy)
+        }
+    return wanted
+
+
+def _accurate(estimate: Estimate, asked: float | None) -> bool:
+    if asked is None or estimate.low == estimate.high:
+        return True
+    return estimate.bar <= asked * abs(estimate.value)
+
+
+def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung | None:
+    """The cheapest waiting rung that can improve a wanted load, or that carries what the file insists on."""
+    forced = {planned.effect.name for planned in settled.plan.effects if planned.must_run} - settled.carried
+    for rung in waiting:
+        if not settled.runs or forced & rung.carried or any(_helps(settled, rung, name) for name in wanted):
+            return rung
+    return None
+
+
+def _helps(settled: Settled, rung: Rung, name: str) -> bool:
+    """Whether a rung can narrow the bar of a load: by an effect the best run leaves out, or by a finer setting."""
+    if name not in rung.solver.gives:
+        return False
+    best = settled.loads.get(name)
+    if best is None:
+        return not any(run.rung.solver is rung.solver and run.rung.carried == rung.carried for run in settled.runs)
+    carries_more = bool(rung.carried - best.rung.carried - _ran(settled, name))
+    numerical = best.estimate.bounded and best.estimate.numerical > 0.1 * best.estimate.bar
+    finer = numerical and rung.level > best.rung.level
+    return rung.carried >= best.rung.carried and (carries_more or finer)
+
+
+def _ran(settled: Settled, name: str) -> frozenset[str]:
+    """Effects that some run has already carried for a load, even if it did not turn out better."""
+    return frozenset(effect for run in settled.runs if name in run.rung.solver.gives for effect in run.rung.carried)
+
+
+def sensitive(settled: Settled) -> list[PlannedEffect]:
+    """Simulated effects whose number lies within a factor of 2 of the threshold."""
+    return [
+        planned
+        for planned in settled.plan.effects
+        if planned.effect.name in settled.carried and planned.criterion is not None and planned.criterion.near
+    ]
+
+
+def without(settled: Settled, spec: MachineSpec, name: str) -> Mapping[str, Estimate] | None:
+    """The loads of the richest run again with one effect left out, or None when it cannot be made."""
+    richest = max(settled.runs, key=lambda run: (len(run.rung.carried), run.rung.level))
+    rung = richest.rung
+    if name not in rung.carried:
+        return None
+    try:
+        result = rung.solver.run(spec, settled.plan.scene, rung.carried - {name}, rung.level)
+    except NumericsError:
+        return None
+    return {load: found.estimate for load, found in result.loads.items()}

@@ -1,0 +1,60 @@
+"""Grip of a belt on a drum (Euler, Eytelwein), with the centrifugal tension of the bare belt.
+
+Everything is written with exp(-mu alpha) or expm1, so that 400 turns do not overflow and a wrap of 1e-12 keeps
+its digits.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike, exponent: float) -> FloatArray:
+    """Share of the drum's grip that is used; the belt slips at 1.
+
+        U = (S_t - rho v^2) / ((S_s - rho v^2) exp(mu alpha))
+
+    Args:
+        tight: S_t, tension of the tighter side [N].
+        slack: S_s, tension of the slacker side [N].
+        centrifugal: rho v^2, rho the mass per length of the bare belt: load and idlers are not on the drum [N].
+        exponent: mu alpha, friction coefficient times wrap angle in radians [1].
+
+    Returns:
+        U; infinite where the slack side has no tension left [1].
+
+    **Range** a flexible belt, friction independent of pressure and speed.
+    **Error** exact for that model; the friction coefficient itself is known to 20 % at best.
+    **Source** Euler-Eytelwein; centrifugal term from the equilibrium of the moving belt element.
+    """
+    grip = np.asarray(slack, float) - centrifugal
+    pull = np.asarray(tight, float) - centrifugal
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(grip > 0, pull * np.exp(-exponent) / grip, np.inf)
+
+
+def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike, exponent: float) -> FloatArray:
+    """Reserve of friction force at the drum: what it can transmit over what it must.
+
+        k = (S_s - rho v^2) (exp(mu alpha) - 1) / (S_t - S_s)
+
+    Args:
+        tight: S_t, tension of the tighter side [N].
+        slack: S_s, tension of the slacker side [N].
+        centrifugal: rho v^2 of the bare belt [N].
+        exponent: mu alpha [1].
+
+    Returns:
+        k; infinite where nothing is transmitted, 0 where the slack side has no tension left [1].
+
+    **Range** as `slip_utilisation`; k = 1 exactly where U = 1, which needs the centrifugal term here too.
+    **Error** exact for that model.
+    **Source** reserve of friction forces k_T, lecture notes Kramatorsk 2007, with the usual reading
+    S_off (exp(mu alpha) - 1) >= k_T F.
+    """
+    grip = np.asarray(slack, float) - centrifugal
+    pull = np.asarray(tight, float) - slack
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+        reserve = grip * np.expm1(exponent) / pull
+    return np.where(grip > 0, np.where(pull > 0, reserve, np.inf), 0.0)

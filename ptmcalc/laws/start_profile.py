@@ -1,0 +1,151 @@
+"""How a drive brings a machine up to speed, and how far an undamped mode can stray from the quasi-static answer.
+
+A profile is a factor that rises from 0 to 1 in the time `rise`: `step` at once, `ramp` linearly, `cosine` as
+(1 - cos(pi t/t_s))/2 (Harrison). Imposed on the torque it is the force; imposed on the speed its rate is the
+acceleration.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+STEP, RAMP, COSINE = "step", "ramp", "cosine"
+
+
+def rise(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+    """The factor of a start profile.
+
+        step: 1      ramp: t/t_s      cosine: (1 - cos(pi t/t_s))/2      each 1 after t_s
+
+    Args:
+        shape: `step`, `ramp` or `cosine`.
+        rise_time: t_s [s].
+        time: t [s].
+
+    Returns:
+        factor between 0 and 1 [1].
+
+    **Range** t >= 0.
+    **Error** exact.
+    **Source** A. Harrison's cosine profile and the linear ramp, as used for controlled conveyor starts.
+    """
+    times = np.asarray(time, float)
+    if shape == STEP:
+        return np.ones_like(times)
+    share = np.clip(times / rise_time, 0.0, 1.0)
+    return share if shape == RAMP else np.asarray(np.sin(np.pi / 2 * share) ** 2)
+
+
+def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+    """Time integral of `rise` from 0.
+
+        step: t    ramp: t^2/(2 t_s)    cosine: t/2 - t_s sin(pi t/t_s)/(2 pi)    each + (t - t_s) after t_s
+
+    Args:
+        shape: `step`, `ramp` or `cosine`.
+        rise_time: t_s [s].
+        time: t [s].
+
+    Returns:
+        integral [s].
+
+    **Range** t >= 0.
+    **Error** exact.
+    **Source** elementary integration.
+    """
+    times = np.asarray(time, float)
+    if shape == STEP:
+        return times.copy()
+    inside = np.minimum(times, rise_time)
+    if shape == RAMP:
+        area = inside**2 / (2 * rise_time)
+    else:
+        area = inside / 2 - rise_time / (2 * np.pi) * np.sin(np.pi * inside / rise_time)
+    return np.asarray(area + np.maximum(times - rise_time, 0))
+
+
+def peak_rate(shape: str, rise_time: float) -> float:
+    """Steepest slope of `rise`.
+
+        ramp: 1/t_s      cosine: pi/(2 t_s)
+
+    Args:
+        shape: `ramp` or `cosine`.
+        rise_time: t_s [s].
+
+    Returns:
+        slope [Hz].
+
+    **Range** t_s > 0; a step has no finite slope.
+    **Error** exact.
+    **Source** derivative of `rise`.
+    """
+    return (np.pi / 2 if shape == COSINE else 1.0) / rise_time
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A stretch of a start: the quasi-static answer is `low` to `high` times that of the plateau, and no undamped
+    mode strays from it by more than `stray` times its share."""
+
+    low: float
+    high: float
+    stray: float
+
+
+def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: float) -> tuple[Phase, ...]:
+    """Bounds on the answer of every undamped mode with at least this frequency, phase by phase of a start.
+
+    For x'' + w^2 x = w^2 q(t), q the force factor (torque) or the acceleration over its peak (speed), b = pi/(w t_s):
+
+        torque step    |x - 1| <= 1
+        torque ramp    |x - q| <= 1/(w t_s) in the ramp, then |x - 1| <= 2/(w t_s)
+        torque cosine  |x - q| <= b^2/(1 - b^2) in and after the rise
+        speed ramp     |x - 1| <= 1 in the ramp, then |x| <= 2
+        speed cosine   |x - q| <= b/(1 - b) in the rise, then |x| <= 2 b/(1 - b^2)
+
+    each capped by the response to its increases one by one: 1 for a torque (it only rises), 2 for a speed (the
+    acceleration rises and falls by its peak). All decrease with w, so the lowest frequency bounds every mode.
+
+    Args:
+        shape: `step`, `ramp` or `cosine`.
+        imposed_speed: True when the speed is imposed, False for the torque.
+        rise_time: t_s [s].
+        lowest_frequency: w, a lower bound of the natural frequencies [rad/s].
+
+    Returns:
+        the phases in order of time.
+
+    **Range** undamped linear modes, t_s > 0 unless the shape is a step; a speed step has no bound.
+    **Error** a bound, attained by the torque step; between 1 and 2 times the worst mode otherwise.
+    **Source** Duhamel's integral for each profile in closed form.
+
+    Raises:
+        ValueError: for a step of speed.
+    """
+    if shape == STEP:
+        if imposed_speed:
+            raise ValueError("a step of speed needs an infinite force")
+        return (Phase(1.0, 1.0, 1.0),)
+    x = lowest_frequency * rise_time
+    b = np.pi / x if x > 0 else np.inf
+    if shape == RAMP:
+        if imposed_speed:
+            return Phase(1.0, 1.0, 1.0), Phase(0.0, 0.0, 2.0)
+        return Phase(0.0, 1.0, _capped(1 / x if x > 0 else np.inf, 1)), Phase(
+            1.0, 1.0, _capped(2 / x if x > 0 else np.inf, 1)
+        )
+    if imposed_speed:
+        return (
+            Phase(0.0, 1.0, _capped(b / (1 - b) if b < 1 else np.inf, 2)),
+            Phase(0.0, 0.0, _capped(2 * b / (1 - b**2) if b < 1 else np.inf, 2)),
+        )
+    stray = _capped(b**2 / (1 - b**2) if b < 1 else np.inf, 1)
+    return Phase(0.0, 1.0, stray), Phase(1.0, 1.0, stray)
+
+
+def _capped(value: float, cap: float) -> float:
+    return float(min(value, cap))

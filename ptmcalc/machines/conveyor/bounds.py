@@ -1,0 +1,461 @@
+"""What can be said about a start without simulating it: the rigid body's loads, and intervals that hold the truth.
+
+The intervals rest on `laws.loop.stray`: at every section and time the tension of a linear undamped loop lies
+within a b(s) x stray of its quasi-static value, phase by phase of the start. At the run-on of a gravity take-up
+under a torque the dynamic tension is never negative either.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.laws import capstan, loop, sag, wave
+from ptmcalc.laws.loop import CARRY, RETURN
+from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
+
+FloatArray = NDArray[np.float64]
+
+_TENSIONS = (
+    "tension_run_on_max",
+    "tension_dynamic_run_on_max",
+    "tension_max",
+    "tension_min",
+    "slack_margin_min",
+)
+_FOLLOWING = (
+    "tension_run_off_min",
+    "slip_utilisation_max",
+    "slip_reserve_min",
+    "belt_safety_min",
+    "sag_relative_max",
+)
+_DRIVE = ("starting_force_needed", "starting_reserve")
+
+_X = np.linspace(0.0, 1.0, 129)
+_STRANDS = (RETURN, CARRY)
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """Tensions at the drum that slip is judged by [N]: run-on, run-off, centrifugal."""
+
+    on: float
+    off: float
+    lift: float
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Interval of a largest value over time, and of a smallest one [N]."""
+
+    largest: Interval
+    smallest: Interval
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosure:
+    """Intervals that hold the tensions of a start: at the drum and over each strand.
+
+    At one moment the run-on is at least `together[0]` and the run-off at most `together[1]` (or on one average).
+    """
+
+    run_on: Range
+    run_off: Range
+    strands: tuple[Range, Range]
+    together: tuple[float, float]
+    belt_speed: float
+
+
+def rigid_tension(case: StartCase, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest tension of the rigid body at fractions x of a strand [N]."""
+    static = case.line.static(strand, x)
+    swing = case.acceleration * loop.quasi_static(case.masses, strand, x)
+    return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
+
+
+def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
+    """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
+    slowest = loop.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
+    leak = 1.0
+    steady = case.window - case.rise
+    if not case.imposed_speed and steady > 0:
+        leak = loop.window_leak(slowest, steady)
+    back, carry = (_over_strand(case, strand, slowest, leak, softening) for strand in _STRANDS)
+    on, on_together = _at_drum(case, CARRY, 1.0, slowest, leak, softening)
+    off, off_together = _at_drum(case, RETURN, 0.0, slowest, leak, softening)
+    over = case.acceleration * (case.masses.total_mass / case.masses.drive_mass - 1) / slowest
+    return Enclosure(
+        run_on=on,
+        run_off=off,
+        strands=(back, carry),
+        together=(on_together, off_together),
+        belt_speed=case.line.speed + (0.0 if case.imposed_speed else over),
+    )
+
+
+def stray_ratio(case: StartCase) -> float:
+    """Largest stray of the tension from its quasi-static value over the static tension, over all sections."""
+    slowest = loop.lowest_frequency_bound(case.masses)
+    factor = max(phase.stray for phase in case.phases(slowest))
+    ratio = 0.0
+    for strand in _STRANDS:
+        swing = case.acceleration * loop.stray(case.masses, strand, _X) * factor
+        static = case.line.static(strand, _X)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = max(ratio, float(np.max(np.where(static > 0, swing / static, np.where(swing > 0, np.inf, 0)))))
+    return ratio
+
+
+def _band(
+    case: StartCase, strand: int, x: FloatArray, slowest: float, softening: float
+) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest tension at fractions x of a strand over the whole start."""
+    static, r = case.line.static(strand, x), loop.quasi_static(case.masses, strand, x)
+    b = loop.stray(case.masses, strand, x)
+    low, high = np.full_like(static, np.inf), np.full_like(static, -np.inf)
+    for phase in case.phases(slowest):
+        ends = np.array([phase.low, phase.high])[:, None] * r
+        low = np.minimum(low, ends.min(axis=0) - b * phase.stray)
+        high = np.maximum(high, ends.max(axis=0) + b * phase.stray)
+    low, high = np.minimum(low, 0), np.maximum(high, 0)  # the static state itself, before the start
+    shift = _softened_shift(case, softening)
+    return static + case.acceleration * low - shift, static + case.acceleration * high + shift
+
+
+def _softened_shift(case: StartCase, softening: float) -> float:
+    """How far uneven softening can move the mean tension of a fixed loop [N].
+
+    Weights of the compliance between 1 and 1 + f move the mean of m(s) by at most f times its mean absolute
+    deviation over two, which is at most f M_belt/4.
+    """
+    return case.acceleration * case.masses.belt_mass * softening / 4 if case.line.fixed_length else 0.0
+
+
+def _over_strand(case: StartCase, strand: int, slowest: float, leak: float, softening: float) -> Range:
+    low, high = _band(case, strand, _X, slowest, softening)
+    bend_low, bend_high = _between_nodes(low), _between_nodes(high)
+    surest_low, surest_high = _surely_reached(case, strand, _X, slowest, leak, softening)
+    return Range(
+        largest=Interval(float(surest_high.max()), float((high + bend_high).max())),
+        smallest=Interval(float((low - bend_low).min()), float(surest_low.min())),
+    )
+
+
+def _between_nodes(values: FloatArray) -> FloatArray:
+    """How far a smooth function can rise above its nodes: an eighth of the second difference."""
+    bend = np.zeros_like(values)
+    bend[1:-1] = np.abs(values[2:] - 2 * values[1:-1] + values[:-2]) / 8
+    bend[0], bend[-1] = bend[1], bend[-2]
+    return bend
+
+
+def _nearness(case: StartCase, slowest: float, leak: float) -> float:
+    """Share of the stray within which every section surely comes to its plateau, all sections together: at the
+    end of the rise within the stray of that phase, on an average over the window within its leak."""
+    return min([leak] + [phase.stray for phase in case.phases(slowest) if phase.high == 1.0])
+
+
+def _surely_reached(
+    case: StartCase, strand: int, x: FloatArray, slowest: float, leak: float, softening: float
+) -> tuple[FloatArray, FloatArray]:
+    """Values the smallest tension is surely not above, and the largest surely not below, section by section:
+    the static value, or what the plateau leaves within the stray."""
+    static = case.line.static(strand, x)
+    plateau = static + case.acceleration * loop.quasi_static(case.masses, strand, x)
+    slack = case.acceleration * loop.stray(case.masses, strand, x) * _nearness(case, slowest, leak)
+    slack += _softened_shift(case, softening)
+    return np.minimum(static, plateau + slack), np.maximum(static, plateau - slack)
+
+
+def _at_drum(
+    case: StartCase, strand: int, x: float, slowest: float, leak: float, softening: float
+) -> tuple[Range, float]:
+    """Range of the tension at the drum, and the value both sides of it come to together: a lower bound at the
+    run-on, an upper one at the run-off."""
+    at = np.array([x])
+    low, high = (float(end[0]) for end in _band(case, strand, at, slowest, softening))
+    below, above = (float(end[0]) for end in _surely_reached(case, strand, at, slowest, leak, softening))
+    static = float(case.line.static(strand, at)[0])
+    plateau = static + case.acceleration * float(loop.quasi_static(case.masses, strand, at)[0])
+    slack = case.acceleration * float(loop.stray(case.masses, strand, at)[0]) * _nearness(case, slowest, leak)
+    slack += _softened_shift(case, softening)
+    if strand == RETURN:
+        return Range(Interval(above, high), Interval(low, below)), plateau + slack
+    if not case.line.fixed_length and not case.imposed_speed:
+        low = static  # driving point: every mode starts with the force, none pulls against it
+        if case.shape == "step" and leak < 1:
+            above = max(above, plateau)
+    above = min(max(above, static + _first_wave_reached(case)), high)
+    return Range(Interval(above, high), Interval(low, max(below, low))), plateau - slack
+
+
+def _first_wave_reached(case: StartCase) -> float:
+    """Dynamic run-on tension that a torque step surely reaches before the first echo is back [N]."""
+    if case.shape != "step" or case.imposed_speed:
+        return 0.0
+    line = case.line
+    quiet = 2 * line.transit(CARRY)
+    against = line.impedance(CARRY)
+    share = 1.0
+    if line.fixed_length:
+        quiet = min(quiet, 2 * line.transit(RETURN), line.contour_time)
+        share = against / (against + line.impedance(RETURN))
+        against += line.impedance(RETURN)
+    reached = wave.first_wave_force(case.excess, against, line.drive_mass, min(quiet, case.window))
+    return share * float(reached)
+
+
+def rigid_loads(case: StartCase) -> dict[str, float]:
+    """Loads of the rigid body during a start, SI."""
+    line = case.line
+    ranges = [rigid_tension(case, strand, np.array([0.0, 1.0])) for strand in _STRANDS]
+    on, off = float(ranges[CARRY][1][1]), float(ranges[RETURN][0][0])
+    loads = {
+        "tension_dynamic_run_on_max": on - line.run_on,
+        "tension_run_on_max": on,
+        "tension_run_off_min": off,
+        "tension_max": float(max(high.max() for _, high in ranges)),
+        "tension_min": float(min(low.min() for low, _ in ranges)),
+    }
+    loads |= drive_loads(case, case.line.static_resistance + (case.excess if case.imposed_speed else 0.0))
+    loads |= derived_loads(
+        line,
+        tension_max=loads["tension_max"],
+        smallest=(float(ranges[RETURN][0].min()), float(ranges[CARRY][0].min())),
+    )
+    if line.grip_exponent is not None:
+        worst = [Sides(on, off, line.centrifugal_at_speed), Sides(line.run_on, line.run_off, 0.0)]
+        loads |= slip_loads(line.grip_exponent, worst)
+    return loads
+
+
+def enclosed_loads(case: StartCase, enclosure: Enclosure) -> dict[str, Interval]:
+    """Intervals of the loads of a start."""
+    line = case.line
+    loads = {
+        "tension_run_on_max": enclosure.run_on.largest,
+        "tension_run_off_min": enclosure.run_off.smallest,
+        "tension_dynamic_run_on_max": Interval(
+            enclosure.run_on.largest.low - line.run_on, enclosure.run_on.largest.high - line.run_on
+        ),
+        "tension_max": Interval(
+            max(part.largest.low for part in enclosure.strands),
+            max(part.largest.high for part in enclosure.strands),
+        ),
+        "tension_min": Interval(
+            min(part.smallest.low for part in enclosure.strands),
+            min(part.smallest.high for part in enclosure.strands),
+        ),
+    }
+    ends = [
+        derived_loads(line, tension_max=tension_max, smallest=smallest)
+        for tension_max, smallest in (
+            (loads["tension_max"].low, tuple(part.smallest.high for part in enclosure.strands)),
+            (loads["tension_max"].high, tuple(part.smallest.low for part in enclosure.strands)),
+        )
+    ]
+    loads |= {name: Interval(min(e[name] for e in ends), max(e[name] for e in ends)) for name in ends[0]}
+    loads |= _enclosed_drive(case, enclosure)
+    if line.grip_exponent is not None:
+        loads |= _enclosed_slip(line, enclosure)
+    return loads
+
+
+def drive_loads(case: StartCase, needed: float) -> dict[str, float]:
+    """Force the drive must give to start, and how far the available one exceeds it."""
+    reserve = case.available_force / needed if needed > 0 else np.inf
+    if not case.moves:
+        reserve = min(reserve, float(np.nextafter(1, 0)))  # equal forces do not start anything
+    return {"starting_force_needed": needed, "starting_reserve": reserve}
+
+
+def _enclosed_drive(case: StartCase, enclosure: Enclosure) -> dict[str, Interval]:
+    """A torque must exceed the static resistance; an imposed speed takes the drive's own inertia and the belt's
+    pull, m a + S_on - S_off."""
+    low = high = case.line.static_resistance
+    if case.imposed_speed:
+        inertia = case.line.drive_mass * case.acceleration
+        high = inertia + enclosure.run_on.largest.high - enclosure.run_off.smallest.low
+        low = max(low, inertia + enclosure.together[0] - enclosure.together[1])
+    ends = [drive_loads(case, low), drive_loads(case, high)]
+    return {name: Interval(min(e[name] for e in ends), max(e[name] for e in ends)) for name in ends[0]}
+
+
+def _enclosed_slip(line: BeltLine, enclosure: Enclosure) -> dict[str, Interval]:
+    """Slip is worst at the highest tight, the lowest slack and the fastest belt, if they came together; and it is
+    surely as bad as at standstill, at the run-on surely reached over a run-off that cannot be above its static
+    value then, and on average."""
+    assert line.grip_exponent is not None
+    lift = line.belt_line_mass * enclosure.belt_speed**2
+    worst = [
+        Sides(enclosure.run_on.largest.high, enclosure.run_off.smallest.low, lift),
+        Sides(enclosure.run_on.smallest.low, enclosure.run_off.largest.high, lift),
+    ]
+    surely = [
+        Sides(line.run_on, line.run_off, 0.0),
+        Sides(*enclosure.together, 0.0),
+    ]
+    if not line.fixed_length:
+        surely.append(Sides(enclosure.run_on.largest.low, line.run_off, 0.0))
+    high, low = slip_loads(line.grip_exponent, worst), slip_loads(line.grip_exponent, surely)
+    return {name: Interval(min(high[name], low[name]), max(high[name], low[name])) for name in high}
+
+
+def slip_loads(exponent: float, states: list[Sides]) -> dict[str, float]:
+    """Worst utilisation and reserve of grip over some states of the drum, in whichever sense it is loaded."""
+    on, off, lift = (np.array([getattr(state, part) for state in states]) for part in ("on", "off", "lift"))
+    tight, slack = np.maximum(on, off), np.minimum(on, off)
+    return {
+        "slip_utilisation_max": float(capstan.slip_utilisation(tight, slack, lift, exponent).max()),
+        "slip_reserve_min": float(capstan.slip_reserve_force(tight, slack, lift, exponent).min()),
+    }
+
+
+def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...]) -> dict[str, float]:
+    """Belt safety, sag and distance from slack that follow from the extreme tensions; `smallest` of return and
+    carry strand [N]."""
+    spans = (line.back.span_weight, line.carry.span_weight)
+    loads = {
+        "slack_margin_min": min(
+            low - (sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0)
+            for span, low in zip(spans, smallest, strict=True)
+        )
+    }
+    if line.breaking_force is not None:
+        loads["belt_safety_min"] = line.breaking_force / tension_max if tension_max > 0 else np.inf
+    sags = [float(sag.sag_ratio(span, low)) for span, low in zip(spans, smallest, strict=True) if span is not None]
+    if len(sags) == len(spans):
+        loads["sag_relative_max"] = max(sags)
+    return loads
+
+
+def largest_softening(case: StartCase) -> float | None:
+    """Largest softening by sag anywhere in a start, at the lowest tension the waves can bring; None without idler
+    pitches. A belt that can lose its tension is infinitely soft."""
+    line = case.line
+    spans = (line.back.span_weight, line.carry.span_weight)
+    if None in spans:
+        return None
+    worst = 0.0
+    for _ in range(8):  # a softer belt swings more slowly and farther, which softens it further
+        enclosure = enclose(case, worst)
+        found = max(
+            float(sag.softening(line.stiffness, span, part.smallest.low))
+            for span, part in zip(spans, enclosure.strands, strict=True)
+            if span is not None
+        )
+        if found <= worst * (1 + 1e-9) or not np.isfinite(found):
+            return max(found, worst)
+        worst = found
+    return float(np.inf)
+
+
+def offsets(case: StartCase, enclosure: Enclosure, loads: Mapping[str, Estimate]) -> dict[str, Interval]:
+    """How far each load may lie from the rigid body's: the enclosure less the value."""
+    held = enclosed_loads(case, enclosure)
+    return {
+        name: Interval(_less(held[name].low, loads[name].value), _less(held[name].high, loads[name].value))
+        for name in held
+        if name in loads
+    }
+
+
+def _less(end: float, value: float) -> float:
+    return 0.0 if end == value else end - value
+
+
+def changed_by_motion(case: StartCase) -> frozenset[str]:
+    """Loads that depend on how the belt moves; the others are closed forms, among them what a torque must exceed."""
+    return frozenset(_TENSIONS + _FOLLOWING + (_DRIVE if case.imposed_speed else ()))
+
+
+def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    """How far each load of a run may be off when every tension may be off by `change` [N] at any time.
+
+    The grip follows from U' = (U x + change e)/(x - change), with x the smallest run-off tension less the
+    centrifugal one and e = exp(-mu alpha), and from k = (exp(mu alpha) - 1)/(U exp(mu alpha) - 1), which ties the
+    reserve to the utilisation of the same moment.
+    """
+    line = case.line
+    moved = {name: Interval(-change, change) for name in _TENSIONS if name in loads}
+    if line.fixed_length and "tension_run_off_min" in loads:
+        moved["tension_run_off_min"] = Interval(-change, change)
+    if case.imposed_speed and "starting_force_needed" in loads:
+        needed = loads["starting_force_needed"].value
+        ends = [drive_loads(case, needed + part)["starting_reserve"] for part in (2 * change, -2 * change)]
+        moved["starting_force_needed"] = Interval(-2 * change, 2 * change)
+        moved["starting_reserve"] = _around(loads["starting_reserve"].value, ends)
+    if "belt_safety_min" in loads and line.breaking_force is not None:
+        tension = line.breaking_force / loads["belt_safety_min"].value
+        ends = [line.breaking_force / (tension + change)]
+        ends.append(line.breaking_force / (tension - change) if tension > change else np.inf)
+        moved["belt_safety_min"] = _around(loads["belt_safety_min"].value, ends)
+    if "sag_relative_max" in loads:
+        ratio = loads["sag_relative_max"].value
+        spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span]
+        forces = [sag.tension_at_sag(span, ratio) for span in spans]
+        ends = [
+            float(sag.sag_ratio(span, force + part))
+            for span, force in zip(spans, forces, strict=True)
+            for part in (-change, change)
+        ]
+        moved["sag_relative_max"] = _around(ratio, ends)
+    if "slip_utilisation_max" in loads and line.grip_exponent is not None:
+        moved |= _spread_slip(line, loads, change)
+    return moved
+
+
+def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    assert line.grip_exponent is not None
+    used = loads["slip_utilisation_max"].value
+    lift = line.centrifugal_at_speed
+    grip = (
+        min(
+            loads["tension_run_off_min"].value,
+            loads["tension_min"].value if "tension_min" in loads else np.inf,
+        )
+        - lift
+    )
+    off_change = change if line.fixed_length else 0.0
+    squeeze = float(np.exp(-line.grip_exponent))
+    high = (used * grip + change * squeeze) / (grip - off_change) if grip > off_change else np.inf
+    low = max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0
+    moved = {"slip_utilisation_max": _around(used, [low, high])}
+    if "slip_reserve_min" in loads:
+        ends = [_reserve_of(value, line.grip_exponent) for value in (low, high)]
+        moved["slip_reserve_min"] = _around(loads["slip_reserve_min"].value, ends)
+    return moved
+
+
+def _reserve_of(utilisation: float, exponent: float) -> float:
+    """Reserve of friction force at a utilisation."""
+    if not np.isfinite(utilisation):
+        return 0.0
+    pull = utilisation - np.exp(-exponent)
+    return float(-np.expm1(-exponent) / pull) if pull > 0 else np.inf
+
+
+def _around(value: float, ends: list[float]) -> Interval:
+    """The offsets of some values from one that lies among them."""
+    return Interval(min([_less(end, value) for end in ends] + [0.0]), max([_less(end, value) for end in ends] + [0.0]))
+
+
+def scalar_loads(case: StartCase) -> dict[str, float]:
+    """Closed forms of a start that no wave can change."""
+    line = case.line
+    return {
+        "wave_speed_carry": line.wave_speed(CARRY),
+        "wave_speed_return": line.wave_speed(RETURN),
+        "impedance_carry": line.impedance(CARRY),
+        "impedance_return": line.impedance(RETURN),
+        "reduced_drive_mass": line.drive_mass,
+        "static_resistance": line.static_resistance,
+        "starting_force": case.available_force,
+        "rim_force_excess": case.excess if case.moves else case.available_force - line.static_resistance,
+        "acceleration_rigid": case.acceleration,
+        "start_time_rigid": start_duration(case),
+        "first_wave_time_max": wave.first_wave_time(line.transit(CARRY), line.transit(RETURN)),
+    }

@@ -1,0 +1,325 @@
+"""A conveyor in one scene as SI numbers: strands, resistances, static tensions, drive.
+
+The belt runs drive run-off -> return strand -> tail drum -> carry strand -> drive run-on. Static tensions rise
+along it by the idlers' resistance, by the lift of belt and load, and at the tail by the secondary resistances when
+these are given as a force.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ptmcalc.laws import inertia, motor, resistance, start_profile, wave
+from ptmcalc.laws.loop import CARRY, RETURN, LoopMasses
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
+
+FloatArray = NDArray[np.float64]
+
+
+def filled(value: float | None) -> float:
+    """A value the file or an assumption has given by now."""
+    assert value is not None, "assumptions are filled in before anything is computed"
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Strand:
+    """One strand: its length [m], moving mass per length [kg/m], rise of static tension per length [N/m], and the
+    weight of belt and load on one idler pitch [N], None when the pitch is not given."""
+
+    length: float
+    line_mass: float
+    tension_rise: float
+    span_weight: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class BeltLine:
+    """A conveyor in one load state: everything a run or a start needs, in SI."""
+
+    gravity: float
+    speed: float
+    stiffness: float
+    belt_line_mass: float
+    carry: Strand
+    back: Strand
+    tail_force: float
+    drive_mass: float
+    tail_mass: float
+    fixed_length: bool
+    takeup_tension: float
+    grip_exponent: float | None
+    breaking_force: float | None
+    slack_sag: float
+
+    @property
+    def static_resistance(self) -> float:
+        """Static resistance at the rim of the drive drum [N]."""
+        return self.carry.tension_rise * self.carry.length + self.back.tension_rise * self.back.length + self.tail_force
+
+    @property
+    def run_off(self) -> float:
+        """Static tension at the drive's run-off [N]: the take-up's, or what keeps the mean of a fixed loop."""
+        if not self.fixed_length:
+            return self.takeup_tension
+        rise_back = self.back.tension_rise * self.back.length
+        rise_carry = self.carry.tension_rise * self.carry.length
+        mean_rise = (
+            rise_back / 2 * self.back.length + (rise_back + self.tail_force + rise_carry / 2) * self.carry.length
+        )
+        return self.takeup_tension - mean_rise / (self.back.length + self.carry.length)
+
+    @property
+    def run_on(self) -> float:
+        """Static tension at the drive's run-on [N]."""
+        return self.run_off + self.static_resistance
+
+    def static_ends(self, strand: int) -> tuple[float, float]:
+        """Static tension at the upstream and the downstream end of a strand [N]."""
+        if strand == RETURN:
+            return self.run_off, self.run_off + self.back.tension_rise * self.back.length
+        return self.run_on - self.carry.tension_rise * self.carry.length, self.run_on
+
+    def static(self, strand: int, x: ArrayLike) -> FloatArray:
+        """Static tension at fractions x of a strand [N]."""
+        start, end = self.static_ends(strand)
+        return start + (end - start) * np.asarray(x, float)
+
+    def strand(self, which: int) -> Strand:
+        """The return or the carry strand."""
+        return self.back if which == RETURN else self.carry
+
+    def wave_speed(self, which: int) -> float:
+        """Wave speed of a strand [m/s]."""
+        return wave.wave_speed(self.stiffness, self.strand(which).line_mass)
+
+    def impedance(self, which: int) -> float:
+        """Impedance of a strand [N*s/m]."""
+        return wave.impedance(self.stiffness, self.strand(which).line_mass)
+
+    def transit(self, which: int) -> float:
+        """Travel time of a wave along a strand [s]."""
+        return self.strand(which).length / self.wave_speed(which)
+
+    @property
+    def contour_time(self) -> float:
+        """Time for a wave once round the whole belt [s]."""
+        return self.transit(CARRY) + self.transit(RETURN)
+
+    @property
+    def centrifugal_at_speed(self) -> float:
+        """Centrifugal tension of the bare belt at rated speed [N]."""
+        return self.belt_line_mass * self.speed**2
+
+
+def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
+    """The conveyor in the load state of a scene; a start has the start's resistance."""
+    g, route = spec.gravity, spec.route
+    sine = route.lift / route.length
+    cosine = 1.0 if route.inclination == "small_angle" else math.sqrt(1 - sine**2)
+    load = load_line_mass(spec) if scene.load == "full" else 0.0
+    given = spec.resistance
+    coefficient = filled(given.coefficient) * (filled(given.start_factor) if isinstance(scene, Start) else 1.0)
+    factor = 1.0 if given.secondary_force is not None else filled(given.secondary)
+
+    def strand(idler_line_mass: float, on_it: float, pitch: float | None, downhill: float) -> Strand:
+        main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
+        span = on_it * g * cosine * pitch if pitch is not None else None
+        return Strand(route.length, on_it + idler_line_mass, factor * main + downhill * on_it * g * sine, span)
+
+    drum = spec.drive.drum
+    return BeltLine(
+        gravity=g,
+        speed=spec.speed,
+        stiffness=belt_stiffness(spec),
+        belt_line_mass=spec.belt.mass,
+        carry=strand(spec.idlers.carry.rotating_line_mass, spec.belt.mass + load, spec.idlers.carry.pitch, 1.0),
+        back=strand(spec.idlers.back.rotating_line_mass, spec.belt.mass, spec.idlers.back.pitch, -1.0),
+        tail_force=given.secondary_force or 0.0,
+        drive_mass=drive_mass(spec),
+        tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
+        fixed_length=spec.takeup.type == "rigid",
+        takeup_tension=spec.takeup.tension,
+        grip_exponent=drum.friction * drum.wrap if drum.friction is not None else None,
+        breaking_force=breaking_force(spec),
+        slack_sag=spec.checks.slack_sag,
+    )
+
+
+def load_line_mass(spec: Conveyor) -> float:
+    """Load per length of the full carry strand [kg/m]."""
+    if spec.load.mass is not None:
+        return spec.load.mass
+    return filled(spec.load.capacity) / spec.speed
+
+
+def belt_stiffness(spec: Conveyor) -> float:
+    """Tensile stiffness EA of the belt [N]."""
+    belt = spec.belt
+    return belt.stiffness if belt.stiffness is not None else filled(belt.modulus) * filled(belt.width)
+
+
+def breaking_force(spec: Conveyor) -> float | None:
+    """Breaking force of the whole belt [N], when the file gives it."""
+    belt = spec.belt
+    if belt.strength is not None:
+        return belt.strength * filled(belt.width)
+    return belt.breaking_force
+
+
+def drive_mass(spec: Conveyor) -> float:
+    """Motors, couplings and drive drum reduced to the rim [kg]."""
+    drive = spec.drive
+    per_motor = drive.motor.inertia + filled(drive.coupling_inertia)
+    return inertia.reduced_drive_mass(
+        drive.motor.count * per_motor,
+        drive.gear.ratio,
+        filled(drive.gear.efficiency),
+        filled(drive.drum.inertia),
+        drive.drum.diameter / 2,
+    )
+
+
+def starting_force(spec: Conveyor) -> float:
+    """Mean starting force of all motors at the rim [N]."""
+    drive, one = spec.drive, spec.drive.motor
+    torque = one.mean_starting_torque
+    if torque is None:
+        torque = motor.mean_starting_torque(filled(one.largest_starting_torque), filled(one.smallest_starting_torque))
+    return motor.rim_force(one.count * torque, drive.gear.ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
+
+
+@dataclass(frozen=True, slots=True)
+class StartCase:
+    """A start as numbers: the line, what the drive imposes, and the rigid body's answer.
+
+    The drum is held (by friction, brake or backstop) until the drive's force exceeds the static resistance, so the
+    force over it, `excess`, starts from 0 under a ramp and at once under a step.
+    """
+
+    line: BeltLine
+    masses: LoopMasses
+    shape: str
+    rise_time: float
+    imposed_speed: bool
+    available_force: float
+    acceleration: float
+    held: float
+    window: float
+
+    @property
+    def rise(self) -> float:
+        """How long force or speed still rise after the belt is released, within the window [s]."""
+        return min(self.rise_time - self.held, self.window)
+
+    @property
+    def moves(self) -> bool:
+        """Whether the drive can move the belt at all."""
+        return self.imposed_speed or self.available_force > self.line.static_resistance
+
+    @property
+    def excess(self) -> float:
+        """Largest force of the drive over the static resistance that comes to act [N], M a."""
+        return self.acceleration * self.masses.total_mass
+
+    def force(self, time: FloatArray) -> FloatArray:
+        """Force over the static resistance at times after the belt is released [N]."""
+        full = start_profile.rise(self.shape, self.rise_time, time + self.held)
+        return np.maximum(self.available_force * full - self.line.static_resistance, 0.0)
+
+    def drum_speed(self, time: FloatArray) -> FloatArray:
+        """Imposed speed of the drum [m/s]."""
+        return self.line.speed * start_profile.rise(self.shape, self.rise_time, time)
+
+    def phases(self, lowest_frequency: float) -> tuple[start_profile.Phase, ...]:
+        """Bounds on the answer of every mode of at least this frequency [rad/s], relative to the plateau's.
+
+        Of a torque that rises through the static resistance only the part above it acts, and only until the rated
+        speed is reached: a part of a ramp is a ramp, a part of a cosine is only known to rise. A resistance that
+        drives acts at once, as a step.
+        """
+        if not self.moves:
+            return (start_profile.Phase(0.0, 0.0, 0.0),)
+        if self.imposed_speed or self.shape == start_profile.STEP:
+            return start_profile.phases(self.shape, self.imposed_speed, self.rise_time, lowest_frequency)
+        if self.shape == start_profile.COSINE and self.rise < self.rise_time:
+            return (start_profile.Phase(0.0, 1.0, 1.0),)
+        at_once = max(-self.line.static_resistance / self.excess, 0.0)
+        rising = start_profile.phases(self.shape, False, self.rise, lowest_frequency)
+        return tuple(
+            start_profile.Phase(
+                at_once + (1 - at_once) * phase.low,
+                at_once + (1 - at_once) * phase.high,
+                at_once + (1 - at_once) * phase.stray,
+            )
+            for phase in rising
+        )
+
+
+def start_case(spec: Conveyor, scene: Start) -> StartCase:
+    """A start of this conveyor.
+
+    The window of a torque start ends when the rigid body reaches the rated speed; that of an imposed speed four
+    contour times after the end of the profile, which is a period of the lowest mode of a uniform loop.
+    """
+    line = belt_line(spec, scene)
+    profile = scene.profile
+    imposed = profile.imposes_speed
+    masses = LoopMasses(
+        return_mass=line.back.line_mass * line.back.length,
+        carry_mass=line.carry.line_mass * line.carry.length,
+        tail_mass=line.tail_mass,
+        drive_mass=line.drive_mass,
+        return_compliance=line.back.length / line.stiffness,
+        carry_compliance=line.carry.length / line.stiffness,
+        fixed_length=line.fixed_length,
+        imposed_speed=imposed,
+    )
+    rise_time = profile.time or 0.0
+    available = starting_force(spec)
+    if imposed:
+        acceleration = line.speed * start_profile.peak_rate(profile.shape, rise_time)
+        window = rise_time + 4 * line.contour_time
+        held = 0.0
+    else:
+        acceleration = held = window = 0.0
+        if available > line.static_resistance:
+            held = _held(profile.shape, rise_time, line.static_resistance / available)
+            window = _time_to_speed(line, profile.shape, rise_time, available, held, masses.total_mass)
+            reached = available * float(start_profile.rise(profile.shape, rise_time, held + window))
+            acceleration = (reached - line.static_resistance) / masses.total_mass
+    return StartCase(line, masses, profile.shape, rise_time, imposed, available, acceleration, held, window)
+
+
+def _held(shape: str, rise_time: float, share: float) -> float:
+    """Time until a rising force reaches a share of its plateau."""
+    if shape == start_profile.STEP or share <= 0:
+        return 0.0
+    return rise_time * (share if shape == start_profile.RAMP else math.acos(1 - 2 * share) / math.pi)
+
+
+def _time_to_speed(line: BeltLine, shape: str, rise_time: float, available: float, held: float, mass: float) -> float:
+    """Time after release at which the rigid body reaches the rated speed, by bisection on its momentum."""
+    needed = mass * line.speed
+    w = line.static_resistance
+
+    def momentum(time: float) -> float:
+        both = start_profile.rise_integral(shape, rise_time, np.array([held + time, held]))
+        return available * float(both[0] - both[1]) - w * time
+
+    low, high = 0.0, rise_time + needed / (available - w)
+    if shape == start_profile.STEP:
+        return high
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if momentum(middle) < needed else (low, middle)
+    return high
+
+
+def start_duration(case: StartCase) -> float:
+    """Duration of the start of the rigid body, from switching on [s]; infinite when it cannot move."""
+    if case.imposed_speed:
+        return case.rise_time
+    return case.held + case.window if case.moves else math.inf

@@ -1,0 +1,9 @@
+"""Solvers of the conveyor, one a file, from the cheapest to the richest."""
+
+from ptmcalc.machines.conveyor.solvers.characteristics import CHARACTERISTICS
+from ptmcalc.machines.conveyor.solvers.first_wave import FIRST_WAVE
+from ptmcalc.machines.conveyor.solvers.rigid import RIGID
+from ptmcalc.machines.conveyor.solvers.statics import STATICS
+from ptmcalc.machines.conveyor.solvers.two_interval import TWO_INTERVAL
+
+SOLVERS = (STATICS, RIGID, FIRST_WAVE, TWO_INTERVAL, CHARACTERISTICS)

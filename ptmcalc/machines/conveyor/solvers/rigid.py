@@ -1,0 +1,64 @@
+"""A start of the rigid body: closed form. Its error bar is the bound of the belt's waves."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.model import start_case
+from ptmcalc.machines.conveyor.spec import Conveyor, Start
+
+
+def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Loads of a start in which drive and belt move as one body.
+
+        a = F_d/M,   F_d = F - W,   S(s) = S_static(s) + a r(s)
+
+    r(s) is the mass a section pulls (gravity take-up) or that less its mean over the loop (rigid take-up).
+
+    **Range** any start that moves the belt.
+    **Error** no bar of its own: everything it leaves out is in the bounds of the effects it does not represent.
+    **Source** Newton's law; the split of a fixed loop from constant elongation (`laws.loop.quasi_static`).
+    """
+    case = start_case(spec, scene)
+    loads = bounds.scalar_loads(case) | bounds.rigid_loads(case)
+    window = (0.0, case.held + case.window)
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1, window=window)
+
+
+RIGID: Solver[Conveyor, Start] = Solver(
+    name="rigid",
+    title="rigid body, with intervals that hold the waves",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Start}),
+    represents=frozenset(),
+    gives=frozenset(
+        {
+            "tension_run_on_max",
+            "tension_dynamic_run_on_max",
+            "tension_run_off_min",
+            "tension_max",
+            "tension_min",
+            "slack_margin_min",
+            "slip_utilisation_max",
+            "slip_reserve_min",
+            "belt_safety_min",
+            "sag_relative_max",
+            "static_resistance",
+            "starting_force",
+            "starting_force_needed",
+            "starting_reserve",
+            "rim_force_excess",
+            "acceleration_rigid",
+            "start_time_rigid",
+            "first_wave_time_max",
+            "reduced_drive_mass",
+            "wave_speed_carry",
+            "wave_speed_return",
+            "impedance_carry",
+            "impedance_return",
+        }
+    ),
+    run=run,
+    cost=lambda spec, scene, carried, level: 3e-4,
+    source="Newton's law; bounds derived in ptmcalc.laws.loop",
+)

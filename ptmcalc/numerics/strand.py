@@ -1,0 +1,747 @@
+"""Method of characteristics for a closed loop of two elastic strands round a drive drum.
+
+Coordinate along the belt: drum run-off -> return strand -> tail -> carry strand -> drum run-on. With dynamic
+tension S, speed v, wave speed c and impedance Z of a strand, P = S + Z v travels against the belt and N = S - Z v
+with it, both unchanged at speed c. The time step divides both travel times, so transport is exact: a strand is a
+pure delay, and only the drum, the tail and the take-up compute.
+
+Drum of mass m (force imposed)    m v' + (Z_1 + Z_2) v = F + P_off - N_on        fixed loop length
+                                  m v' + Z_1 v = F - N_on                        constant tension at the run-off
+Tail of mass m_t                  m_t v' + (Z_1 + Z_2) v = P_carry - N_return
+Constant-tension take-up          N_off = -P_off (dynamic), it travels with half the speed difference
+
+Each is a first-order equation advanced by the exponential step for a forcing that is linear over the step, which
+is exact for m -> 0 (a trapezoidal step would ring) and second order otherwise. Echoes arrive on the grid, so the
+corners of the solution are samples of it.
+
+**Grip.** With a friction exponent mu alpha given, the belt sticks to the drum while the tight side is below
+exp(mu alpha) times the slack side (both less rho v^2). Slip begins and ends at the root of that condition inside
+a step; while slipping the belt speed follows from the friction law and the drum moves on its own.
+
+**Sag.** A sagging span adds the compliance d eps/dS = (w l)^2/(12 S^3) of Ernst to the belt. It is lumped at the
+nodes: at a node the two strands' ends separate at the rate of the lump's stretch, which gives with
+sigma(S) = -(w l)^2/(24 S^2), by the trapezoidal rule,
+
+    S_new + EA sigma(S_new) = S_free,new + S_free,old - S_old + EA sigma(S_old),    S_free = S_static + (P + N)/2
+
+one monotone equation per node with exactly one positive root: the tension of a sagging belt never falls to zero.
+The rule conserves energy and is unconditionally stable.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics import energy
+from ptmcalc.numerics.peaks import largest, smallest
+
+FloatArray = NDArray[np.float64]
+
+MOST_STEPS = 4_000_000
+_EVENTS_PER_STEP = 8
+_NEWTON_STEPS = 60
+_Peak = tuple[float, int]
+"""A value, with its sign turned where the smallest is wanted, and the sample it occurs at."""
+_BLOCK = 128
+
+
+@dataclass(frozen=True, slots=True)
+class Strand:
+    """A uniform strand: length [m], mass per length [kg/m], tensile stiffness [N]; its static tension is linear
+    from `static_start` to `static_end` [N]; `span_weight` is the weight on one idler pitch [N], 0 for no sag."""
+
+    length: float
+    line_mass: float
+    stiffness: float
+    static_start: float
+    static_end: float
+    span_weight: float = 0.0
+
+    @property
+    def speed(self) -> float:
+        """Wave speed [m/s]."""
+        return math.sqrt(self.stiffness / self.line_mass)
+
+    @property
+    def transit(self) -> float:
+        """Travel time of a wave along the strand [s]."""
+        return self.length / self.speed
+
+    def static(self, x: FloatArray) -> FloatArray:
+        """Static tension at fractions x of the length [N]."""
+        return self.static_start + (self.static_end - self.static_start) * x
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """Friction between belt and drum: exponent mu alpha [1] and mass per length of the bare belt [kg/m]."""
+
+    exponent: float
+    belt_line_mass: float
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """Two strands, the drum and the tail; `impedance_jump` False treats the return strand as if it had the
+    impedance of the carry strand (its travel time stays)."""
+
+    carry: Strand
+    back: Strand
+    drum_mass: float
+    tail_mass: float
+    fixed_length: bool
+    grip: Grip | None = None
+    impedance_jump: bool = True
+
+    @property
+    def impedances(self) -> tuple[float, float]:
+        """Z of carry and return strand [N*s/m]."""
+        z_carry = math.sqrt(self.carry.line_mass * self.carry.stiffness)
+        z_back = math.sqrt(self.back.line_mass * self.back.stiffness)
+        return z_carry, z_back if self.impedance_jump else z_carry
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]."""
+
+    force: Callable[[FloatArray], FloatArray] | None = None
+    speed: Callable[[FloatArray], FloatArray] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Steps of time: `carry` and `back` cells per strand; `mismatch` is the relative error of the travel times."""
+
+    step: float
+    carry: int
+    back: int
+    mismatch: float
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A value, the time [s] and the position along the belt from the run-off [m] where it occurs."""
+
+    value: float
+    time: float
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The answer of a loop, sampled at `times` (shape (n,)); tensions are whole ones, static part included.
+
+    `waves` (shape (4, n)) are the waves that leave the drum, the tail into either strand, and the run-off.
+    """
+
+    grid: Grid
+    times: FloatArray
+    waves: FloatArray
+    belt_speed: FloatArray
+    drum_speed: FloatArray
+    run_on: FloatArray
+    run_off: FloatArray
+    carry_max: Extreme
+    carry_min: Extreme
+    back_max: Extreme
+    back_min: Extreme
+    slipped: bool
+    reversed: bool
+    energy_residual: float
+    cell_updates: int
+
+    def largest(self, values: FloatArray) -> tuple[float, float]:
+        """Largest value of a sampled history and its time."""
+        return largest(values, self.grid.step)
+
+    def smallest(self, values: FloatArray) -> tuple[float, float]:
+        """Smallest value of a sampled history and its time."""
+        return smallest(values, self.grid.step)
+
+
+def match(first: float, second: float, at_least: int, tolerance: float, at_most: int = 8192) -> Grid:
+    """The coarsest grid that divides both travel times to `tolerance`, or the best one up to `at_most` cells.
+
+    Both times share the mismatch so that their sum is exact.
+    """
+    carry = np.arange(at_least, max(at_most, at_least) + 1)
+    back = np.maximum(1, np.rint(carry * (second / first)))
+    step = (first + second) / (carry + back)
+    mismatch = np.maximum(np.abs(carry * step / first - 1), np.abs(back * step / second - 1))
+    good = mismatch <= tolerance
+    best = int(np.argmax(good)) if good.any() else int(np.argmin(mismatch))
+    return Grid(float(step[best]), int(carry[best]), int(back[best]), float(mismatch[best]))
+
+
+def refined(grid: Grid) -> Grid:
+    """The same grid with every cell halved."""
+    return Grid(grid.step / 2, grid.carry * 2, grid.back * 2, grid.mismatch)
+
+
+def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
+    """Carry the loop from its static state through the window [s].
+
+    Raises:
+        NumericsError: NUM101 when the window needs more steps than MOST_STEPS, when slip and stick alternate
+            without end inside a step, or when the belt lifts off the drum by its own centrifugal force.
+    """
+    steps = max(math.ceil(window / grid.step - 1e-9), 1)
+    if steps > MOST_STEPS:
+        raise NumericsError("NUM101", f"the window of {window:.4g} s needs {steps} steps of {grid.step:.3g} s")
+    times = np.arange(steps + 1, dtype=np.float64) * grid.step
+    last_share = window / grid.step - (steps - 1)  # the window ends inside the last step
+    drum = _Drum(loop, drive, times, grid.step)
+    tail = _Node(loop.tail_mass, sum(loop.impedances), grid.step)
+    if loop.carry.span_weight > 0 or loop.back.span_weight > 0:
+        interior: _Sagging | _Delays = _Sagging(loop, grid, steps, last_share)
+    else:
+        interior = _Delays(loop, grid, steps, last_share)
+    interior.run(drum, tail)
+    return _motion(loop, grid, times, last_share, drum, tail, interior)
+
+
+class _Node:
+    """m v' + Z v = g(t) by the exponential step for g linear over the step."""
+
+    def __init__(self, mass: float, impedance: float, step: float) -> None:
+        self.impedance = impedance
+        self.rate = impedance / mass if mass > 0 else math.inf
+        self.full = _weights(self.rate * step)
+        self.step_size = step
+        self.speed = 0.0
+        self.forcing = 0.0
+
+    def step(self, forcing: float) -> float:
+        """Speed at the end of the step, at which the forcing is `forcing`."""
+        decay, old, new = self.full
+        self.speed = decay * self.speed + (old * self.forcing + new * forcing) / self.impedance
+        self.forcing = forcing
+        return self.speed
+
+    def part(self, speed: float, before: float, after: float, share: float) -> float:
+        """Speed after a share of a step from `speed`, with the forcing going from `before` to `after`."""
+        decay, old, new = _weights(self.rate * self.step_size * share)
+        return decay * speed + (old * before + new * after) / self.impedance
+
+
+def _weights(x: float) -> tuple[float, float, float]:
+    """exp(-x) and the weights of the forcing at the start and the end of a step of x time constants."""
+    if math.isinf(x):
+        return 0.0, 0.0, 1.0
+    grown = -math.expm1(-x)
+    slope = x / 2 - x * x / 6 + x**3 / 24 - x**4 / 120 if x < 1e-3 else 1 - grown / x
+    return math.exp(-x), grown - slope, slope
+
+
+class _Drum:
+    """The drive drum: sticks to the belt, or slips on it."""
+
+    def __init__(self, loop: Loop, drive: Drive, times: FloatArray, step: float) -> None:
+        self.z_carry, self.z_back = loop.impedances
+        self.fixed = loop.fixed_length
+        self.z_off = self.z_back if self.fixed else 0.0
+        self.mass = loop.drum_mass
+        self.step_size = step
+        self.on_static, self.off_static = loop.carry.static_end, loop.back.static_start
+        self.force = drive.force(times).tolist() if drive.force else None
+        self.imposed = drive.speed(times).tolist() if drive.speed else None
+        self.node = _Node(loop.drum_mass, self.z_carry + self.z_off, step)
+        self.grip = loop.grip
+        self.squeeze = math.exp(-loop.grip.exponent) if loop.grip else 0.0
+        self.slipping = 0  # +1: the drum runs ahead of the belt, -1: the belt ahead of the drum
+        self.slipped = False
+        n = len(times)
+        self.belt = [0.0] * n
+        self.drum = [0.0] * n
+        self.on = [0.0] * n
+        self.off = [0.0] * n
+        self.arriving = (0.0, 0.0)  # N at the run-on, P at the run-off, at the last sample
+        if self.force:
+            self.node.forcing = self.force[0]
+        if self.grip:
+            self.slipping = self._breaks(0.0, 0.0, 0.0)
+            self.slipped = bool(self.slipping)
+
+    def step(self, k: int, n_on: float, p_off: float) -> float:
+        """Belt speed at sample k, where the waves n_on and p_off arrive."""
+        if not self.grip:
+            belt = drum = self._stuck(k, n_on, p_off)
+        else:
+            belt, drum = self._gripped(k, n_on, p_off)
+        self.arriving = (n_on, p_off)
+        self.belt[k], self.drum[k] = belt, drum
+        self.on[k] = n_on + self.z_carry * belt
+        self.off[k] = p_off - self.z_off * belt if self.fixed else 0.0
+        return belt
+
+    def _stuck(self, k: int, n_on: float, p_off: float) -> float:
+        if self.imposed:
+            return float(self.imposed[k])
+        assert self.force is not None
+        return self.node.step(self.force[k] - n_on + (p_off if self.fixed else 0.0))
+
+    def _gripped(self, k: int, n_on: float, p_off: float) -> tuple[float, float]:
+        """One step with slip and stick located inside it; `at` runs from 0 to 1 through the step."""
+        forces = (self.force[k - 1], self.force[k]) if self.force else (0.0, 0.0)
+        speeds = (self.imposed[k - 1], self.imposed[k]) if self.imposed else (0.0, 0.0)
+        cell = _Cell((self.arriving[0], n_on), (self.arriving[1], p_off), forces, speeds)
+        belt, drum, at = self.belt[k - 1], self.drum[k - 1], 0.0
+        for _ in range(_EVENTS_PER_STEP):
+            if not self.slipping:
+                stuck = partial(self._stuck_at, cell, at, drum)
+                speed = stuck(1.0)
+                sense = self._breaks(n_on, p_off, speed)
+                if not sense:
+                    self.node.speed = speed
+                    self.node.forcing = forces[1] - n_on + (p_off if self.fixed else 0.0)
+                    return speed, speed
+                breaks = _root(partial(self._excess_at, cell, stuck, sense), at, 1.0)
+                belt = drum = stuck(breaks) if breaks > at else drum
+                at, self.slipping, self.slipped = breaks, sense, True
+            slid = partial(self._slid_at, cell, at, belt, drum)
+            belt_end, drum_end = slid(1.0)
+            if self.slipping * (drum_end - belt_end) >= 0:
+                return belt_end, drum_end
+            at = _root(partial(_lead, slid), at, 1.0)
+            _, drum = slid(at)
+            belt, self.slipping = drum, 0
+        raise NumericsError("NUM101", f"stick and slip at the drum alternate without end at {k * self.step_size:.4g} s")
+
+    def _stuck_at(self, cell: "_Cell", at: float, drum: float, x: float) -> float:
+        """Common speed at x of a step in which belt and drum stick together from `at` on."""
+        if self.imposed:
+            return cell.speed(x)
+        n0, p0, f0 = cell.waves(at)
+        n1, p1, f1 = cell.waves(x)
+        off0, off1 = (p0, p1) if self.fixed else (0.0, 0.0)
+        return self.node.part(drum, f0 - n0 + off0, f1 - n1 + off1, x - at)
+
+    def _slid_at(self, cell: "_Cell", at: float, belt: float, drum: float, x: float) -> tuple[float, float]:
+        """Speeds of belt and drum at x of a step in which the belt slips from `at` on."""
+        n1, p1, f1 = cell.waves(x)
+        slipping = self._slip_speed(n1, p1)
+        if self.imposed:
+            return slipping, cell.speed(x)
+        n0, p0, f0 = cell.waves(at)
+        push = f0 + f1 - self._pull(n0, p0, belt) - self._pull(n1, p1, slipping)
+        return slipping, drum + (x - at) * self.step_size * push / (2 * self.mass)
+
+    def _excess_at(self, cell: "_Cell", stuck: Callable[[float], float], sense: int, x: float) -> float:
+        n_on, p_off, _ = cell.waves(x)
+        return self._excess(n_on, p_off, stuck(x), sense)
+
+    def _pull(self, n_on: float, p_off: float, belt: float) -> float:
+        """Dynamic force the belt takes from the drum."""
+        return n_on + self.z_carry * belt - (p_off - self.z_off * belt if self.fixed else 0.0)
+
+    def _sides(self, n_on: float, p_off: float, belt: float) -> tuple[float, float]:
+        """Whole tensions of run-on and run-off, less the centrifugal one."""
+        assert self.grip is not None
+        lift = self.grip.belt_line_mass * belt * belt
+        on = self.on_static + n_on + self.z_carry * belt - lift
+        return on, self.off_static + (p_off - self.z_off * belt if self.fixed else 0.0) - lift
+
+    def _excess(self, n_on: float, p_off: float, belt: float, sense: int) -> float:
+        """How far the tight side exceeds what friction holds; positive means slip in that sense."""
+        on, off = self._sides(n_on, p_off, belt)
+        return on * self.squeeze - off if sense > 0 else off * self.squeeze - on
+
+    def _breaks(self, n_on: float, p_off: float, belt: float) -> int:
+        if self._excess(n_on, p_off, belt, 1) > 0:
+            return 1
+        return -1 if self._excess(n_on, p_off, belt, -1) > 0 else 0
+
+    def _slip_speed(self, n_on: float, p_off: float) -> float:
+        """Belt speed at which the friction law holds with equality; a belt that would run back is held."""
+        assert self.grip is not None
+        on, off = self.on_static + n_on, self.off_static + (p_off if self.fixed else 0.0)
+        lift = (1 - self.squeeze) * self.grip.belt_line_mass
+        if self.slipping > 0:
+            a, b, c = lift, self.squeeze * self.z_carry + self.z_off, self.squeeze * on - off
+        else:
+            a, b, c = -lift, self.z_carry + self.squeeze * self.z_off, on - self.squeeze * off
+        root = b * b - 4 * a * c
+        if root < 0:
+            raise NumericsError("NUM101", "the belt lifts off the drum by its own centrifugal force")
+        return max(-2 * c / (b + math.sqrt(root)), 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    """One step of the drum: arriving waves, force and imposed speed at its start and end, linear in between."""
+
+    n_on: tuple[float, float]
+    p_off: tuple[float, float]
+    force: tuple[float, float]
+    imposed: tuple[float, float]
+
+    def waves(self, x: float) -> tuple[float, float, float]:
+        """Waves arriving at run-on and run-off, and the force, at x between 0 and 1."""
+        (n0, n1), (p0, p1), (f0, f1) = self.n_on, self.p_off, self.force
+        return n0 + (n1 - n0) * x, p0 + (p1 - p0) * x, f0 + (f1 - f0) * x
+
+    def speed(self, x: float) -> float:
+        """Imposed speed of the drum at x."""
+        return self.imposed[0] + (self.imposed[1] - self.imposed[0]) * x
+
+
+def _lead(slid: Callable[[float], tuple[float, float]], x: float) -> float:
+    """How much faster the drum is than the belt."""
+    belt, drum = slid(x)
+    return drum - belt
+
+
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    """A root of a function between two places where it differs in sign, by the Illinois rule; `low` if it does
+    not change sign because the event lies at the start."""
+    f_low, f_high = function(low), function(high)
+    if f_low * f_high >= 0:
+        return low
+    side = 0
+    for _ in range(_NEWTON_STEPS):
+        middle = (low * f_high - high * f_low) / (f_high - f_low)
+        f_middle = function(middle)
+        if f_middle == 0 or high - low < 1e-13:
+            return middle
+        if f_middle * f_high > 0:
+            high, f_high = middle, f_middle
+            if side == 1:
+                f_low /= 2
+            side = 1
+        else:
+            low, f_low = middle, f_middle
+            if side == -1:
+                f_high /= 2
+            side = -1
+    return (low + high) / 2
+
+
+class _Delays:
+    """Strands without sag: pure delays. Waves leaving drum, tail and run-off are kept as histories."""
+
+    def __init__(self, loop: Loop, grid: Grid, steps: int, last_share: float) -> None:
+        self.loop, self.grid, self.steps, self.last_share = loop, grid, steps, last_share
+        n = steps + 1
+        self.cell_updates = steps
+        self.from_drum = [0.0] * n  # P into the carry strand
+        self.into_carry = [0.0] * n  # N from the tail
+        self.into_back = [0.0] * n  # P from the tail
+        self.from_off = [0.0] * n  # N into the return strand
+        self.tail_speed = [0.0] * n
+
+    def run(self, drum: _Drum, tail: _Node) -> None:
+        z_carry, z_back = self.loop.impedances
+        fixed, carry, back = self.loop.fixed_length, self.grid.carry, self.grid.back
+        from_drum, into_carry, into_back, from_off = (
+            self.from_drum,
+            self.into_carry,
+            self.into_back,
+            self.from_off,
+        )
+        for k in range(1, self.steps + 1):
+            n_on = into_carry[k - carry] if k >= carry else 0.0
+            p_off = into_back[k - back] if k >= back else 0.0
+            p_tail = from_drum[k - carry] if k >= carry else 0.0
+            n_tail = from_off[k - back] if k >= back else 0.0
+            belt = drum.step(k, n_on, p_off)
+            from_drum[k] = n_on + 2 * z_carry * belt
+            from_off[k] = p_off - 2 * z_back * belt if fixed else -p_off
+            v_tail = tail.step(p_tail - n_tail)
+            self.tail_speed[k] = v_tail
+            into_carry[k] = p_tail - 2 * z_carry * v_tail
+            into_back[k] = n_tail + 2 * z_back * v_tail
+
+    def extremes(self, strand: Strand, carry: bool) -> tuple[Extreme, Extreme]:
+        """Largest and smallest tension of any node of a strand at any sample.
+
+        From one node to the next the extreme over time changes by no more than the steepest step of the waves and
+        of the static tension, so only stretches that could still hold a better node are looked into.
+        """
+        cells = self.grid.carry if carry else self.grid.back
+        down, up = (self.from_drum, self.into_carry) if carry else (self.into_back, self.from_off)
+        pause = np.zeros(cells)
+        p, n = np.concatenate([pause, down]), np.concatenate([pause, up])
+        static = strand.static(np.arange(cells + 1) / cells)
+        length = self.steps + 1
+        steepest = (np.abs(np.diff(p)).max() + np.abs(np.diff(n)).max()) / 2 + abs(static[1] - static[0])
+        seen: dict[int, tuple[_Peak, _Peak]] = {}
+
+        def node(side: int, i: int) -> _Peak:
+            if i not in seen:
+                tension = static[i] + (p[i : i + length] + n[cells - i : cells - i + length]) / 2
+                tension[-1] = _at_end(tension, self.last_share)
+                top, bottom = int(tension.argmax()), int(tension.argmin())
+                seen[i] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
+            return seen[i][side]
+
+        found = []
+        for side, sign in enumerate((1, -1)):
+            best = _best_node(partial(node, side), cells, float(steepest))
+            value, sample = node(side, best)
+            found.append(Extreme(sign * value, sample * self.grid.step, best / cells * strand.length))
+        self.cell_updates += len(seen) * length
+        return found[0], found[1]
+
+    def stored(self) -> float:
+        """Kinetic and elastic energy of the waves on both strands at the end [J]."""
+        total = 0.0
+        for strand, cells, down, up in (
+            (self.loop.carry, self.grid.carry, self.from_drum, self.into_carry),
+            (self.loop.back, self.grid.back, self.into_back, self.from_off),
+        ):
+            z = self.loop.impedances[0 if strand is self.loop.carry else 1]
+            for waves in (down, up):
+                held = np.zeros(cells + 1)
+                recent = np.asarray(waves[-(cells + 1) :])
+                held[len(held) - len(recent) :] = recent
+                total += energy.work(held**2, self.grid.step) / (4 * z)
+        return total
+
+    @property
+    def reversed(self) -> bool:
+        """Whether the tail ran backwards by more than rounding."""
+        return min(self.tail_speed) < -1e-6 * max(max(self.tail_speed), 1e-300)
+
+
+def _best_node(value: Callable[[int], _Peak], cells: int, steepest: float) -> int:
+    """The node of the largest value, by halving the stretches whose ends and slope allow a larger one."""
+    best = max((0, cells), key=lambda i: value(i)[0])
+    stretches = [(0, cells)]
+    while stretches:
+        low, high = stretches.pop()
+        reach = (value(low)[0] + value(high)[0] + steepest * (high - low)) / 2
+        if high - low < 2 or reach <= value(best)[0]:
+            continue
+        middle = (low + high) // 2
+        if value(middle)[0] > value(best)[0]:
+            best = middle
+        stretches += [(low, middle), (middle, high)]
+    return best
+
+
+def _at_end(history: FloatArray, share: float) -> float:
+    """Value of a history that ends inside its last step, after a share of it, by the parabola of three samples."""
+    if len(history) < 3:
+        return float(history[-2] + share * (history[-1] - history[-2]))
+    before, start, end = history[-3:]
+    return float(start + share * (end - before) / 2 + share**2 * (end - 2 * start + before) / 2)
+
+
+class _Sagging:
+    """Strands with sag: every node is carried, with the compliance of the sagging spans lumped at the inner ones."""
+
+    def __init__(self, loop: Loop, grid: Grid, steps: int, last_share: float) -> None:
+        self.loop, self.grid, self.steps, self.last_share = loop, grid, steps, last_share
+        self.inner = (grid.back - 1, grid.carry - 1)
+        parts = []
+        for strand, cells in ((loop.back, grid.back), (loop.carry, grid.carry)):
+            share = np.ones(cells - 1)
+            if cells > 1:
+                share[0] += 0.5  # the half cells at both ends
+                share[-1] += 0.5
+            lump = share * strand.stiffness * strand.span_weight**2 / 24
+            parts.append((strand.static(np.arange(1, cells) / cells), lump))
+        self.static = np.concatenate([parts[0][0], parts[1][0]])
+        self.lump = np.concatenate([parts[0][1], parts[1][1]])
+        if (self.static <= 0).any():
+            raise NumericsError(
+                "NUM102", "a sagging belt cannot hang without tension: its static tension is not positive"
+            )
+        self.tension = self.static
+        n = steps + 1
+        self.from_drum, self.into_carry, self.into_back, self.from_off = (
+            [0.0] * n,
+            [0.0] * n,
+            [0.0] * n,
+            [0.0] * n,
+        )
+        self.tail_speed = [0.0] * n
+        self.ends: dict[str, list[float]] = {name: [0.0] * n for name in ("on", "off", "tail_back", "tail_carry")}
+        self.seen = _Seen(self.static, self.inner[0])
+        self.held = 0.0
+        self.cell_updates = steps * (grid.carry + grid.back)
+
+    def run(self, drum: _Drum, tail: _Node) -> None:
+        z_carry, z_back = self.loop.impedances
+        fixed = self.loop.fixed_length
+        m = self.inner[0]
+        # every cell holds one P, which left its upper node, and one N, which left its lower node
+        p_back, n_back = np.zeros(self.grid.back), np.zeros(self.grid.back)
+        p_carry, n_carry = np.zeros(self.grid.carry), np.zeros(self.grid.carry)
+        free_old = before = tension = self.static
+        lump, static = self.lump, self.static
+        for k in range(1, self.steps + 1):
+            n_on, p_tail = float(n_carry[-1]), float(p_carry[0])
+            n_tail, p_off = float(n_back[-1]), float(p_back[0])
+            p_in = np.concatenate([p_back[1:], p_carry[1:]])
+            n_in = np.concatenate([n_back[:-1], n_carry[:-1]])
+            free = static + (p_in + n_in) / 2
+            target = free + free_old - tension - lump / tension**2
+            before, tension = tension, _sag_tension(target, lump, tension, before)
+            free_old = free
+            swing = 2 * (tension - static)
+            p_out, n_out = swing - n_in, swing - p_in
+            self.seen.note(k, tension if k < self.steps else before + self.last_share * (tension - before))
+            belt = drum.step(k, n_on, p_off)
+            v_tail = tail.step(p_tail - n_tail)
+            self.tail_speed[k] = v_tail
+            self.from_drum[k] = n_on + 2 * z_carry * belt
+            self.from_off[k] = p_off - 2 * z_back * belt if fixed else -p_off
+            self.into_carry[k] = p_tail - 2 * z_carry * v_tail
+            self.into_back[k] = n_tail + 2 * z_back * v_tail
+            self.ends["on"][k] = n_on + z_carry * belt
+            self.ends["off"][k] = (p_off + self.from_off[k]) / 2
+            self.ends["tail_back"][k] = (self.into_back[k] + n_tail) / 2
+            self.ends["tail_carry"][k] = (p_tail + self.into_carry[k]) / 2
+            arrived = (p_back, p_carry, n_back, n_carry)
+            p_back, p_carry = np.append(p_out[:m], self.into_back[k]), np.append(p_out[m:], self.from_drum[k])
+            n_back = np.concatenate([[self.from_off[k]], n_out[:m]])
+            n_carry = np.concatenate([[self.into_carry[k]], n_out[m:]])
+        self.tension = tension
+        self.seen.flush()
+        # over a cell a wave goes from its value on arrival, one step old, to the one that just left
+        for old, new, z in zip(arrived, (p_back, p_carry, n_back, n_carry), (z_back, z_carry) * 2, strict=True):
+            self.held += float(np.sum(old**2 + new**2)) * self.grid.step / (8 * z)
+
+    def extremes(self, strand: Strand, carry: bool) -> tuple[Extreme, Extreme]:
+        """Largest and smallest tension of any node of a strand at any sample."""
+        cells = self.grid.carry if carry else self.grid.back
+        names = ("tail_carry", "on") if carry else ("off", "tail_back")
+        ends = []
+        for name, node, static in ((names[0], 0, strand.static_start), (names[1], cells, strand.static_end)):
+            history = np.asarray(self.ends[name])
+            history[-1] = _at_end(history, self.last_share)
+            ends.append((static + history, node))
+        found = []
+        for sign, inside in zip((1, -1), self.seen.carry if carry else self.seen.back, strict=True):
+            places = [inside]
+            for history, node in ends:
+                sample = int(np.argmax(sign * history))
+                places.append((sign * float(history[sample]), sample, node))
+            value, sample, node = max(places)
+            found.append(Extreme(sign * value, sample * self.grid.step, node / cells * strand.length))
+        return found[0], found[1]
+
+    def stored(self) -> float:
+        """Energy of the waves on both strands and of the sagging spans at the end [J]."""
+        z = np.repeat(self.loop.impedances[::-1], self.inner)
+        swing = (self.tension - self.static) ** 2 / (self.tension**2 * self.static)
+        return self.held + float(np.sum(self.lump * swing / z)) * self.grid.step
+
+    @property
+    def reversed(self) -> bool:
+        """Whether the tail ran backwards by more than rounding."""
+        return min(self.tail_speed) < -1e-6 * max(max(self.tail_speed), 1e-300)
+
+
+class _Seen:
+    """Extremes of the inner nodes of both strands, gathered in blocks: (signed value, sample, node of its strand),
+    the largest first, then the smallest with its sign turned."""
+
+    def __init__(self, static: FloatArray, split: int) -> None:
+        self.split = split
+        self.block = np.empty((_BLOCK, len(static)))
+        self.rows: list[int] = []
+        nothing = (-math.inf, 0, 0)
+        self.back, self.carry = [nothing, nothing], [nothing, nothing]
+        self.note(0, static)
+
+    def note(self, k: int, tension: FloatArray) -> None:
+        """Take in the tensions of sample k."""
+        self.block[len(self.rows)] = tension
+        self.rows.append(k)
+        if len(self.rows) == _BLOCK:
+            self.flush()
+
+    def flush(self) -> None:
+        """Bring the extremes up to date."""
+        held = self.block[: len(self.rows)]
+        for part, best in ((held[:, : self.split], self.back), (held[:, self.split :], self.carry)):
+            if part.size:
+                for side, sign in enumerate((1, -1)):
+                    row, node = divmod(int(np.argmax(sign * part)), part.shape[1])
+                    best[side] = max(best[side], (sign * float(part[row, node]), self.rows[row], node + 1))
+        self.rows = []
+
+
+def _sag_tension(target: FloatArray, lump: FloatArray, last: FloatArray, before: FloatArray) -> FloatArray:
+    """The positive root S of S - lump/S^2 = target, node by node, by Newton's method from the extrapolated tension.
+
+    The left side rises from -infinity and is concave: Newton's steps from below the root approach it from below, a
+    step from above it lands below; one that would leave the positive side is cut to a quarter.
+    """
+    tension = np.maximum(2 * last - before, last / 2)
+    for _ in range(_NEWTON_STEPS):
+        give = lump / (tension * tension * tension)
+        change = (tension * (1 - give) - target) / (1 + 2 * give)
+        new: FloatArray = np.maximum(tension - change, tension / 4)
+        if np.abs(new - tension).max() <= 1e-7 * new.min():
+            return new  # quadratic convergence: the next step would change less than rounding
+        tension = new
+    raise NumericsError("NUM101", "the tension of the sagging belt did not converge")
+
+
+def _motion(
+    loop: Loop,
+    grid: Grid,
+    times: FloatArray,
+    last_share: float,
+    drum: _Drum,
+    tail: _Node,
+    interior: "_Delays | _Sagging",
+) -> Motion:
+    belt, rim = np.asarray(drum.belt), np.asarray(drum.drum)
+    on, off = np.asarray(drum.on), np.asarray(drum.off)
+    carry_max, carry_min = interior.extremes(loop.carry, carry=True)
+    back_max, back_min = interior.extremes(loop.back, carry=False)
+    ahead = loop.back.length
+    residual = _balance(loop, drum, tail, interior, belt, rim, on, off, grid.step)
+    for history in (belt, rim, on, off):
+        history[-1] = _at_end(history, last_share)
+    return Motion(
+        grid=grid,
+        times=times,
+        waves=np.array([interior.from_drum, interior.into_carry, interior.into_back, interior.from_off]),
+        belt_speed=belt,
+        drum_speed=rim,
+        run_on=loop.carry.static_end + on,
+        run_off=loop.back.static_start + off,
+        carry_max=Extreme(carry_max.value, carry_max.time, carry_max.position + ahead),
+        carry_min=Extreme(carry_min.value, carry_min.time, carry_min.position + ahead),
+        back_max=back_max,
+        back_min=back_min,
+        slipped=drum.slipped,
+        reversed=interior.reversed or bool(belt.min() < -1e-6 * max(belt.max(), 1e-300)),
+        energy_residual=residual,
+        cell_updates=interior.cell_updates,
+    )
+
+
+def _balance(
+    loop: Loop,
+    drum: _Drum,
+    tail: _Node,
+    interior: "_Delays | _Sagging",
+    belt: FloatArray,
+    rim: FloatArray,
+    on: FloatArray,
+    off: FloatArray,
+    step: float,
+) -> float:
+    """Work put in at the drum against energy of belt, tail and drum and the heat of slip, in dynamic quantities."""
+    stored = interior.stored() + loop.tail_mass * tail.speed**2 / 2
+    through = energy.work((on - off) * belt, step)
+    scale = energy.work(np.abs((on - off) * belt), step)
+    belt_part = energy.residual(through, 0.0, stored, scale)
+    if drum.force is None:
+        return belt_part
+    put_in = energy.work(np.asarray(drum.force) * rim, step)
+    heat = energy.work((on - off) * (rim - belt), step)
+    drum_part = energy.residual(put_in, heat + through, loop.drum_mass * float(rim[-1]) ** 2 / 2, scale)
+    return max(belt_part, drum_part)

@@ -1,0 +1,25 @@
+"""Floor 6: reports to text. A report knows what was found, not which machine it was.
+
+A format is a module here with `render`, named in `Format`.
+"""
+
+from collections.abc import Sequence
+from enum import StrEnum
+from importlib import import_module
+
+from ptmcalc.contract.report import FileReport
+
+
+class Format(StrEnum):
+    """The formats of `ptmcalc check`."""
+
+    TABLE = "table"
+    PLAIN = "plain"
+    JSON = "json"
+
+
+def render(form: Format, reports: Sequence[FileReport], *, width: int = 120, color: bool = False) -> str:
+    """The reports in one format; `width` and `color` matter to the table only."""
+    module = import_module(f"{__name__}.{form.value}")
+    text: str = module.render(tuple(reports), width=width, color=color)
+    return text

@@ -1,0 +1,199 @@
+"""The JSON of `check`: a fixed contract that other tools read."""
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ptmcalc import __version__
+from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.report import (
+    AssumedReport,
+    EffectReport,
+    FileReport,
+    Judgement,
+    LoadReport,
+    Place,
+    SceneReport,
+    SolverReport,
+    count,
+)
+
+SCHEMA_VERSION = "1"
+
+
+def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
+    """The document; the same reports give the same bytes."""
+    return dump(
+        {
+            "schema_version": SCHEMA_VERSION,
+            "tool": {"name": "ptmcalc", "version": __version__},
+            "summary": count(reports),
+            "files": [_file(report) for report in reports],
+        }
+    )
+
+
+def rows(found: list[dict[str, Any]]) -> str:
+    """The JSON of the commands that answer with rows."""
+    return dump({"schema_version": SCHEMA_VERSION, "rows": found})
+
+
+def dump(document: Mapping[str, Any]) -> str:
+    """JSON text without NaN and Infinity."""
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def finite(value: float | None) -> float | None:
+    """A float, or null where there is no finite one."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def _file(report: FileReport) -> dict[str, Any]:
+    return {
+        "path": report.path,
+        "kind": report.kind,
+        "name": report.name,
+        "verdict": report.verdict,
+        "assumed": [_assumed(value) for value in report.assumed],
+        "diagnostics": [_diagnostic(diagnostic) for diagnostic in report.diagnostics],
+        "scenes": [_scene(scene) for scene in report.scenes],
+    }
+
+
+def _assumed(value: AssumedReport) -> dict[str, Any]:
+    return {
+        "path": list(value.path),
+        "value": value.value,
+        "unit": value.quantity.si,
+        "interval": [value.interval.low, value.interval.high],
+        "source": value.source,
+    }
+
+
+def _diagnostic(diagnostic: Diagnostic) -> dict[str, Any]:
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity.value,
+        "message": diagnostic.message,
+        "line": diagnostic.span.line if diagnostic.span else None,
+        "column": diagnostic.span.column if diagnostic.span else None,
+        "path": list(diagnostic.path),
+        "hint": diagnostic.hint,
+    }
+
+
+def _scene(scene: SceneReport) -> dict[str, Any]:
+    return {
+        "name": scene.name,
+        "type": scene.type,
+        "effects": [_effect(effect) for effect in scene.effects],
+        "solvers": [_solver(solver) for solver in scene.solvers],
+        "loads": [_load(load) for load in scene.loads],
+        "checks": [_check(judgement) for judgement in scene.checks],
+        "health": {name: finite(value) for name, value in scene.health.items()},
+    }
+
+
+def _effect(effect: EffectReport) -> dict[str, Any]:
+    entry: dict[str, Any] = {
+        "name": effect.name,
+        "state": effect.state.value,
+        "forced": effect.forced,
+        "criterion": criterion(effect.criterion),
+    }
+    if effect.note:
+        entry["note"] = effect.note
+    if effect.change:
+        entry["change_without"] = {"load": effect.change.load, "relative": effect.change.relative}
+    return entry
+
+
+def criterion(number: Criterion | None) -> dict[str, Any] | None:
+    """The number that decided about an effect."""
+    if number is None:
+        return None
+    return {
+        "symbol": number.symbol,
+        "value": finite(number.value),
+        "threshold": number.threshold,
+        "meaning": number.meaning,
+        "source": number.source,
+    }
+
+
+def _solver(solver: SolverReport) -> dict[str, Any]:
+    following = solver.next
+    return {
+        "name": solver.name,
+        "fidelity": solver.fidelity,
+        "effects": list(solver.effects),
+        "predicted_seconds": solver.predicted_seconds,
+        "work": solver.work,
+        "decides": solver.decides,
+        "next": {"name": following.name, "predicted_seconds": following.predicted_seconds} if following else None,
+    }
+
+
+def _estimate(estimate: Estimate) -> dict[str, Any]:
+    entry: dict[str, Any] = {
+        "value": finite(estimate.value),
+        "low": finite(estimate.low),
+        "high": finite(estimate.high),
+    }
+    if None in entry.values():
+        entry["unbounded"] = True
+    return entry
+
+
+def _load(load: LoadReport) -> dict[str, Any]:
+    formula = load.formula
+    entry = {
+        "name": load.info.name,
+        **_estimate(load.estimate),
+        "unit": load.info.quantity.si,
+        "numerical_error": finite(load.estimate.numerical),
+        "model_error": finite(load.estimate.model),
+        "solver": load.solver,
+        "source": load.source,
+        "at": dict(load.at),
+    }
+    if load.window:
+        entry["window"] = list(load.window)
+    if formula:
+        entry["formula"] = {
+            "name": formula.name,
+            "value": finite(formula.value),
+            "ratio": finite(formula.ratio),
+        }
+    return entry
+
+
+def _place(place: Place) -> dict[str, Any]:
+    return {"path": list(place.path), "line": place.span.line, "column": place.span.column}
+
+
+def _check(judgement: Judgement) -> dict[str, Any]:
+    value, limit, repair = judgement.value, judgement.limit, judgement.repair
+    entry: dict[str, Any] = {
+        "code": judgement.code,
+        "title": judgement.title,
+        "verdict": judgement.verdict.value,
+        "value": finite(value.value) if value else None,
+        "low": finite(value.low) if value else None,
+        "high": finite(value.high) if value else None,
+        "limit": finite(limit.value) if limit else None,
+        "sense": judgement.sense.value,
+        "unit": judgement.quantity.si,
+        "margin": finite(judgement.margin),
+        "blame": _place(judgement.blame),
+    }
+    if judgement.reason:
+        entry["reason"] = judgement.reason
+    if judgement.without:
+        entry["without"] = list(judgement.without)
+    if repair:
+        entry["repair"] = {"path": list(repair.path), "value": repair.value, "unit": repair.quantity.si}
+    return entry

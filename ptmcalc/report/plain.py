@@ -1,0 +1,43 @@
+"""`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep."""
+
+from ptmcalc.contract.check import Sense
+from ptmcalc.contract.report import FileReport, Judgement, count
+from ptmcalc.report import words
+
+_RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
+
+
+def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
+    """All lines, and a summary."""
+    lines = [line for report in reports for line in _lines(report)]
+    return "\n".join([*lines, words.summary(count(reports))]) + "\n"
+
+
+def _lines(report: FileReport) -> list[str]:
+    lines = []
+    for diagnostic in report.diagnostics:
+        where = f"{report.path}:{words.place(diagnostic.span)}" if diagnostic.span else report.path
+        hint = f"; {diagnostic.hint}" if diagnostic.hint else ""
+        lines.append(f"{where}: {diagnostic.severity.value} {diagnostic.code} {diagnostic.message}{hint}")
+    for scene, judgement in words.worst_first(report):
+        where = f"{report.path}:{words.place(judgement.blame.span)}"
+        lines.append(
+            f"{where}: {judgement.verdict.value} {judgement.code} {judgement.title} [{scene}]{_said(judgement)}"
+        )
+    return lines
+
+
+def _said(judgement: Judgement) -> str:
+    parts = []
+    if judgement.value is not None and judgement.limit is not None:
+        limit = words.amount(judgement.limit, judgement.quantity)
+        parts.append(
+            f"{words.amount(judgement.value, judgement.quantity)}, {_RELATION[judgement.sense]} {limit} is sound"
+        )
+    if judgement.reason:
+        parts.append(judgement.reason)
+    if judgement.repair:
+        parts.append(f"{words.repair(judgement)} would pass")
+    if judgement.without:
+        parts.append(f"without {', '.join(judgement.without)}")
+    return ": " + "; ".join(parts) if parts else ""

@@ -1,0 +1,89 @@
+"""Words and numbers as every text format writes them."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import Span, dotted
+from ptmcalc.base.units import Quantity, digits, display_unit, unit_of
+from ptmcalc.contract.report import FileReport, Judgement
+
+
+def amount(estimate: Estimate, quantity: Quantity) -> str:
+    """A number with its bar: `83.56 ±0.36 kN`, `134.2 [134.2, 268.5] kN`, `189.5 kN` when the bar is invisible."""
+    value = estimate.value
+    if math.isinf(value):
+        return "unlimited" if value > 0 else "none"
+    if math.isnan(value):
+        return "unknown"
+    unit = display_unit(value, quantity)
+    factor = unit_of(unit)[0]
+    suffix = f" {unit}" if unit != "1" else ""
+    low, high, middle = estimate.low / factor, estimate.high / factor, value / factor
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return f"{digits(middle)}{suffix} (no bound)"
+    bar = max(high - middle, middle - low)
+    if bar <= 5e-5 * abs(middle):
+        return f"{digits(middle)}{suffix}"
+    if min(high - middle, middle - low) < 0.5 * bar:
+        return f"{digits(middle)} [{digits(low)}, {digits(high)}]{suffix}"
+    places = max(1 - math.floor(math.log10(bar)), 0)
+    return f"{middle:.{places}f} ±{bar:.{places}f}{suffix}"
+
+
+def number(value: float, quantity: Quantity) -> str:
+    """A number without a bar."""
+    return amount(Estimate.exact(value), quantity)
+
+
+def margin(judgement: Judgement) -> str:
+    """Distance from the limit: relative, or in the unit when the limit is 0."""
+    if judgement.margin is None or judgement.limit is None:
+        return ""
+    if math.isinf(judgement.margin):
+        return "unlimited"
+    if judgement.limit.value == 0:
+        return f"{'+' if judgement.margin >= 0 else ''}{number(judgement.margin, judgement.quantity)}"
+    return f"{100 * judgement.margin / abs(judgement.limit.value):+.1f} %"
+
+
+def relative_margin(judgement: Judgement) -> float:
+    """The margin as a share of the limit, or of the value where the limit is 0: what sorts verdicts."""
+    if judgement.margin is None or judgement.limit is None or judgement.value is None:
+        return math.inf
+    scale = abs(judgement.limit.value) or abs(judgement.value.value) or 1.0
+    return judgement.margin / scale
+
+
+def repair(judgement: Judgement) -> str:
+    """The value that would pass: `takeup.tension = 29.03 kN`."""
+    if judgement.repair is None:
+        return ""
+    return f"{dotted(judgement.repair.path)} = {number(judgement.repair.value, judgement.repair.quantity)}"
+
+
+def place(span: Span | None) -> str:
+    """`line:column`, or nothing where there is none."""
+    return f"{span.line}:{span.column}" if span else ""
+
+
+def worst_first(report: FileReport) -> list[tuple[str, Judgement]]:
+    """(scene, judgement) of a file, the worst verdict and the smallest margin first."""
+    rows = [(scene.name, judgement) for scene, judgement in report.judgements]
+    return sorted(rows, key=lambda row: (row[1].verdict.rank, relative_margin(row[1])))
+
+
+def summary(totals: dict[str, int]) -> str:
+    """One line that counts everything."""
+    files = f"{totals['files']} file{'' if totals['files'] == 1 else 's'}"
+    counted = [
+        f"{totals[key]} {label}"
+        for key, label in (
+            ("invalid", "invalid"),
+            ("fail", "failed"),
+            ("undecided", "undecided"),
+            ("not_checked", "not checked"),
+            ("waived", "waived"),
+        )
+        if totals[key]
+    ]
+    return ", ".join([files, f"{totals['pass']} checks passed", *counted])

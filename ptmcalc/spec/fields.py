@@ -1,0 +1,133 @@
+"""Field types of machine descriptions: text with a unit in the file, an SI float in the model.
+
+`Measure` reads the text, checks the dimension and the range, and describes itself to JSON Schema, so that an
+editor shows the unit and an example while the file is written.
+"""
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from ptmcalc.base import units
+from ptmcalc.base.units import Quantity, UnitError
+
+_CODES = {
+    "bare": "SPC106",
+    "comma": "SPC107",
+    "unit": "SPC108",
+    "dimension": "SPC105",
+    "finite": "SPC109",
+    "number": "SPC114",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """Annotation of a float field: its quantity and the range a sound machine keeps."""
+
+    quantity: Quantity
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+
+    def read(self, value: object) -> float:
+        """The SI value of what the file says, or a pydantic error with our code, reason and hint."""
+        try:
+            number = self._number(value)
+        except UnitError as error:
+            raise problem(_CODES[error.code], error.reason, error.hint) from None
+        if broken := self.broken_by(number):
+            raise problem("SPC110", f"`{value}` is out of range: it must be {broken}", f"write a value {broken}")
+        return number
+
+    def broken_by(self, number: float) -> str:
+        """The limit a number does not keep, in words, or an empty text."""
+        if self.above is not None and not number > self.above:
+            return f"greater than {units.show(self.above, self.quantity)}"
+        if self.at_least is not None and not number >= self.at_least:
+            return f"at least {units.show(self.at_least, self.quantity)}"
+        if self.at_most is not None and not number <= self.at_most:
+            return f"at most {units.show(self.at_most, self.quantity)}"
+        return ""
+
+    def _number(self, value: object) -> float:
+        if isinstance(value, str):
+            return units.read(value, self.quantity)
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise problem(
+                "SPC111",
+                f"expected a {self.quantity.name}, found {describe(value)}",
+                f"write e.g. `{self.quantity.example}`",
+            )
+        try:
+            number = float(value)
+        except OverflowError:
+            number = float("inf")
+        if number != number or number in (float("inf"), float("-inf")):
+            raise units.not_finite(".nan" if number != number else ".inf", self.quantity)
+        if self.quantity.dimension != units.RATIO.dimension:
+            raise units.bare_number(value, self.quantity)
+        return number
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        form: dict[str, Any] = {"type": "string", "examples": [self.quantity.example]}
+        if self.quantity.dimension == units.RATIO.dimension:
+            form = {"type": ["number", "string"], "examples": [float(self.quantity.example), "94 %"]}
+        form["x-quantity"] = self.quantity.name
+        form["x-units"] = list(self.quantity.display)
+        for key, limit in (
+            ("x-above", self.above),
+            ("x-at-least", self.at_least),
+            ("x-at-most", self.at_most),
+        ):
+            if limit is not None:
+                form[key] = units.show(limit, self.quantity)
+        return form
+
+
+def problem(code: str, reason: str, hint: str = "") -> PydanticCustomError:
+    """A validation error that carries our code and a copyable fix."""
+    return PydanticCustomError("ptmcalc", "{reason}", {"code": code, "reason": reason, "hint": hint})
+
+
+def describe(value: object) -> str:
+    """What a value is, in the words of the file."""
+    if isinstance(value, dict):
+        return "a mapping"
+    if isinstance(value, list):
+        return "a list"
+    return "nothing" if value is None else f"`{value}`"
+
+
+Ratio = Annotated[float, Measure(units.RATIO)]
+PositiveRatio = Annotated[float, Measure(units.RATIO, above=0)]
+Fraction = Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)]
+Efficiency = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
+Mass = Annotated[float, Measure(units.MASS, at_least=0)]
+PositiveMass = Annotated[float, Measure(units.MASS, above=0)]
+PositiveLength = Annotated[float, Measure(units.LENGTH, above=0)]
+PositiveSpan = Annotated[float, Measure(units.SPAN, above=0)]
+Height = Annotated[float, Measure(units.SPAN)]
+Time = Annotated[float, Measure(units.TIME, at_least=0)]
+PositiveTime = Annotated[float, Measure(units.TIME, above=0)]
+PositiveAngle = Annotated[float, Measure(units.ANGLE, above=0)]
+PositiveSpeed = Annotated[float, Measure(units.SPEED, above=0)]
+PositiveAngularSpeed = Annotated[float, Measure(units.ANGULAR_SPEED, above=0)]
+PositiveAcceleration = Annotated[float, Measure(units.ACCELERATION, above=0)]
+Force = Annotated[float, Measure(units.FORCE, at_least=0)]
+PositiveForce = Annotated[float, Measure(units.FORCE, above=0)]
+LineMass = Annotated[float, Measure(units.LINE_MASS, at_least=0)]
+PositiveLineMass = Annotated[float, Measure(units.LINE_MASS, above=0)]
+PositiveLineForce = Annotated[float, Measure(units.LINE_FORCE, above=0)]
+PositiveLineStiffness = Annotated[float, Measure(units.LINE_STIFFNESS, above=0)]
+MassFlow = Annotated[float, Measure(units.FLOW, at_least=0)]
+PositiveTorque = Annotated[float, Measure(units.TORQUE, above=0)]
+Torque = Annotated[float, Measure(units.TORQUE, at_least=0)]
+Inertia = Annotated[float, Measure(units.INERTIA, at_least=0)]
+PositiveInertia = Annotated[float, Measure(units.INERTIA, above=0)]

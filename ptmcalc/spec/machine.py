@@ -1,0 +1,99 @@
+"""What every machine description has besides the machine itself."""
+
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from ptmcalc.base.span import KeyPath
+from ptmcalc.spec.fields import Efficiency, PositiveAcceleration
+from ptmcalc.spec.scene import Fragment, Scene
+
+Accuracy = Efficiency
+"""A relative error asked for: above 0, at most 1."""
+
+
+class CheckSwitch(Fragment):
+    """Takes one check off the list of this file, with the reason."""
+
+    off: Annotated[str, Field(min_length=1)]
+    """why the check does not apply to this machine"""
+
+
+class CheckSettings(BaseModel):
+    """Limits a standard or a company sets, and checks switched off by code: `CNV104: {off: "reason"}`.
+
+    Codes are open here because the kind, not the model, knows them; the loader refuses any other extra key.
+    """
+
+    model_config = ConfigDict(extra="allow", frozen=True, use_attribute_docstrings=True)
+    __pydantic_extra__: dict[str, CheckSwitch]
+
+    def switched_off(self, code: str) -> str:
+        """The reason the file gives for leaving this check out, or an empty text."""
+        switch = (self.__pydantic_extra__ or {}).get(code)
+        return switch.off if switch else ""
+
+
+class MachineSpec(Fragment):
+    """Base of every kind's description."""
+
+    kind: str
+    name: str = Field(default="", max_length=200)
+    """what the machine is called, on the report"""
+    description: str = ""
+    """anything a reader of the file should know"""
+    gravity: PositiveAcceleration = 9.81
+    """acceleration of gravity; 9.81 m/s^2 when left out"""
+    accuracy: Accuracy | None = None
+    """relative error asked of the governing loads, e.g. `1 %`; without it accuracy is bought only where a
+    verdict needs it"""
+    effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
+    """effects of the physics forced on or off; every verdict without a forced-off effect says so"""
+
+    @property
+    def all_scenes(self) -> Sequence[Scene]:
+        """The scenes of the file, or the kind's default ones."""
+        raise TypeError(f"{type(self).__name__} defines no scenes")
+
+    @property
+    def settings(self) -> CheckSettings:
+        """The limits and switches of the file's `checks:` block."""
+        return CheckSettings()
+
+    def with_value(self, path: KeyPath, value: object) -> Self:
+        """A copy in which the value at `path` (SI, already valid) is replaced."""
+        changed: Self = replaced(self, path, value)
+        return changed
+
+    def value_at(self, path: KeyPath) -> Any:
+        """The value at `path`, or None where the file leaves a part of the way out."""
+        node: Any = self
+        for step in path:
+            if isinstance(node, BaseModel):
+                node = getattr(node, attribute(node, str(step)), None)
+            elif isinstance(node, dict):
+                node = node.get(step)
+            elif isinstance(node, tuple | list) and isinstance(step, int) and step < len(node):
+                node = node[step]
+            else:
+                return None
+        return node
+
+
+def attribute(model: BaseModel, key: str) -> str:
+    """The attribute that holds a key of the file: the same word, unless the key is a reserved one."""
+    return next((name for name, field in type(model).model_fields.items() if field.alias == key), key)
+
+
+def replaced(node: Any, path: KeyPath, value: object) -> Any:
+    """A copy of a model, list or mapping with the value at `path` replaced."""
+    if not path:
+        return value
+    step, rest = path[0], path[1:]
+    if isinstance(node, BaseModel):
+        name = attribute(node, str(step))
+        return node.model_copy(update={name: replaced(getattr(node, name), rest, value)})
+    if isinstance(node, tuple | list) and isinstance(step, int):
+        return type(node)(replaced(item, rest, value) if i == step else item for i, item in enumerate(node))
+    return {**node, step: replaced(node.get(step), rest, value)}
