@@ -67,6 +67,31 @@ def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     return np.asarray(area + np.maximum(times - rise_time, 0))
 
 
+def rise_rate(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+    """Slope of `rise`.
+
+        ramp: 1/t_s      cosine: pi/(2 t_s) sin(pi t/t_s)      each 0 after t_s
+
+    Args:
+        shape: `ramp` or `cosine`.
+        rise_time: t_s [s].
+        time: t [s].
+
+    Returns:
+        slope [Hz].
+
+    **Range** t >= 0, t_s > 0; at t_s itself the slope from the left.
+    **Error** exact.
+    **Source** derivative of `rise`.
+    """
+    times = np.asarray(time, float)
+    inside = times <= rise_time
+    slope = np.full_like(times, 1 / rise_time)
+    if shape == COSINE:
+        slope = np.pi / (2 * rise_time) * np.sin(np.pi * np.minimum(times / rise_time, 1.0))
+    return np.where(inside, slope, 0.0)
+
+
 def peak_rate(shape: str, rise_time: float) -> float:
     """Steepest slope of `rise`.
 

@@ -45,7 +45,7 @@ def largest(values: FloatArray, step: float) -> tuple[float, float]:
         height = np.where(inside, np.minimum(f2 + b * x + a * x**2, f3 + d * y + c * y**2), -np.inf)
         at = int(np.argmax(height))
         if height[at] > best:
-            best, place = float(height[at]), (cells[at] + x[at]) * step
+            best, place = float(height[at]), float(cells[at] + x[at]) * step
     return best, place
 
 

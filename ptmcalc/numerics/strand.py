@@ -17,15 +17,6 @@ corners of the solution are samples of it.
 **Grip.** With a friction exponent mu alpha given, the belt sticks to the drum while the tight side is below
 exp(mu alpha) times the slack side (both less rho v^2). Slip begins and ends at the root of that condition inside
 a step; while slipping the belt speed follows from the friction law and the drum moves on its own.
-
-**Sag.** A sagging span adds the compliance d eps/dS = (w l)^2/(12 S^3) of Ernst to the belt. It is lumped at the
-nodes: at a node the two strands' ends separate at the rate of the lump's stretch, which gives with
-sigma(S) = -(w l)^2/(24 S^2), by the trapezoidal rule,
-
-    S_new + EA sigma(S_new) = S_free,new + S_free,old - S_old + EA sigma(S_old),    S_free = S_static + (P + N)/2
-
-one monotone equation per node with exactly one positive root: the tension of a sagging belt never falls to zero.
-The rule conserves energy and is unconditionally stable.
 """
 
 import math
@@ -34,154 +25,15 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
-from ptmcalc.numerics.peaks import largest, smallest
+from ptmcalc.numerics.loop import Drive, Extreme, FloatArray, Grid, Loop, Motion, Strand, at_end, steps_of
 
-FloatArray = NDArray[np.float64]
-
-MOST_STEPS = 4_000_000
 _EVENTS_PER_STEP = 8
-_NEWTON_STEPS = 60
+_ROOT_STEPS = 60
 _Peak = tuple[float, int]
 """A value, with its sign turned where the smallest is wanted, and the sample it occurs at."""
-_BLOCK = 128
-
-
-@dataclass(frozen=True, slots=True)
-class Strand:
-    """A uniform strand: length [m], mass per length [kg/m], tensile stiffness [N]; its static tension is linear
-    from `static_start` to `static_end` [N]; `span_weight` is the weight on one idler pitch [N], 0 for no sag."""
-
-    length: float
-    line_mass: float
-    stiffness: float
-    static_start: float
-    static_end: float
-    span_weight: float = 0.0
-
-    @property
-    def speed(self) -> float:
-        """Wave speed [m/s]."""
-        return math.sqrt(self.stiffness / self.line_mass)
-
-    @property
-    def transit(self) -> float:
-        """Travel time of a wave along the strand [s]."""
-        return self.length / self.speed
-
-    def static(self, x: FloatArray) -> FloatArray:
-        """Static tension at fractions x of the length [N]."""
-        return self.static_start + (self.static_end - self.static_start) * x
-
-
-@dataclass(frozen=True, slots=True)
-class Grip:
-    """Friction between belt and drum: exponent mu alpha [1] and mass per length of the bare belt [kg/m]."""
-
-    exponent: float
-    belt_line_mass: float
-
-
-@dataclass(frozen=True, slots=True)
-class Loop:
-    """Two strands, the drum and the tail; `impedance_jump` False treats the return strand as if it had the
-    impedance of the carry strand (its travel time stays)."""
-
-    carry: Strand
-    back: Strand
-    drum_mass: float
-    tail_mass: float
-    fixed_length: bool
-    grip: Grip | None = None
-    impedance_jump: bool = True
-
-    @property
-    def impedances(self) -> tuple[float, float]:
-        """Z of carry and return strand [N*s/m]."""
-        z_carry = math.sqrt(self.carry.line_mass * self.carry.stiffness)
-        z_back = math.sqrt(self.back.line_mass * self.back.stiffness)
-        return z_carry, z_back if self.impedance_jump else z_carry
-
-
-@dataclass(frozen=True, slots=True)
-class Drive:
-    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]."""
-
-    force: Callable[[FloatArray], FloatArray] | None = None
-    speed: Callable[[FloatArray], FloatArray] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Grid:
-    """Steps of time: `carry` and `back` cells per strand; `mismatch` is the relative error of the travel times."""
-
-    step: float
-    carry: int
-    back: int
-    mismatch: float
-
-
-@dataclass(frozen=True, slots=True)
-class Extreme:
-    """A value, the time [s] and the position along the belt from the run-off [m] where it occurs."""
-
-    value: float
-    time: float
-    position: float
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """The answer of a loop, sampled at `times` (shape (n,)); tensions are whole ones, static part included.
-
-    `waves` (shape (4, n)) are the waves that leave the drum, the tail into either strand, and the run-off.
-    """
-
-    grid: Grid
-    times: FloatArray
-    waves: FloatArray
-    belt_speed: FloatArray
-    drum_speed: FloatArray
-    run_on: FloatArray
-    run_off: FloatArray
-    carry_max: Extreme
-    carry_min: Extreme
-    back_max: Extreme
-    back_min: Extreme
-    slipped: bool
-    reversed: bool
-    energy_residual: float
-    cell_updates: int
-
-    def largest(self, values: FloatArray) -> tuple[float, float]:
-        """Largest value of a sampled history and its time."""
-        return largest(values, self.grid.step)
-
-    def smallest(self, values: FloatArray) -> tuple[float, float]:
-        """Smallest value of a sampled history and its time."""
-        return smallest(values, self.grid.step)
-
-
-def match(first: float, second: float, at_least: int, tolerance: float, at_most: int = 8192) -> Grid:
-    """The coarsest grid that divides both travel times to `tolerance`, or the best one up to `at_most` cells.
-
-    Both times share the mismatch so that their sum is exact.
-    """
-    carry = np.arange(at_least, max(at_most, at_least) + 1)
-    back = np.maximum(1, np.rint(carry * (second / first)))
-    step = (first + second) / (carry + back)
-    mismatch = np.maximum(np.abs(carry * step / first - 1), np.abs(back * step / second - 1))
-    good = mismatch <= tolerance
-    best = int(np.argmax(good)) if good.any() else int(np.argmin(mismatch))
-    return Grid(float(step[best]), int(carry[best]), int(back[best]), float(mismatch[best]))
-
-
-def refined(grid: Grid) -> Grid:
-    """The same grid with every cell halved."""
-    return Grid(grid.step / 2, grid.carry * 2, grid.back * 2, grid.mismatch)
 
 
 def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
@@ -191,17 +43,11 @@ def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
         NumericsError: NUM101 when the window needs more steps than MOST_STEPS, when slip and stick alternate
             without end inside a step, or when the belt lifts off the drum by its own centrifugal force.
     """
-    steps = max(math.ceil(window / grid.step - 1e-9), 1)
-    if steps > MOST_STEPS:
-        raise NumericsError("NUM101", f"the window of {window:.4g} s needs {steps} steps of {grid.step:.3g} s")
+    steps, last_share = steps_of(window, grid)
     times = np.arange(steps + 1, dtype=np.float64) * grid.step
-    last_share = window / grid.step - (steps - 1)  # the window ends inside the last step
     drum = _Drum(loop, drive, times, grid.step)
     tail = _Node(loop.tail_mass, sum(loop.impedances), grid.step)
-    if loop.carry.span_weight > 0 or loop.back.span_weight > 0:
-        interior: _Sagging | _Delays = _Sagging(loop, grid, steps, last_share)
-    else:
-        interior = _Delays(loop, grid, steps, last_share)
+    interior = _Delays(loop, grid, steps, last_share)
     interior.run(drum, tail)
     return _motion(loop, grid, times, last_share, drum, tail, interior)
 
@@ -404,7 +250,7 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
     if f_low * f_high >= 0:
         return low
     side = 0
-    for _ in range(_NEWTON_STEPS):
+    for _ in range(_ROOT_STEPS):
         middle = (low * f_high - high * f_low) / (f_high - f_low)
         f_middle = function(middle)
         if f_middle == 0 or high - low < 1e-13:
@@ -475,7 +321,7 @@ class _Delays:
         def node(side: int, i: int) -> _Peak:
             if i not in seen:
                 tension = static[i] + (p[i : i + length] + n[cells - i : cells - i + length]) / 2
-                tension[-1] = _at_end(tension, self.last_share)
+                tension[-1] = at_end(tension, self.last_share)
                 top, bottom = int(tension.argmax()), int(tension.argmin())
                 seen[i] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
             return seen[i][side]
@@ -525,168 +371,6 @@ def _best_node(value: Callable[[int], _Peak], cells: int, steepest: float) -> in
     return best
 
 
-def _at_end(history: FloatArray, share: float) -> float:
-    """Value of a history that ends inside its last step, after a share of it, by the parabola of three samples."""
-    if len(history) < 3:
-        return float(history[-2] + share * (history[-1] - history[-2]))
-    before, start, end = history[-3:]
-    return float(start + share * (end - before) / 2 + share**2 * (end - 2 * start + before) / 2)
-
-
-class _Sagging:
-    """Strands with sag: every node is carried, with the compliance of the sagging spans lumped at the inner ones."""
-
-    def __init__(self, loop: Loop, grid: Grid, steps: int, last_share: float) -> None:
-        self.loop, self.grid, self.steps, self.last_share = loop, grid, steps, last_share
-        self.inner = (grid.back - 1, grid.carry - 1)
-        parts = []
-        for strand, cells in ((loop.back, grid.back), (loop.carry, grid.carry)):
-            share = np.ones(cells - 1)
-            if cells > 1:
-                share[0] += 0.5  # the half cells at both ends
-                share[-1] += 0.5
-            lump = share * strand.stiffness * strand.span_weight**2 / 24
-            parts.append((strand.static(np.arange(1, cells) / cells), lump))
-        self.static = np.concatenate([parts[0][0], parts[1][0]])
-        self.lump = np.concatenate([parts[0][1], parts[1][1]])
-        if (self.static <= 0).any():
-            raise NumericsError(
-                "NUM102", "a sagging belt cannot hang without tension: its static tension is not positive"
-            )
-        self.tension = self.static
-        n = steps + 1
-        self.from_drum, self.into_carry, self.into_back, self.from_off = (
-            [0.0] * n,
-            [0.0] * n,
-            [0.0] * n,
-            [0.0] * n,
-        )
-        self.tail_speed = [0.0] * n
-        self.ends: dict[str, list[float]] = {name: [0.0] * n for name in ("on", "off", "tail_back", "tail_carry")}
-        self.seen = _Seen(self.static, self.inner[0])
-        self.held = 0.0
-        self.cell_updates = steps * (grid.carry + grid.back)
-
-    def run(self, drum: _Drum, tail: _Node) -> None:
-        z_carry, z_back = self.loop.impedances
-        fixed = self.loop.fixed_length
-        m = self.inner[0]
-        # every cell holds one P, which left its upper node, and one N, which left its lower node
-        p_back, n_back = np.zeros(self.grid.back), np.zeros(self.grid.back)
-        p_carry, n_carry = np.zeros(self.grid.carry), np.zeros(self.grid.carry)
-        free_old = before = tension = self.static
-        lump, static = self.lump, self.static
-        for k in range(1, self.steps + 1):
-            n_on, p_tail = float(n_carry[-1]), float(p_carry[0])
-            n_tail, p_off = float(n_back[-1]), float(p_back[0])
-            p_in = np.concatenate([p_back[1:], p_carry[1:]])
-            n_in = np.concatenate([n_back[:-1], n_carry[:-1]])
-            free = static + (p_in + n_in) / 2
-            target = free + free_old - tension - lump / tension**2
-            before, tension = tension, _sag_tension(target, lump, tension, before)
-            free_old = free
-            swing = 2 * (tension - static)
-            p_out, n_out = swing - n_in, swing - p_in
-            self.seen.note(k, tension if k < self.steps else before + self.last_share * (tension - before))
-            belt = drum.step(k, n_on, p_off)
-            v_tail = tail.step(p_tail - n_tail)
-            self.tail_speed[k] = v_tail
-            self.from_drum[k] = n_on + 2 * z_carry * belt
-            self.from_off[k] = p_off - 2 * z_back * belt if fixed else -p_off
-            self.into_carry[k] = p_tail - 2 * z_carry * v_tail
-            self.into_back[k] = n_tail + 2 * z_back * v_tail
-            self.ends["on"][k] = n_on + z_carry * belt
-            self.ends["off"][k] = (p_off + self.from_off[k]) / 2
-            self.ends["tail_back"][k] = (self.into_back[k] + n_tail) / 2
-            self.ends["tail_carry"][k] = (p_tail + self.into_carry[k]) / 2
-            arrived = (p_back, p_carry, n_back, n_carry)
-            p_back, p_carry = np.append(p_out[:m], self.into_back[k]), np.append(p_out[m:], self.from_drum[k])
-            n_back = np.concatenate([[self.from_off[k]], n_out[:m]])
-            n_carry = np.concatenate([[self.into_carry[k]], n_out[m:]])
-        self.tension = tension
-        self.seen.flush()
-        # over a cell a wave goes from its value on arrival, one step old, to the one that just left
-        for old, new, z in zip(arrived, (p_back, p_carry, n_back, n_carry), (z_back, z_carry) * 2, strict=True):
-            self.held += float(np.sum(old**2 + new**2)) * self.grid.step / (8 * z)
-
-    def extremes(self, strand: Strand, carry: bool) -> tuple[Extreme, Extreme]:
-        """Largest and smallest tension of any node of a strand at any sample."""
-        cells = self.grid.carry if carry else self.grid.back
-        names = ("tail_carry", "on") if carry else ("off", "tail_back")
-        ends = []
-        for name, node, static in ((names[0], 0, strand.static_start), (names[1], cells, strand.static_end)):
-            history = np.asarray(self.ends[name])
-            history[-1] = _at_end(history, self.last_share)
-            ends.append((static + history, node))
-        found = []
-        for sign, inside in zip((1, -1), self.seen.carry if carry else self.seen.back, strict=True):
-            places = [inside]
-            for history, node in ends:
-                sample = int(np.argmax(sign * history))
-                places.append((sign * float(history[sample]), sample, node))
-            value, sample, node = max(places)
-            found.append(Extreme(sign * value, sample * self.grid.step, node / cells * strand.length))
-        return found[0], found[1]
-
-    def stored(self) -> float:
-        """Energy of the waves on both strands and of the sagging spans at the end [J]."""
-        z = np.repeat(self.loop.impedances[::-1], self.inner)
-        swing = (self.tension - self.static) ** 2 / (self.tension**2 * self.static)
-        return self.held + float(np.sum(self.lump * swing / z)) * self.grid.step
-
-    @property
-    def reversed(self) -> bool:
-        """Whether the tail ran backwards by more than rounding."""
-        return min(self.tail_speed) < -1e-6 * max(max(self.tail_speed), 1e-300)
-
-
-class _Seen:
-    """Extremes of the inner nodes of both strands, gathered in blocks: (signed value, sample, node of its strand),
-    the largest first, then the smallest with its sign turned."""
-
-    def __init__(self, static: FloatArray, split: int) -> None:
-        self.split = split
-        self.block = np.empty((_BLOCK, len(static)))
-        self.rows: list[int] = []
-        nothing = (-math.inf, 0, 0)
-        self.back, self.carry = [nothing, nothing], [nothing, nothing]
-        self.note(0, static)
-
-    def note(self, k: int, tension: FloatArray) -> None:
-        """Take in the tensions of sample k."""
-        self.block[len(self.rows)] = tension
-        self.rows.append(k)
-        if len(self.rows) == _BLOCK:
-            self.flush()
-
-    def flush(self) -> None:
-        """Bring the extremes up to date."""
-        held = self.block[: len(self.rows)]
-        for part, best in ((held[:, : self.split], self.back), (held[:, self.split :], self.carry)):
-            if part.size:
-                for side, sign in enumerate((1, -1)):
-                    row, node = divmod(int(np.argmax(sign * part)), part.shape[1])
-                    best[side] = max(best[side], (sign * float(part[row, node]), self.rows[row], node + 1))
-        self.rows = []
-
-
-def _sag_tension(target: FloatArray, lump: FloatArray, last: FloatArray, before: FloatArray) -> FloatArray:
-    """The positive root S of S - lump/S^2 = target, node by node, by Newton's method from the extrapolated tension.
-
-    The left side rises from -infinity and is concave: Newton's steps from below the root approach it from below, a
-    step from above it lands below; one that would leave the positive side is cut to a quarter.
-    """
-    tension = np.maximum(2 * last - before, last / 2)
-    for _ in range(_NEWTON_STEPS):
-        give = lump / (tension * tension * tension)
-        change = (tension * (1 - give) - target) / (1 + 2 * give)
-        new: FloatArray = np.maximum(tension - change, tension / 4)
-        if np.abs(new - tension).max() <= 1e-7 * new.min():
-            return new  # quadratic convergence: the next step would change less than rounding
-        tension = new
-    raise NumericsError("NUM101", "the tension of the sagging belt did not converge")
-
-
 def _motion(
     loop: Loop,
     grid: Grid,
@@ -694,7 +378,7 @@ def _motion(
     last_share: float,
     drum: _Drum,
     tail: _Node,
-    interior: "_Delays | _Sagging",
+    interior: _Delays,
 ) -> Motion:
     belt, rim = np.asarray(drum.belt), np.asarray(drum.drum)
     on, off = np.asarray(drum.on), np.asarray(drum.off)
@@ -702,8 +386,8 @@ def _motion(
     back_max, back_min = interior.extremes(loop.back, carry=False)
     ahead = loop.back.length
     residual = _balance(loop, drum, tail, interior, belt, rim, on, off, grid.step)
-    for history in (belt, rim, on, off):
-        history[-1] = _at_end(history, last_share)
+    for history in (times, belt, rim, on, off):
+        history[-1] = at_end(history, last_share)
     return Motion(
         grid=grid,
         times=times,
@@ -727,7 +411,7 @@ def _balance(
     loop: Loop,
     drum: _Drum,
     tail: _Node,
-    interior: "_Delays | _Sagging",
+    interior: _Delays,
     belt: FloatArray,
     rim: FloatArray,
     on: FloatArray,

@@ -1,6 +1,6 @@
 """What can be said about a start without simulating it: the rigid body's loads, and intervals that hold the truth.
 
-The intervals rest on `laws.loop.stray`: at every section and time the tension of a linear undamped loop lies
+The intervals rest on `laws.loop_bounds.stray`: at every section and time the tension of a linear undamped loop lies
 within a b(s) x stray of its quasi-static value, phase by phase of the start. At the run-on of a gravity take-up
 under a torque the dynamic tension is never negative either.
 """
@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Estimate, Interval
-from ptmcalc.laws import capstan, loop, sag, wave
-from ptmcalc.laws.loop import CARRY, RETURN
+from ptmcalc.laws import capstan, loop_bounds, sag, wave
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
@@ -72,17 +72,17 @@ class Enclosure:
 def rigid_tension(case: StartCase, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest tension of the rigid body at fractions x of a strand [N]."""
     static = case.line.static(strand, x)
-    swing = case.acceleration * loop.quasi_static(case.masses, strand, x)
+    swing = case.acceleration * loop_bounds.quasi_static(case.masses, strand, x)
     return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
 
 
 def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
     """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
-    slowest = loop.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
+    slowest = loop_bounds.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
     leak = 1.0
     steady = case.window - case.rise
     if not case.imposed_speed and steady > 0:
-        leak = loop.window_leak(slowest, steady)
+        leak = loop_bounds.window_leak(slowest, steady)
     back, carry = (_over_strand(case, strand, slowest, leak, softening) for strand in _STRANDS)
     on, on_together = _at_drum(case, CARRY, 1.0, slowest, leak, softening)
     off, off_together = _at_drum(case, RETURN, 0.0, slowest, leak, softening)
@@ -98,11 +98,11 @@ def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
 
 def stray_ratio(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value over the static tension, over all sections."""
-    slowest = loop.lowest_frequency_bound(case.masses)
+    slowest = loop_bounds.lowest_frequency_bound(case.masses)
     factor = max(phase.stray for phase in case.phases(slowest))
     ratio = 0.0
     for strand in _STRANDS:
-        swing = case.acceleration * loop.stray(case.masses, strand, _X) * factor
+        swing = case.acceleration * loop_bounds.stray(case.masses, strand, _X) * factor
         static = case.line.static(strand, _X)
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = max(ratio, float(np.max(np.where(static > 0, swing / static, np.where(swing > 0, np.inf, 0)))))
@@ -113,8 +113,8 @@ def _band(
     case: StartCase, strand: int, x: FloatArray, slowest: float, softening: float
 ) -> tuple[FloatArray, FloatArray]:
     """Lowest and highest tension at fractions x of a strand over the whole start."""
-    static, r = case.line.static(strand, x), loop.quasi_static(case.masses, strand, x)
-    b = loop.stray(case.masses, strand, x)
+    static, r = case.line.static(strand, x), loop_bounds.quasi_static(case.masses, strand, x)
+    b = loop_bounds.stray(case.masses, strand, x)
     low, high = np.full_like(static, np.inf), np.full_like(static, -np.inf)
     for phase in case.phases(slowest):
         ends = np.array([phase.low, phase.high])[:, None] * r
@@ -164,8 +164,8 @@ def _surely_reached(
     """Values the smallest tension is surely not above, and the largest surely not below, section by section:
     the static value, or what the plateau leaves within the stray."""
     static = case.line.static(strand, x)
-    plateau = static + case.acceleration * loop.quasi_static(case.masses, strand, x)
-    slack = case.acceleration * loop.stray(case.masses, strand, x) * _nearness(case, slowest, leak)
+    plateau = static + case.acceleration * loop_bounds.quasi_static(case.masses, strand, x)
+    slack = case.acceleration * loop_bounds.stray(case.masses, strand, x) * _nearness(case, slowest, leak)
     slack += _softened_shift(case, softening)
     return np.minimum(static, plateau + slack), np.maximum(static, plateau - slack)
 
@@ -179,8 +179,8 @@ def _at_drum(
     low, high = (float(end[0]) for end in _band(case, strand, at, slowest, softening))
     below, above = (float(end[0]) for end in _surely_reached(case, strand, at, slowest, leak, softening))
     static = float(case.line.static(strand, at)[0])
-    plateau = static + case.acceleration * float(loop.quasi_static(case.masses, strand, at)[0])
-    slack = case.acceleration * float(loop.stray(case.masses, strand, at)[0]) * _nearness(case, slowest, leak)
+    plateau = static + case.acceleration * float(loop_bounds.quasi_static(case.masses, strand, at)[0])
+    slack = case.acceleration * float(loop_bounds.stray(case.masses, strand, at)[0]) * _nearness(case, slowest, leak)
     slack += _softened_shift(case, softening)
     if strand == RETURN:
         return Range(Interval(above, high), Interval(low, below)), plateau + slack
@@ -425,13 +425,13 @@ def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -
     low = max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0
     moved = {"slip_utilisation_max": _around(used, [low, high])}
     if "slip_reserve_min" in loads:
-        ends = [_reserve_of(value, line.grip_exponent) for value in (low, high)]
+        ends = [reserve_of(value, line.grip_exponent) for value in (low, high)]
         moved["slip_reserve_min"] = _around(loads["slip_reserve_min"].value, ends)
     return moved
 
 
-def _reserve_of(utilisation: float, exponent: float) -> float:
-    """Reserve of friction force at a utilisation."""
+def reserve_of(utilisation: float, exponent: float) -> float:
+    """Reserve of friction force at a utilisation: k = (exp(mu alpha) - 1)/(U exp(mu alpha) - 1)."""
     if not np.isfinite(utilisation):
         return 0.0
     pull = utilisation - np.exp(-exponent)

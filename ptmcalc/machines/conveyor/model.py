@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.laws import inertia, motor, resistance, start_profile, wave
-from ptmcalc.laws.loop import CARRY, RETURN, LoopMasses
+from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
 
 FloatArray = NDArray[np.float64]
@@ -232,6 +232,10 @@ class StartCase:
     def drum_speed(self, time: FloatArray) -> FloatArray:
         """Imposed speed of the drum [m/s]."""
         return self.line.speed * start_profile.rise(self.shape, self.rise_time, time)
+
+    def drum_acceleration(self, time: FloatArray) -> FloatArray:
+        """Rate of the imposed speed of the drum [m/s^2]."""
+        return self.line.speed * start_profile.rise_rate(self.shape, self.rise_time, time)
 
     def phases(self, lowest_frequency: float) -> tuple[start_profile.Phase, ...]:
         """Bounds on the answer of every mode of at least this frequency [rad/s], relative to the plateau's.

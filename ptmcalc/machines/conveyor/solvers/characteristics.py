@@ -1,6 +1,7 @@
 """A start by the method of characteristics: waves on both strands, tail, take-up, slip and sag in one run."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,18 +12,21 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
-from ptmcalc.laws.loop import CARRY, RETURN
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.laws.sag import tension_at_sag
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.model import StartCase, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.numerics import strand
+from ptmcalc.numerics import loop, sagging, strand
 
 FloatArray = NDArray[np.float64]
 
-_FEWEST, _MOST_CELLS = 16, 400
+_FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 400, 100
+_MARGIN, _SAGGING_MARGIN = 1.5, 3.0  # on errors estimated from two grids
+_SHIFT_STEPS = 2
 _STEPS_PER_SCALE = 20
-_SECONDS = {"delays": (2.5e-6, 2.0e-9), "grip": (4.5e-6, 2.0e-9), "sag": (9e-5, 1.1e-7)}
+_SECONDS = {"delays": (1.4e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.7e-8)}
+_OVERHEAD = 1.5e-3
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -33,23 +37,29 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
     **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
     backward leaves it, which the result says.
-    **Error** the run is made on a grid and on its refinement. Two histories that differ by at most d have extremes
-    that differ by at most d, so the bar of a tension is the largest difference of the waves leaving drum, tail and
-    take-up between both grids, over 3 (the error of the finer grid at second order) or over 1 where slip or sag
-    make corners between grid lines. The mismatch of the travel times shifts every echo by at most that part of the
-    elapsed time; its share of the bar is that shift times the steepest slope.
+    **Error** the run is made on two grids, the finer with half the step. Histories that differ by at most d have
+    extremes that differ by at most d. Without sag d is the largest difference of the waves that leave drum, tail and
+    take-up on both grids; at second order a third of it is the error of the finer grid, and 1.5 times that is the
+    bar (the whole of it where slip begins between grid lines). The mismatch of the travel times shifts every echo
+    by at most that part of the elapsed time, which adds that shift times the steepest slope. With sag a steep
+    front that moves a little differs by its whole height, which no extreme does; there d is the largest difference
+    that no shift by a few steps explains, times 3, and not below what the history bends between two samples at
+    its extremes.
     **Source** method of characteristics; drum and tail by the exponential step; derived in `numerics.strand`.
     """
     case = start_case(spec, scene)
     if not case.moves:
         raise NumericsError("NUM102", "the drive does not move the belt: there is no motion to simulate")
-    grid = _grid(case, carried, level)
-    loop, drive = _loop(case, carried), _drive(case)
-    coarse = strand.march(loop, drive, case.window, grid)
-    fine = strand.march(loop, drive, case.window, strand.refined(grid))
-    rough = fine.slipped or "sag" in carried
-    bar = _wave_error(coarse, fine, 1.0 if rough else 3.0) + _shift_error(fine, case.window)
-    loads = _loads(case, fine, bar)
+    belt, drive, grid = _loop(case, carried), _drive(case), _grid(case, carried, level)
+    if "sag" in carried:
+        coarse = sagging.march(belt, drive, case.window, grid)
+        fine = sagging.march(belt, drive, case.window, loop.refined(grid))
+        bars = _sagging_bars(case, coarse, fine)
+    else:
+        coarse = strand.march(belt, drive, case.window, grid)
+        fine = strand.march(belt, drive, case.window, loop.refined(grid))
+        bars = _straight_bars(case, coarse, fine)
+    loads = _loads(case, fine, bars)
     findings = _findings(case, fine, "sag" in carried)
     if any(finding.code == "NUM102" for finding in findings):
         loads = {name: _beyond_range(name, found) for name, found in loads.items()}
@@ -74,18 +84,18 @@ def _beyond_range(name: str, found: Found) -> Found:
     return Found(Estimate.unknown(estimate.value), found.at)
 
 
-def _loop(case: StartCase, carried: frozenset[str]) -> strand.Loop:
+def _loop(case: StartCase, carried: frozenset[str]) -> loop.Loop:
     line = case.line
 
-    def one(which: int) -> strand.Strand:
+    def one(which: int) -> loop.Strand:
         part, (start, end) = line.strand(which), line.static_ends(which)
         span = part.span_weight if "sag" in carried else None
-        return strand.Strand(part.length, part.line_mass, line.stiffness, start, end, span or 0.0)
+        return loop.Strand(part.length, part.line_mass, line.stiffness, start, end, span or 0.0)
 
     grip = None
     if "slip" in carried and line.grip_exponent is not None:
-        grip = strand.Grip(line.grip_exponent, line.belt_line_mass)
-    return strand.Loop(
+        grip = loop.Grip(line.grip_exponent, line.belt_line_mass)
+    return loop.Loop(
         carry=one(CARRY),
         back=one(RETURN),
         drum_mass=line.drive_mass,
@@ -96,8 +106,8 @@ def _loop(case: StartCase, carried: frozenset[str]) -> strand.Loop:
     )
 
 
-def _drive(case: StartCase) -> strand.Drive:
-    return strand.Drive(speed=case.drum_speed) if case.imposed_speed else strand.Drive(force=case.force)
+def _drive(case: StartCase) -> loop.Drive:
+    return loop.Drive(speed=case.drum_speed) if case.imposed_speed else loop.Drive(force=case.force)
 
 
 def _time_scale(case: StartCase) -> float:
@@ -109,111 +119,171 @@ def _time_scale(case: StartCase) -> float:
     return max(line.drive_mass / impedance, case.rise / 4)
 
 
-def _grid(case: StartCase, carried: frozenset[str], level: int) -> strand.Grid:
+def _grid(case: StartCase, carried: frozenset[str], level: int) -> loop.Grid:
     """Cells so that a step is a small part of the time scale; travel times matched as closely as the window asks."""
     scale = _time_scale(case)
     transit, other = case.line.transit(CARRY), case.line.transit(RETURN)
     cells = min(max(math.ceil(_STEPS_PER_SCALE * transit / scale), _FEWEST), _MOST_CELLS)
     if "sag" in carried:
-        cells = min(cells, 100)
-    tolerance = min(max(4e-4 * scale / case.window / 4**level, 2e-7), 1e-3) * (10 if "sag" in carried else 1)
-    return strand.match(transit, other, cells << level, tolerance, at_most=max(16 * cells, 1024) << level)
+        return sagging.grid_of(_loop(case, carried), min(cells, _MOST_SAGGING_CELLS) << level)
+    tolerance = min(max(4e-4 * scale / case.window / 4**level, 2e-7), 1e-3)
+    return loop.match(transit, other, cells << level, tolerance, at_most=max(16 * cells, 1024) << level)
 
 
-def _wave_error(coarse: strand.Motion, fine: strand.Motion, order_factor: float) -> float:
-    """Largest difference of the waves of both grids over the factor of their order [N]."""
+@dataclass(frozen=True, slots=True)
+class _Bars:
+    """Numerical error of tensions at the drum's run-on, at its run-off, and anywhere on the belt [N]."""
+
+    on: float
+    off: float
+    inside: float
+
+
+def _straight_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
+    """Bars of a grid and its refinement: the same for every tension, as all are sums of the same waves."""
+    bar = _wave_error(coarse, fine) * (1.0 if fine.slipped else _MARGIN / 3) + _shift_error(fine, case.window)
+    return _Bars(bar, bar if case.line.fixed_length else 0.0, bar)
+
+
+def _sagging_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
+    """Bars of a grid and its refinement where fronts are steep: what no small shift in time explains.
+
+    Every value of one history is looked for among the values of the other within a few steps; the extremes of two
+    histories, at whatever moment, differ by no more than the largest gap. Inside the strands the gaps of the two
+    waves that make up the tension stand for it.
+    """
+    reach = math.ceil(_SHIFT_STEPS * coarse.grid.step / fine.grid.step)
+
+    def gap(one: FloatArray, other: FloatArray) -> float:
+        again = np.interp(fine.times, coarse.times, one)
+        return max(_gap(other, again, reach), _gap(again, other, reach))
+
+    def end(one: FloatArray, other: FloatArray) -> float:
+        """Gap of a history at the drum, and the differences of its extremes as they are reported."""
+        top, bottom = coarse.largest(one)[0] - fine.largest(other)[0], coarse.smallest(one)[0] - fine.smallest(other)[0]
+        return _SAGGING_MARGIN * max(gap(one, other), abs(top), abs(bottom))
+
+    waves = [gap(one, other) for one, other in zip(coarse.waves, fine.waves, strict=True)]
+    direct = [abs(one.value - other.value) for one, other in zip(_inside(coarse), _inside(fine), strict=True)]
+    least = _bend(fine.run_on)
+    on, off = max(end(coarse.run_on, fine.run_on), least), end(coarse.run_off, fine.run_off)
+    off = max(off, least) if case.line.fixed_length else 0.0
+    inside = max(_SAGGING_MARGIN * max(direct), on, off, (waves[0] + waves[1]) / 2, (waves[2] + waves[3]) / 2)
+    return _Bars(on, off, inside)
+
+
+def _bend(history: FloatArray) -> float:
+    """What a history does between the samples next to its extremes: an eighth of the second difference."""
+    second = np.abs(np.diff(history, 2)) / 8
+    near = [abs(second[max(top - 2, 0) : top + 2]).max(initial=0.0) for top in (history.argmax(), history.argmin())]
+    return float(max(near))
+
+
+def _inside(motion: loop.Motion) -> tuple[loop.Extreme, ...]:
+    return motion.carry_max, motion.carry_min, motion.back_max, motion.back_min
+
+
+def _gap(values: FloatArray, others: FloatArray, reach: int) -> float:
+    """Largest distance of a value from the range of the others within so many samples."""
+    around = np.lib.stride_tricks.sliding_window_view(np.pad(others, reach, mode="edge"), 2 * reach + 1)
+    return float(np.maximum(values - around.max(axis=1), around.min(axis=1) - values).max(initial=0.0))
+
+
+def _wave_error(coarse: loop.Motion, fine: loop.Motion) -> float:
+    """Largest difference of a tension on a grid and on its refinement [N]."""
     n = min(coarse.waves.shape[1], (fine.waves.shape[1] + 1) // 2)
     both = np.abs(fine.waves[:, : 2 * n - 1 : 2] - coarse.waves[:, :n]).max(axis=1)
     pairs = (both[0] + both[1], both[2] + both[3])  # a tension is half the sum of the two waves of its strand
-    return float(max(pairs)) / 2 / order_factor
+    return float(max(pairs)) / 2
 
 
-def _shift_error(motion: strand.Motion, window: float) -> float:
+def _shift_error(motion: loop.Motion, window: float) -> float:
     """Mismatch of the travel times, as a time shift of all echoes, times the steepest slope of the waves [N]."""
     slope = np.abs(np.diff(motion.waves, axis=1)).max(axis=1) / motion.grid.step
     return float(max(slope[0] + slope[1], slope[2] + slope[3])) / 2 * motion.grid.mismatch * window
 
 
-def _loads(case: StartCase, motion: strand.Motion, bar: float) -> dict[str, Found]:
+def _loads(case: StartCase, motion: loop.Motion, bars: _Bars) -> dict[str, Found]:
     line = case.line
     on, on_at = motion.largest(motion.run_on)
     off, off_at = motion.smallest(motion.run_off)
     high = max(motion.carry_max, motion.back_max, key=lambda extreme: extreme.value)
     if on > high.value:
-        high = strand.Extreme(on, on_at, line.back.length + line.carry.length)
+        high = loop.Extreme(on, on_at, line.back.length + line.carry.length)
     low = min(motion.carry_min, motion.back_min, key=lambda extreme: extreme.value)
     if off < low.value:
-        low = strand.Extreme(off, off_at, 0.0)
-    carry_low, back_low = motion.carry_min.value, min(motion.back_min.value, off)
-    off_bar = bar if line.fixed_length else 0.0
-    floor = 1e-12 * abs(high.value)
+        low = loop.Extreme(off, off_at, 0.0)
+    lows = (min(motion.back_min.value, off), motion.carry_min.value)
+    floor = 1e-12 * abs(high.value)  # rounding
+    on_bar, inside = bars.on + floor, bars.inside + floor
 
     def at(time: float) -> dict[str, float]:
         return {"time": time + case.held}
 
     loads = {
-        "tension_run_on_max": Found(Estimate.within(on, bar + floor), at(on_at)),
-        "tension_dynamic_run_on_max": Found(Estimate.within(on - line.run_on, bar + floor), at(on_at)),
-        "tension_run_off_min": Found(Estimate.within(off, off_bar), at(off_at)),
-        "tension_max": Found(Estimate.within(high.value, bar + floor), at(high.time) | {"position": high.position}),
-        "tension_min": Found(Estimate.within(low.value, bar + floor), at(low.time) | {"position": low.position}),
+        "tension_run_on_max": Found(Estimate.within(on, on_bar), at(on_at)),
+        "tension_dynamic_run_on_max": Found(Estimate.within(on - line.run_on, on_bar), at(on_at)),
+        "tension_run_off_min": Found(Estimate.within(off, bars.off), at(off_at)),
+        "tension_max": Found(Estimate.within(high.value, inside), at(high.time) | {"position": high.position}),
+        "tension_min": Found(Estimate.within(low.value, inside), at(low.time) | {"position": low.position}),
     }
     spread = [
-        bounds.derived_loads(line, high.value + sign * bar, (back_low - sign * bar, carry_low - sign * bar))
+        bounds.derived_loads(line, high.value + sign * inside, tuple(part - sign * inside for part in lows))
         for sign in (0, -1, 1)
     ]
     for name in spread[0]:
         extreme = loads["tension_max" if name == "belt_safety_min" else "tension_min"]  # where it occurs
         loads[name] = Found(_spread(*(part[name] for part in spread)), extreme.at)
     if line.grip_exponent is not None:
-        loads |= _slip(case, line.grip_exponent, motion, bar, off_bar)
+        loads |= _slip(case, line.grip_exponent, motion, bars)
     if case.imposed_speed:
-        loads |= _drive_force(case, motion, bar + off_bar)
+        loads |= _drive_force(case, motion, bars.on + bars.off)
     return loads
 
 
-def _slip(case: StartCase, exponent: float, motion: strand.Motion, bar: float, off_bar: float) -> dict[str, Found]:
+def _slip(case: StartCase, exponent: float, motion: loop.Motion, bars: _Bars) -> dict[str, Found]:
     """Worst grip over time, with the bars of both tensions carried through the formulas."""
     lift = case.line.belt_line_mass * motion.belt_speed**2
-    found = {}
-    for name, law, worst, sign in (
-        ("slip_utilisation_max", capstan.slip_utilisation, motion.largest, 1),
-        ("slip_reserve_min", capstan.slip_reserve_force, motion.smallest, -1),
-    ):
-        values = []
-        for side in (0, -1, 1):
-            tight = np.maximum(motion.run_on, motion.run_off) + side * bar
-            slack = np.minimum(motion.run_on, motion.run_off) - side * (
-                off_bar or (bar * (motion.run_on < motion.run_off))
-            )
-            history = law(tight, slack, lift, exponent)
-            values.append(worst(history) if np.isfinite(history).all() else _plain(history, motion, sign))
-        (value, when), (less, _), (more, _) = values
-        found[name] = Found(_spread(value, less, more), {"time": when + case.held})
-    if motion.slipped:  # the grip was used up: at least 1 in use, less than 1 in reserve
-        used, left = found["slip_utilisation_max"], found["slip_reserve_min"]
-        found["slip_utilisation_max"] = Found(_clipped(used.estimate, math.nextafter(1, 2), math.inf), used.at)
-        found["slip_reserve_min"] = Found(_clipped(left.estimate, 0.0, math.nextafter(1, 0)), left.at)
+    driving = motion.run_on >= motion.run_off
+    tight, slack = np.maximum(motion.run_on, motion.run_off), np.minimum(motion.run_on, motion.run_off)
+    tight_bar, slack_bar = np.where(driving, bars.on, bars.off), np.where(driving, bars.off, bars.on)
+    states = (
+        capstan.slip_utilisation(tight + side * tight_bar, slack - side * slack_bar, lift, exponent)
+        for side in (0, -1, 1)
+    )
+    worst = [_largest(state, motion) for state in states]
+    used = [value for value, _ in worst]
+    left = [bounds.reserve_of(value, exponent) for value in used]
+    at = {"time": worst[0][1] + case.held}
+    found = {"slip_utilisation_max": Found(_spread(*used), at), "slip_reserve_min": Found(_spread(*left), at)}
+    if motion.slipped:
+        found = _used_up(found, float((slack - lift - slack_bar).min()) > 0)
     return found
 
 
-def _clipped(estimate: Estimate, low: float, high: float) -> Estimate:
-    value, a, b = (min(max(number, low), high) for number in (estimate.value, estimate.low, estimate.high))
-    return Estimate(value, a, b, estimate.numerical, estimate.model)
-
-
-def _plain(history: FloatArray, motion: strand.Motion, sign: int) -> tuple[float, float]:
-    at = int(np.argmax(sign * history))
+def _largest(history: FloatArray, motion: loop.Motion) -> tuple[float, float]:
+    """Largest value of a history and its time; the first infinite sample where there is one."""
+    if np.isfinite(history).all():
+        return motion.largest(history)
+    at = int(np.argmax(history))
     return float(history[at]), float(motion.times[at])
 
 
-def _drive_force(case: StartCase, motion: strand.Motion, bar: float) -> dict[str, Found]:
+def _used_up(found: dict[str, Found], held: bool) -> dict[str, Found]:
+    """Grip of a belt that slipped: exactly all of it in use as long as some tension is left, else perhaps lost."""
+    used, left = math.nextafter(1, 2), math.nextafter(1, 0)
+    states = {
+        "slip_utilisation_max": Estimate.exact(used) if held else Estimate(used, used, math.inf),
+        "slip_reserve_min": Estimate.exact(left) if held else Estimate(left, 0.0, left),
+    }
+    return {name: Found(states[name], found[name].at) for name in states}
+
+
+def _drive_force(case: StartCase, motion: loop.Motion, bar: float) -> dict[str, Found]:
     """Force that the imposed speed asks of the drive, m v' + S_on - S_off."""
-    step = motion.grid.step
-    rate = np.gradient(case.drum_speed(motion.times), step)
-    if case.shape == "ramp":
-        rate = np.where(motion.times <= case.rise_time, case.acceleration, 0.0)
-    force, when = motion.largest(case.line.drive_mass * rate + motion.run_on - motion.run_off)
+    force, when = motion.largest(
+        case.line.drive_mass * case.drum_acceleration(motion.times) + motion.run_on - motion.run_off
+    )
     spread = [bounds.drive_loads(case, force + side * bar) for side in (0, -1, 1)]
     return {name: Found(_spread(*(part[name] for part in spread)), {"time": when}) for name in spread[0]}
 
@@ -226,7 +296,7 @@ def _spread(value: float, one: float, other: float) -> Estimate:
     return Estimate(value, min(ends), max(ends), numerical=max(abs(one - value), abs(other - value)))
 
 
-def _findings(case: StartCase, motion: strand.Motion, sagging: bool) -> list[Finding]:
+def _findings(case: StartCase, motion: loop.Motion, sagging: bool) -> list[Finding]:
     found = []
     for which, low in ((RETURN, motion.back_min), (CARRY, motion.carry_min)):
         span = case.line.strand(which).span_weight
@@ -258,7 +328,9 @@ def cost(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> f
     per_step, per_cell = _SECONDS["sag" if "sag" in carried else "grip" if "slip" in carried else "delays"]
     grid = _grid(case, carried, level)
     steps, cells = math.ceil(case.window / grid.step), grid.carry + grid.back
-    return 3 * steps * per_step + 5 * steps * cells * per_cell  # the finer grid has twice the steps and cells
+    return (
+        _OVERHEAD + 3 * steps * per_step + 5 * steps * cells * per_cell
+    )  # the finer grid has twice the steps and cells
 
 
 def valid(spec: Conveyor, scene: Start) -> Criterion:

@@ -5,7 +5,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import wave
-from ptmcalc.laws.loop import CARRY, RETURN
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start

@@ -17,7 +17,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
     **Range** any start that moves the belt.
     **Error** no bar of its own: everything it leaves out is in the bounds of the effects it does not represent.
-    **Source** Newton's law; the split of a fixed loop from constant elongation (`laws.loop.quasi_static`).
+    **Source** Newton's law; the split of a fixed loop from constant elongation (`laws.loop_bounds.quasi_static`).
     """
     case = start_case(spec, scene)
     loads = bounds.scalar_loads(case) | bounds.rigid_loads(case)
@@ -60,5 +60,5 @@ RIGID: Solver[Conveyor, Start] = Solver(
     ),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-4,
-    source="Newton's law; bounds derived in ptmcalc.laws.loop",
+    source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",
 )

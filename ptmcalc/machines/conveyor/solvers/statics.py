@@ -5,7 +5,7 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws.loop import CARRY, RETURN
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.spec import Conveyor, Run

@@ -7,7 +7,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
-from ptmcalc.laws.loop import CARRY
+from ptmcalc.laws.loop_bounds import CARRY
 from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.model import StartCase, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start

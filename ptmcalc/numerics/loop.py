@@ -1,0 +1,176 @@
+"""A closed loop of two elastic strands round a drive drum: what goes in, the grid of times, what comes out.
+
+Coordinate along the belt: drum run-off -> return strand -> tail -> carry strand -> drum run-on.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.peaks import largest, smallest
+
+FloatArray = NDArray[np.float64]
+
+MOST_STEPS = 4_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Strand:
+    """A uniform strand: length [m], mass per length [kg/m], tensile stiffness [N]; its static tension is linear
+    from `static_start` to `static_end` [N]; `span_weight` is the weight on one idler pitch [N], 0 for no sag."""
+
+    length: float
+    line_mass: float
+    stiffness: float
+    static_start: float
+    static_end: float
+    span_weight: float = 0.0
+
+    @property
+    def speed(self) -> float:
+        """Wave speed [m/s]."""
+        return math.sqrt(self.stiffness / self.line_mass)
+
+    @property
+    def transit(self) -> float:
+        """Travel time of a wave along the strand [s]."""
+        return self.length / self.speed
+
+    def static(self, x: FloatArray) -> FloatArray:
+        """Static tension at fractions x of the length [N]."""
+        return self.static_start + (self.static_end - self.static_start) * x
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """Friction between belt and drum: exponent mu alpha [1] and mass per length of the bare belt [kg/m]."""
+
+    exponent: float
+    belt_line_mass: float
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """Two strands, the drum and the tail; `impedance_jump` False treats the return strand as if it had the
+    impedance of the carry strand (its travel time stays)."""
+
+    carry: Strand
+    back: Strand
+    drum_mass: float
+    tail_mass: float
+    fixed_length: bool
+    grip: Grip | None = None
+    impedance_jump: bool = True
+
+    @property
+    def impedances(self) -> tuple[float, float]:
+        """Z of carry and return strand [N*s/m]."""
+        z_carry = math.sqrt(self.carry.line_mass * self.carry.stiffness)
+        z_back = math.sqrt(self.back.line_mass * self.back.stiffness)
+        return z_carry, z_back if self.impedance_jump else z_carry
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]."""
+
+    force: Callable[[FloatArray], FloatArray] | None = None
+    speed: Callable[[FloatArray], FloatArray] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Steps of time: `carry` and `back` cells per strand; `mismatch` is the relative error of the travel times."""
+
+    step: float
+    carry: int
+    back: int
+    mismatch: float
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A value, the time [s] and the position along the belt from the run-off [m] where it occurs."""
+
+    value: float
+    time: float
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The answer of a loop, sampled at `times` (shape (n,)); tensions are whole ones, static part included.
+
+    Samples are a grid step apart, but for the last one, which is the end of the window.
+
+    `waves` (shape (4, n)) are the waves that leave the drum, the tail into either strand, and the run-off.
+    """
+
+    grid: Grid
+    times: FloatArray
+    waves: FloatArray
+    belt_speed: FloatArray
+    drum_speed: FloatArray
+    run_on: FloatArray
+    run_off: FloatArray
+    carry_max: Extreme
+    carry_min: Extreme
+    back_max: Extreme
+    back_min: Extreme
+    slipped: bool
+    reversed: bool
+    energy_residual: float
+    cell_updates: int
+
+    def largest(self, values: FloatArray) -> tuple[float, float]:
+        """Largest value of a sampled history and its time."""
+        value, time = largest(values, self.grid.step)
+        return value, min(time, float(self.times[-1]))
+
+    def smallest(self, values: FloatArray) -> tuple[float, float]:
+        """Smallest value of a sampled history and its time."""
+        value, time = smallest(values, self.grid.step)
+        return value, min(time, float(self.times[-1]))
+
+
+def match(first: float, second: float, at_least: int, tolerance: float, at_most: int = 8192) -> Grid:
+    """The coarsest grid that divides both travel times to `tolerance`, or the best one up to `at_most` cells.
+
+    Both times share the mismatch so that their sum is exact.
+    """
+    carry = np.arange(at_least, max(at_most, at_least) + 1)
+    back = np.maximum(1, np.rint(carry * (second / first)))
+    step = (first + second) / (carry + back)
+    mismatch = np.maximum(np.abs(carry * step / first - 1), np.abs(back * step / second - 1))
+    good = mismatch <= tolerance
+    best = int(np.argmax(good)) if good.any() else int(np.argmin(mismatch))
+    return Grid(float(step[best]), int(carry[best]), int(back[best]), float(mismatch[best]))
+
+
+def refined(grid: Grid) -> Grid:
+    """The same grid with every cell halved."""
+    return Grid(grid.step / 2, grid.carry * 2, grid.back * 2, grid.mismatch)
+
+
+def steps_of(window: float, grid: Grid) -> tuple[int, float]:
+    """Steps that cover a window [s], and the share of the last one at which it ends.
+
+    Raises:
+        NumericsError: NUM101 when there are more than MOST_STEPS.
+    """
+    steps = max(math.ceil(window / grid.step - 1e-9), 1)
+    if steps > MOST_STEPS:
+        raise NumericsError("NUM101", f"the window of {window:.4g} s needs {steps} steps of {grid.step:.3g} s")
+    return steps, window / grid.step - (steps - 1)
+
+
+def at_end(history: FloatArray, share: float) -> float:
+    """Value of a history that ends inside its last step, after a share of it, by the parabola of three samples."""
+    if len(history) < 3:
+        return float(history[-2] + share * (history[-1] - history[-2]))
+    before, start, end = history[-3:]
+    return float(start + share * (end - before) / 2 + share**2 * (end - 2 * start + before) / 2)

@@ -1,0 +1,328 @@
+"""Method of characteristics against finite elements, closed forms and brute force."""
+
+import warnings
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from support import echoes, fem, slipping
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics import sagging
+from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, match, refined
+from ptmcalc.numerics.strand import march
+
+EA = 2.0e7
+RHO = (120.0, 40.0)
+LENGTHS = (400.0, 400.0)
+Z = tuple(float(np.sqrt(EA * rho)) for rho in RHO)
+TRANSIT = tuple(length * float(np.sqrt(rho / EA)) for length, rho in zip(LENGTHS, RHO, strict=True))
+
+
+def loop(
+    *,
+    rigid: bool = False,
+    drum: float = 20e3,
+    tail: float = 0.0,
+    on: float = 60e3,
+    off: float = 30e3,
+    tail_tension: float = 30e3,
+    grip: Grip | None = None,
+    spans: tuple[float, float] = (0.0, 0.0),
+) -> Loop:
+    return Loop(
+        carry=Strand(LENGTHS[0], RHO[0], EA, tail_tension, on, spans[0]),
+        back=Strand(LENGTHS[1], RHO[1], EA, off, tail_tension, spans[1]),
+        drum_mass=drum,
+        tail_mass=tail,
+        fixed_length=rigid,
+        grip=grip,
+    )
+
+
+def belt(*, rigid: bool = False, drum: float = 20e3, tail: float = 0.0) -> fem.Belt:
+    return fem.Belt(LENGTHS, RHO, EA, drum, tail, rigid)
+
+
+def step(force: float) -> Drive:
+    return Drive(force=lambda t: np.full_like(t, force))
+
+
+def grid(cells: int = 200, tolerance: float = 1e-6) -> Grid:
+    return match(TRANSIT[0], TRANSIT[1], cells, tolerance)
+
+
+class TestMatch:
+    @pytest.mark.parametrize(("first", "second"), [(1.0, 0.5), (1.33243, 0.52475), (0.02, 0.31), (1.0, np.sqrt(2))])
+    def test_divides_both_travel_times(self, first: float, second: float) -> None:
+        found = match(first, second, 50, 1e-5)
+        assert found.mismatch <= 1e-5
+        assert found.carry * found.step == pytest.approx(first, rel=1e-5)
+        assert found.back * found.step == pytest.approx(second, rel=1e-5)
+
+    def test_keeps_the_whole_contour_exact(self) -> None:
+        found = match(1.0, np.sqrt(2), 50, 1e-5)
+        assert (found.carry + found.back) * found.step == pytest.approx(1 + np.sqrt(2), rel=1e-14)
+
+    def test_says_how_far_it_is_when_no_grid_is_good_enough(self) -> None:
+        found = match(1.0, np.pi, 10, 1e-12, at_most=20)
+        assert found.mismatch > 1e-12
+
+
+class TestAgainstClosedForms:
+    def test_echo_series(self) -> None:
+        window = 6.0
+        motion = march(loop(), step(9e3), window, grid(800))
+        exact = 60e3 + echoes.run_on(9e3, (Z[0], Z[1]), 20e3, (TRANSIT[0], TRANSIT[1]), motion.times)
+        assert np.max(np.abs(motion.run_on - exact)) < 2e-5 * 9e3
+
+    def test_uniform_ramp_of_speed_has_factor_two(self) -> None:
+        """Linear ramp on a uniform loop: largest tension twice rho L a, for any ramp of at least half a period."""
+        half = Strand(500.0, 100.0, 1e8, 0.0, 0.0)
+        line = Loop(half, half, 1.0, 0.0, fixed_length=False)
+        for periods in (0.5, 0.77, 1.0, 3.1):
+            rise = 4.0 * periods
+            drive = Drive(speed=lambda t, rise=rise: 4.0 * np.clip(t / rise, 0, 1))
+            motion = march(line, drive, rise + 4.0, match(0.5, 0.5, 200, 1e-9))
+            assert motion.largest(motion.run_on)[0] == pytest.approx(2 * 100 * 1000 * 4.0 / rise, rel=1e-3)
+
+    def test_cosine_start_of_the_worked_case(self) -> None:
+        """Uniform loop, 4 m/s, cosine over three periods: 59190.4 N by the image series."""
+        half = Strand(500.0, 100.0, 1e8, 0.0, 0.0)
+        line = Loop(half, half, 1.0, 0.0, fixed_length=False)
+        drive = Drive(speed=lambda t: 4.0 * np.sin(np.pi / 2 * np.clip(t / 12.0, 0, 1)) ** 2)
+        motion = march(line, drive, 16.0, match(0.5, 0.5, 200, 1e-9))
+        assert motion.largest(motion.run_on)[0] == pytest.approx(59190.4, rel=1e-5)
+
+    def test_massless_drum_does_not_ring(self) -> None:
+        """With m -> 0 the rim force is the tension: no oscillation about it, whatever the step."""
+        motion = march(loop(drum=1e-9), step(9e3), 0.9 * 2 * TRANSIT[0], grid(20, 1e-3))
+        assert motion.run_on[1:] == pytest.approx(np.full(len(motion.times) - 1, 69e3), rel=1e-12)
+
+    def test_drum_of_a_belt_without_mass_falls_freely(self) -> None:
+        light = Loop(
+            Strand(10.0, 1e-12, 1e3, 0.0, 0.0), Strand(10.0, 1e-12, 1e3, 0.0, 0.0), 12e3, 0.0, fixed_length=False
+        )
+        motion = march(light, step(6e4), 1e-6, match(1e-6 * np.sqrt(0.1), 1e-6 * np.sqrt(0.1), 16, 1e-6))
+        assert motion.drum_speed[-1] == pytest.approx(6e4 / 12e3 * 1e-6, rel=1e-9)
+
+
+class TestAgainstFiniteElements:
+    @pytest.mark.parametrize("rigid", [False, True])
+    @pytest.mark.parametrize("tail", [0.0, 3e3])
+    def test_torque_step(self, rigid: bool, tail: float) -> None:
+        window, force = 5.0, 9e3
+        motion = march(loop(rigid=rigid, tail=tail), step(force), window, grid(400))
+        times = np.linspace(0, window, 801)
+        mesh = fem.step_response(belt(rigid=rigid, tail=tail), (400, 240), force, times)
+        assert (
+            np.max(np.abs(np.interp(times, motion.times, motion.run_on) - 60e3 - mesh["run_on"])) < 0.03 * force
+        )  # of the mesh
+        assert np.max(np.abs(np.interp(times, motion.times, motion.run_off) - 30e3 - mesh["run_off"])) < 0.03 * force
+        speed = np.interp(times, motion.times, motion.drum_speed)
+        assert np.max(np.abs(speed - mesh["drum_speed"])) < 2e-3 * speed.max()
+
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_extremes_anywhere_on_the_belt(self, rigid: bool) -> None:
+        window, force = 5.0, 9e3
+        motion = march(loop(rigid=rigid, on=0.0, off=0.0, tail_tension=0.0), step(force), window, grid(400))
+        mesh = fem.step_response(belt(rigid=rigid), (400, 240), force, np.linspace(0, window, 1601))["all"]
+        carry, back = mesh[:400], mesh[400:]
+        assert motion.carry_max.value == pytest.approx(carry.max(), abs=0.02 * force)
+        assert motion.carry_min.value == pytest.approx(carry.min(), abs=0.02 * force)
+        assert motion.back_max.value == pytest.approx(back.max(), abs=0.02 * force)
+        assert motion.back_min.value == pytest.approx(back.min(), abs=0.02 * force)
+
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_imposed_cosine(self, rigid: bool) -> None:
+        speed, rise = 3.0, 2.5
+        drive = Drive(speed=lambda t: speed * np.sin(np.pi / 2 * np.clip(t / rise, 0, 1)) ** 2)
+        motion = march(loop(rigid=rigid, tail=2e3), drive, 5.0, grid(300))
+        times = np.linspace(0, 5.0, 5001)
+        rate = lambda t: speed * np.pi / (2 * rise) * np.sin(np.pi * t / rise) * (t < rise)  # noqa: E731
+        mesh = fem.imposed_speed(belt(rigid=rigid, tail=2e3), (120, 72), rate, times)
+        scale = np.abs(mesh["run_on"]).max()
+        assert np.max(np.abs(np.interp(times, motion.times, motion.run_on) - 60e3 - mesh["run_on"])) < 0.01 * scale
+        assert np.max(np.abs(np.interp(times, motion.times, motion.run_off) - 30e3 - mesh["run_off"])) < 0.01 * scale
+
+    def test_without_the_impedance_jump_the_return_strand_echoes_later_only(self) -> None:
+        plain = Loop(loop().carry, loop().back, 20e3, 0.0, fixed_length=False, impedance_jump=False)
+        motion = march(plain, step(9e3), 2 * sum(TRANSIT) - 0.05, grid(400))
+        a = Z[0] / 20e3
+        inside = motion.times[:-1]
+        assert motion.run_on[:-1] - 60e3 == pytest.approx(9e3 * -np.expm1(-a * inside), rel=1e-9, abs=1e-6)
+
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_sagging_belt(self, rigid: bool) -> None:
+        """Softening up to 1.6, waves that grow into shocks: extremes against lumped masses, Kelvin-Voigt, DOP853."""
+        spans, force, window = (900.0, 450.0), 9e3, 4.0
+        on, off, tail = 12e3, 6e3, 6e3
+        line = loop(rigid=rigid, on=on, off=off, tail_tension=tail, spans=spans)
+        motion = sagging.march(line, step(force), window, sagging.grid_of(line, 120))
+        count = (240, 138)
+        carry = np.linspace(on, tail, count[0] + 1)[:-1] - (on - tail) / (2 * count[0])
+        static = np.concatenate([carry, np.full(count[1], tail)])
+        times = np.linspace(0, window, 801)
+        cell = LENGTHS[0] / count[0] * np.sqrt(RHO[0] / EA)
+        mesh = fem.sagging_step(belt(rigid=rigid), count, force, static, spans, times, 0.25 * cell)
+        straight = march(loop(rigid=rigid, on=on, off=off, tail_tension=tail), step(force), window, grid(200, 1e-3))
+        peak = motion.largest(motion.run_on)[0]
+        assert abs(straight.largest(straight.run_on)[0] - peak) > 0.02 * force  # sag matters here
+        assert peak == pytest.approx(mesh["run_on"].max(), rel=0.005)
+        assert motion.back_min.value == pytest.approx(mesh["all"][count[0] :].min(), rel=0.03)
+        assert motion.back_max.value == pytest.approx(mesh["all"][count[0] :].max(), rel=0.06)
+
+
+class TestSag:
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_both_methods_agree_on_a_straight_belt(self, rigid: bool) -> None:
+        """The staggered grid and the characteristics share no step; what they differ by falls with the step."""
+        differences = []
+        for cells in (50, 100, 200):
+            cut = match(0.5, 0.25, cells, 1e-9)
+            even = Loop(
+                Strand(500.0, 40.0, 4e7, 60e3, 70e3),
+                Strand(500.0, 10.0, 4e7, 60e3, 60e3),
+                20e3,
+                2e3,
+                fixed_length=rigid,
+            )
+            one, other = (method(even, step(9e3), 4.0, cut) for method in (march, sagging.march))
+            differences.append(np.max(np.abs(one.run_on - other.run_on)))
+        assert differences[-1] < 3e-3 * 9e3
+        assert np.log2(differences[0] / differences[2]) / 2 > 0.85  # at the corners; second order between them
+
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_shocks_converge(self, rigid: bool) -> None:
+        """Halving the grid three times changes the run-on peak by less than a thousandth."""
+        line = loop(rigid=rigid, on=12e3, off=6e3, tail_tension=6e3, spans=(900.0, 450.0))
+        peaks = [
+            motion.largest(motion.run_on)[0]
+            for motion in (
+                sagging.march(line, step(9e3), 4.0, sagging.grid_of(line, cells)) for cells in (30, 60, 120, 240)
+            )
+        ]
+        assert peaks == pytest.approx([peaks[-1]] * 4, rel=1e-3)
+
+    def test_tension_of_a_sagging_belt_stays_positive(self) -> None:
+        """A straight belt would be pushed to -30 kN; a sagging one hangs deeper but keeps its pull."""
+        low = {"rigid": True, "on": 12e3, "off": 3e3, "tail_tension": 3e3}
+        straight = march(loop(**low), step(60e3), 4.0, grid(100, 1e-4))
+        hanging_loop = loop(**low, spans=(900.0, 450.0))
+        hanging = sagging.march(hanging_loop, step(60e3), 4.0, sagging.grid_of(hanging_loop, 60))
+        assert straight.back_min.value < -10e3
+        assert 0 < hanging.back_min.value < 3e3
+
+    def test_refuses_a_static_state_without_tension(self) -> None:
+        with pytest.raises(NumericsError, match="cannot hang without tension"):
+            sagging.march(loop(off=-1e3, spans=(900.0, 450.0)), step(9e3), 1.0, grid(50, 1e-3))
+
+
+class TestSlip:
+    GRIP = Grip(0.9, 12.0)
+
+    @pytest.mark.parametrize(("rigid", "force"), [(False, 25e3), (False, 40e3), (True, 14e3)])
+    def test_brute_force_agrees(self, rigid: bool, force: float) -> None:
+        bare = Grip(self.GRIP.exponent, 0.0)  # the brute force has no centrifugal tension
+        motion = march(loop(rigid=rigid, grip=bare), step(force), 3.0, grid(300))
+        other = slipping.start(belt(rigid=rigid), (300, 170), force, 60e3, 30e3, bare.exponent, 3.0)
+        assert motion.slipped
+        assert motion.belt_speed[-1] == pytest.approx(other.belt_speed, rel=0.01)
+        assert motion.drum_speed[-1] == pytest.approx(other.drum_speed, rel=0.01)
+        assert motion.largest(motion.run_on)[0] == pytest.approx(other.run_on_max, rel=0.01)
+        slip = np.trapezoid(motion.drum_speed - motion.belt_speed, motion.times)
+        assert slip == pytest.approx(other.slip_distance, rel=0.02, abs=1e-3)
+
+    def test_run_on_is_capped_by_the_capstan_law(self) -> None:
+        motion = march(loop(grip=self.GRIP), step(40e3), 3.0, grid(200))
+        lift = self.GRIP.belt_line_mass * motion.belt_speed**2
+        ratio = (motion.run_on - lift) / (motion.run_off - lift) * np.exp(-self.GRIP.exponent)
+        assert ratio.max() <= 1 + 1e-9
+        slides = motion.drum_speed > motion.belt_speed + 1e-9
+        assert slides.any()
+        assert ratio[slides] == pytest.approx(np.ones(slides.sum()), rel=1e-9)
+
+    def test_enough_grip_changes_nothing(self) -> None:
+        free = march(loop(), step(9e3), 4.0, grid(100, 1e-4))
+        held = march(loop(grip=Grip(3.0, 12.0)), step(9e3), 4.0, grid(100, 1e-4))
+        assert not held.slipped
+        assert held.run_on == pytest.approx(free.run_on, rel=1e-12)
+
+    def test_it_sticks_again(self) -> None:
+        """A short surge of force makes the drum spin; when it is over, belt and drum come together and stay."""
+        surge = Drive(force=lambda t: np.where(t < 0.5, 60e3, 2e3))
+        motion = march(loop(grip=self.GRIP), surge, 6.0, grid(200))
+        assert motion.slipped
+        late = motion.times > 5.5
+        assert np.max(np.abs(motion.drum_speed - motion.belt_speed)[late]) == 0.0
+
+    def test_braking_sense(self) -> None:
+        """A drum held back by a fast stop of its speed lets the belt run ahead: the run-off is the tight side."""
+        drive = Drive(speed=lambda t: np.where(t < 1.0, 3.0 * t, np.maximum(3.0 - 30.0 * (t - 1.0), 0.0)))
+        motion = march(loop(rigid=True, on=31e3, grip=Grip(0.5, 0.0)), drive, 3.0, grid(200))
+        assert motion.slipped
+        assert np.min(motion.drum_speed - motion.belt_speed) < -1e-3
+        assert np.max(motion.run_off / motion.run_on) <= np.exp(0.5) * (1 + 1e-9)
+
+    def test_slip_from_the_start_holds_the_belt_back(self) -> None:
+        """A static state beyond the grip: the belt is held by its idlers and never runs backward."""
+        motion = march(loop(on=120e3, grip=self.GRIP), step(9e3), 2.0, grid(100, 1e-4))
+        assert motion.slipped
+        assert motion.belt_speed.min() >= 0.0
+        assert motion.drum_speed[-1] > 0.0
+
+
+class TestEnergy:
+    @pytest.mark.parametrize("rigid", [False, True])
+    @pytest.mark.parametrize(
+        ("grip", "spans", "tolerance"),
+        [(None, (0.0, 0.0), 1e-6), (Grip(0.8, 12.0), (0.0, 0.0), 1e-4), (None, (300.0, 150.0), 1e-3)],
+    )
+    def test_balance_closes(self, rigid: bool, grip: Grip | None, spans: tuple[float, float], tolerance: float) -> None:
+        line = loop(rigid=rigid, tail=2e3, grip=grip, spans=spans)
+        if spans[0]:
+            motion = sagging.march(line, step(20e3), 5.0, sagging.grid_of(line, 200))
+        else:
+            motion = march(line, step(20e3), 5.0, grid(400, 1e-5))
+        assert motion.energy_residual < tolerance
+
+    def test_balance_would_notice_an_error(self) -> None:
+        """The residual is no identity: it falls with the square of the step, so it measures something."""
+        coarse = march(loop(), step(20e3), 5.0, grid(50, 1e-4))
+        fine = march(loop(), step(20e3), 5.0, refined(refined(grid(50, 1e-4))))
+        assert coarse.energy_residual / fine.energy_residual == pytest.approx(16, rel=0.3)
+
+
+class TestLimits:
+    def test_too_many_steps_is_a_finding_not_a_hang(self) -> None:
+        with pytest.raises(NumericsError, match="steps"):
+            march(loop(), step(1.0), 1e6, grid(200))
+
+    def test_work_is_counted(self) -> None:
+        small, large = (march(loop(), step(9e3), window, grid(100, 1e-4)) for window in (2.0, 8.0))
+        assert 0 < small.cell_updates < large.cell_updates
+
+    @pytest.mark.parametrize("drum", [1e-12, 1.0, 1e12])
+    @pytest.mark.parametrize("tail", [0.0, 1e-12, 1e12])
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_masses_over_24_decades_stay_finite(self, drum: float, tail: float, rigid: bool) -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            motion = march(loop(drum=drum, tail=tail, rigid=rigid), step(9e3), 3.0, grid(50, 1e-3))
+        assert np.isfinite(motion.waves).all()
+        assert motion.run_on.max() <= 60e3 + 2.5 * 9e3
+
+
+def test_tail_mass_against_a_tight_ode() -> None:
+    """Before any echo the tail drum follows m v' + (Z1 + Z2) v = P, integrated here by DOP853."""
+    drive = Drive(speed=lambda t: 1.0 - np.exp(-3 * t))
+    window = TRANSIT[0] + min(2 * TRANSIT[1], 2 * TRANSIT[0]) * 0.9
+    motion = march(loop(tail=3e3), drive, window, grid(800, 1e-5))
+
+    def rate(t: float, v: np.ndarray) -> np.ndarray:
+        arriving = 2 * Z[0] * (1.0 - np.exp(-3 * max(t - TRANSIT[0], 0.0)))
+        return (arriving - (Z[0] + Z[1]) * v) / 3e3
+
+    exact = solve_ivp(rate, (0, window), [0.0], "DOP853", motion.times, rtol=1e-11, atol=1e-13, max_step=0.01).y[0]
+    leaving = motion.waves[2] / (2 * Z[1])  # nothing has come back along the return strand yet
+    assert np.max(np.abs(leaving - exact)[:-1]) < 2e-5
