@@ -5,7 +5,7 @@ Coordinate along the belt: drum run-off -> return strand -> tail -> carry strand
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,11 +94,17 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """A value, the time [s] and the position along the belt from the run-off [m] where it occurs."""
+    """A value, the time [s] and the position along the belt from the run-off [m] where it occurs; `missed` is what
+    corners between the samples may add to it."""
 
     value: float
     time: float
     position: float
+    missed: float = 0.0
+
+    def moved(self, by: float) -> "Extreme":
+        """The same extreme on a strand that begins so far along the belt [m]."""
+        return replace(self, position=self.position + by)
 
 
 @dataclass(frozen=True, slots=True)

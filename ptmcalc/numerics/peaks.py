@@ -33,6 +33,9 @@ def largest(values: FloatArray, step: float) -> tuple[float, float]:
     # parabolas in x = (t - t_k)/step, 0 <= x <= 1
     a, b = (f2 - 2 * f1 + f0) / 2, (3 * f2 - 4 * f1 + f0) / 2  # from the left: f2 + b x + a x^2
     c, d = (f5 - 2 * f4 + f3) / 2, (3 * f3 - 4 * f4 + f5) / 2  # from the right: f3 + d y + c y^2, y = 1 - x
+    # a side that bends upward has a corner among its samples or is convex: go on straight instead of overshooting
+    a, b = np.where(a > 0, 0.0, a), np.where(a > 0, f2 - f1, b)
+    c, d = np.where(c > 0, 0.0, c), np.where(c > 0, f3 - f4, d)
     rising = (b > 0) & (d > 0) & (np.maximum(f2 + b, f3 + d) > best)
     if not rising.any():
         return best, place

@@ -304,34 +304,41 @@ class _Delays:
             into_back[k] = n_tail + 2 * z_back * v_tail
 
     def extremes(self, strand: Strand, carry: bool) -> tuple[Extreme, Extreme]:
-        """Largest and smallest tension of any node of a strand at any sample.
+        """Largest and smallest tension of a strand, over every pair of samples of its two waves.
 
-        From one node to the next the extreme over time changes by no more than the steepest step of the waves and
-        of the static tension, so only stretches that could still hold a better node are looked into.
+        A sample of P and one of N meet at a node at a sample of time, or in the middle of a cell half a step later;
+        between them the waves are linear, so no other place holds an extreme of the sampled waves. From one such
+        place to the next the extreme over time changes by no more than the steepest step of a wave and of the static
+        tension, so only stretches that could still hold a better place are looked into.
         """
         cells = self.grid.carry if carry else self.grid.back
         down, up = (self.from_drum, self.into_carry) if carry else (self.into_back, self.from_off)
         pause = np.zeros(cells)
         p, n = np.concatenate([pause, down]), np.concatenate([pause, up])
-        static = strand.static(np.arange(cells + 1) / cells)
-        length = self.steps + 1
-        steepest = (np.abs(np.diff(p)).max() + np.abs(np.diff(n)).max()) / 2 + abs(static[1] - static[0])
+        static = strand.static(np.arange(2 * cells + 1) / (2 * cells))
+        steepest = max(np.abs(np.diff(p)).max(), np.abs(np.diff(n)).max()) / 2 + abs(static[1] - static[0])
         seen: dict[int, tuple[_Peak, _Peak]] = {}
 
-        def node(side: int, i: int) -> _Peak:
-            if i not in seen:
-                tension = static[i] + (p[i : i + length] + n[cells - i : cells - i + length]) / 2
-                tension[-1] = at_end(tension, self.last_share)
+        def place(side: int, j: int) -> _Peak:
+            """Extremes over time after j half cells, and the samples they occur at."""
+            if j not in seen:
+                middle = j % 2
+                length = self.steps + 1 - (middle if self.last_share >= middle / 2 else 2)
+                tension = static[j] + (p[(j + 1) // 2 :][:length] + n[cells - j // 2 :][:length]) / 2
+                if not middle:
+                    tension[-1] = at_end(tension, self.last_share)
                 top, bottom = int(tension.argmax()), int(tension.argmin())
-                seen[i] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
-            return seen[i][side]
+                seen[j] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
+                self.cell_updates += length
+            return seen[j][side]
 
         found = []
         for side, sign in enumerate((1, -1)):
-            best = _best_node(partial(node, side), cells, float(steepest))
-            value, sample = node(side, best)
-            found.append(Extreme(sign * value, sample * self.grid.step, best / cells * strand.length))
-        self.cell_updates += len(seen) * length
+            j = _best_place(partial(place, side), 2 * cells, float(steepest))
+            value, sample = place(side, j)
+            missed = (_bend(p, sample + (j + 1) // 2) + _bend(n, sample + cells - j // 2)) / 2
+            time, position = (sample + j % 2 / 2) * self.grid.step, j / (2 * cells) * strand.length
+            found.append(Extreme(sign * value, time, position, missed))
         return found[0], found[1]
 
     def stored(self) -> float:
@@ -355,10 +362,20 @@ class _Delays:
         return min(self.tail_speed) < -1e-6 * max(max(self.tail_speed), 1e-300)
 
 
-def _best_node(value: Callable[[int], _Peak], cells: int, steepest: float) -> int:
-    """The node of the largest value, by halving the stretches whose ends and slope allow a larger one."""
-    best = max((0, cells), key=lambda i: value(i)[0])
-    stretches = [(0, cells)]
+def _bend(wave: FloatArray, at: int) -> float:
+    """What a wave with a corner next to a sample rises over the straight line between its samples, at most.
+
+    A corner at the share x of a step h, where the slope changes by d, lies h x (1 - x) d <= h d / 4 from that line;
+    the second differences at both ends of its cell sum up to h d.
+    """
+    second = np.abs(np.diff(wave[max(at - 2, 0) : at + 3], 2))
+    return float((second[1:] + second[:-1]).max(initial=0.0)) / 4
+
+
+def _best_place(value: Callable[[int], _Peak], last: int, steepest: float) -> int:
+    """The place of the largest value, by halving the stretches whose ends and slope allow a larger one."""
+    best = max((0, last), key=lambda j: value(j)[0])
+    stretches = [(0, last)]
     while stretches:
         low, high = stretches.pop()
         reach = (value(low)[0] + value(high)[0] + steepest * (high - low)) / 2
@@ -396,8 +413,8 @@ def _motion(
         drum_speed=rim,
         run_on=loop.carry.static_end + on,
         run_off=loop.back.static_start + off,
-        carry_max=Extreme(carry_max.value, carry_max.time, carry_max.position + ahead),
-        carry_min=Extreme(carry_min.value, carry_min.time, carry_min.position + ahead),
+        carry_max=carry_max.moved(ahead),
+        carry_min=carry_min.moved(ahead),
         back_max=back_max,
         back_min=back_min,
         slipped=drum.slipped,

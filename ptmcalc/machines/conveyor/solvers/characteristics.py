@@ -21,9 +21,10 @@ from ptmcalc.numerics import loop, sagging, strand
 
 FloatArray = NDArray[np.float64]
 
-_FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 400, 100
-_MARGIN, _SAGGING_MARGIN = 1.5, 3.0  # on errors estimated from two grids
+_FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 100
+_MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0  # on errors estimated from two grids
 _SHIFT_STEPS = 2
+_TAIL_SHARE = 5.0
 _STEPS_PER_SCALE = 20
 _SECONDS = {"delays": (1.4e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.7e-8)}
 _OVERHEAD = 1.5e-3
@@ -38,13 +39,14 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
     backward leaves it, which the result says.
     **Error** the run is made on two grids, the finer with half the step. Histories that differ by at most d have
-    extremes that differ by at most d. Without sag d is the largest difference of the waves that leave drum, tail and
-    take-up on both grids; at second order a third of it is the error of the finer grid, and 1.5 times that is the
-    bar (the whole of it where slip begins between grid lines). The mismatch of the travel times shifts every echo
-    by at most that part of the elapsed time, which adds that shift times the steepest slope. With sag a steep
-    front that moves a little differs by its whole height, which no extreme does; there d is the largest difference
-    that no shift by a few steps explains, times 3, and not below what the history bends between two samples at
-    its extremes.
+    extremes that differ by at most d, and every tension is half a sum of the waves that leave drum, tail and take-up.
+    Without sag d is the largest difference of those waves on both grids; at second order a third of it is the error
+    of the finer grid, and 1.5 times that is the bar. Where slip begins between grid lines the order is lost: the bar
+    is twice d, and what corners between samples may hide inside the strands (`Extreme.missed`). No bar is below the
+    difference of the extreme itself on both grids. The mismatch of the travel times shifts every echo by at most
+    that part of the elapsed time, which adds that shift times the steepest slope. With sag a steep front that moves
+    a little differs by its whole height, which no extreme does; there d is the largest difference that no shift by a
+    few steps explains, times 3, and not below what the history bends between two samples at its extremes.
     **Source** method of characteristics; drum and tail by the exponential step; derived in `numerics.strand`.
     """
     case = start_case(spec, scene)
@@ -110,18 +112,21 @@ def _drive(case: StartCase) -> loop.Drive:
     return loop.Drive(speed=case.drum_speed) if case.imposed_speed else loop.Drive(force=case.force)
 
 
-def _time_scale(case: StartCase) -> float:
-    """Shortest time in which the waves at the drum change: the drum's own time constant, or the rise [s]."""
+def _time_scale(case: StartCase, carried: frozenset[str]) -> float:
+    """Shortest time in which the waves change: the time constant of drum or tail (which acts more weakly, and needs
+    a fifth of the steps), or the rise [s]."""
     line = case.line
+    both = line.impedance(CARRY) + line.impedance(RETURN)
+    tail = _TAIL_SHARE * line.tail_mass / both if "tail_mass" in carried and line.tail_mass > 0 else math.inf
     if case.imposed_speed:
-        return case.rise_time
+        return min(case.rise_time, tail)
     impedance = line.impedance(CARRY) + (line.impedance(RETURN) if line.fixed_length else 0.0)
-    return max(line.drive_mass / impedance, case.rise / 4)
+    return min(max(line.drive_mass / impedance, case.rise / 4), tail)
 
 
 def _grid(case: StartCase, carried: frozenset[str], level: int) -> loop.Grid:
     """Cells so that a step is a small part of the time scale; travel times matched as closely as the window asks."""
-    scale = _time_scale(case)
+    scale = _time_scale(case, carried)
     transit, other = case.line.transit(CARRY), case.line.transit(RETURN)
     cells = min(max(math.ceil(_STEPS_PER_SCALE * transit / scale), _FEWEST), _MOST_CELLS)
     if "sag" in carried:
@@ -140,9 +145,24 @@ class _Bars:
 
 
 def _straight_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
-    """Bars of a grid and its refinement: the same for every tension, as all are sums of the same waves."""
-    bar = _wave_error(coarse, fine) * (1.0 if fine.slipped else _MARGIN / 3) + _shift_error(fine, case.window)
-    return _Bars(bar, bar if case.line.fixed_length else 0.0, bar)
+    """Bars of a grid and its refinement, from the waves all tensions are sums of and from the extremes themselves."""
+    waves = _wave_error(coarse, fine) * (_SLIP_MARGIN if fine.slipped else _MARGIN / 3)
+    waves += _shift_error(fine, case.window)
+    on, off = max(waves, _end_error(coarse, fine, "run_on")), max(waves, _end_error(coarse, fine, "run_off"))
+    missed = waves + max(extreme.missed for extreme in _inside(fine)) if fine.slipped else 0.0
+    return _Bars(on, off if case.line.fixed_length else 0.0, max(on, off, missed, _inside_error(coarse, fine)))
+
+
+def _end_error(coarse: loop.Motion, fine: loop.Motion, end: str) -> float:
+    """Differences of the extremes at one end of the drum as they are reported, on both grids [N]."""
+    one, other = getattr(coarse, end), getattr(fine, end)
+    top, bottom = coarse.largest(one)[0] - fine.largest(other)[0], coarse.smallest(one)[0] - fine.smallest(other)[0]
+    return max(abs(top), abs(bottom))
+
+
+def _inside_error(coarse: loop.Motion, fine: loop.Motion) -> float:
+    """Largest difference of the extremes inside the strands on both grids [N]."""
+    return max(abs(one.value - other.value) for one, other in zip(_inside(coarse), _inside(fine), strict=True))
 
 
 def _sagging_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
@@ -158,17 +178,16 @@ def _sagging_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _B
         again = np.interp(fine.times, coarse.times, one)
         return max(_gap(other, again, reach), _gap(again, other, reach))
 
-    def end(one: FloatArray, other: FloatArray) -> float:
-        """Gap of a history at the drum, and the differences of its extremes as they are reported."""
-        top, bottom = coarse.largest(one)[0] - fine.largest(other)[0], coarse.smallest(one)[0] - fine.smallest(other)[0]
-        return _SAGGING_MARGIN * max(gap(one, other), abs(top), abs(bottom))
+    def end(name: str) -> float:
+        apart = gap(getattr(coarse, name), getattr(fine, name))
+        return _SAGGING_MARGIN * max(apart, _end_error(coarse, fine, name))
 
     waves = [gap(one, other) for one, other in zip(coarse.waves, fine.waves, strict=True)]
-    direct = [abs(one.value - other.value) for one, other in zip(_inside(coarse), _inside(fine), strict=True)]
+    direct = _inside_error(coarse, fine)
     least = _bend(fine.run_on)
-    on, off = max(end(coarse.run_on, fine.run_on), least), end(coarse.run_off, fine.run_off)
+    on, off = max(end("run_on"), least), end("run_off")
     off = max(off, least) if case.line.fixed_length else 0.0
-    inside = max(_SAGGING_MARGIN * max(direct), on, off, (waves[0] + waves[1]) / 2, (waves[2] + waves[3]) / 2)
+    inside = max(_SAGGING_MARGIN * direct, on, off, (waves[0] + waves[1]) / 2, (waves[2] + waves[3]) / 2)
     return _Bars(on, off, inside)
 
 
