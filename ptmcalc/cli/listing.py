@@ -4,20 +4,17 @@ import difflib
 import inspect
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
-from io import StringIO
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from shutil import get_terminal_size
 from typing import Any
 
 import typer
-from rich import box
-from rich.console import Console
-from rich.table import Table
 
 from ptmcalc.base.diagnostic import CODES
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import dotted, key_path
-from ptmcalc.base.units import TIME, digits, show
+from ptmcalc.base.units import TIME, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, EffectState
 from ptmcalc.contract.machine import AnyKind
@@ -29,20 +26,14 @@ from ptmcalc.engine.plan import Plan, ScenePlan, plan
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.engine.run import settle
 from ptmcalc.engine.solve import solve
-from ptmcalc.report import Format, json, render
+from ptmcalc.report import Format, json, render, words
+from ptmcalc.report.table import listing
 
 Row = dict[str, Any]
 
 
-def _table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in columns:
-        table.add_column(column)
-    for row in rows:
-        table.add_row(*row)
-    out = StringIO()
-    Console(file=out, width=150, no_color=True, highlight=False).print(table)
-    return "\n".join(line.rstrip() for line in out.getvalue().split("\n"))
+def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    return listing(columns, rows, width=get_terminal_size((120, 40)).columns)
 
 
 def _loaded(path: str, options: Options) -> Loaded:
@@ -61,30 +52,28 @@ def _reported(loaded: Loaded) -> int:
 
 def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
     """Print the plans of some files; the exit status."""
-    status, rows = 0, []
+    status, rows, tables = 0, [], []
     for path in paths:
         loaded = _loaded(path, options)
         if loaded.kind is None or loaded.spec is None:
             status = max(status, _reported(loaded))
             continue
         made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
-        rows += [{"path": path} | row for scene in made.scenes for row in _plan_rows(made, scene)]
-    if as_json:
-        typer.echo(json.rows(rows), nl=False)
-    elif rows:
-        columns = (
-            "file",
-            "scene",
-            "effect",
-            "will be",
-            "number",
-            "threshold",
-            "what it says",
-            "solver",
-            "predicted",
-        )
-        typer.echo(_table(columns, [_plan_cells(row) for row in rows]), nl=False)
+        for scene in made.scenes:
+            found = list(_plan_rows(made, scene))
+            rows += [{"path": path} | row | {"criterion": json.criterion(row["criterion"])} for row in found]
+            tables.append(_plan_table(path, found))
+    typer.echo(json.rows(rows) if as_json else "\n".join(tables), nl=False)
     return status
+
+
+def _plan_table(path: str, rows: Sequence[Row]) -> str:
+    """The effects of one scene under the solver it comes to."""
+    first = rows[0]
+    about = show(first["predicted_seconds"], TIME, 2)
+    title = f"{path}  {first['scene']}: {first['solver']}, predicted {about}\n"
+    columns = ("effect", "will be", "number", "what it says")
+    return title + (_table(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
 
 
 def _plan_rows(made: Plan, scene: ScenePlan) -> Iterator[Row]:
@@ -105,26 +94,19 @@ def _plan_rows(made: Plan, scene: ScenePlan) -> Iterator[Row]:
             "effect": planned.effect.name,
             "state": state.value,
             "forced": planned.forced,
-            "criterion": json.criterion(planned.criterion),
+            "criterion": planned.criterion,
         }
     if not scene.effects:
         yield common | {"effect": None, "state": None, "forced": False, "criterion": None}
 
 
 def _plan_cells(row: Row) -> list[str]:
-    number = row["criterion"] or {}
-    value = number.get("value")
-    shown = "unlimited" if value is None else digits(value, 3)
+    number = row["criterion"]
     return [
-        row["path"],
-        row["scene"],
-        row["effect"] or "",
-        (row["state"] or "") + (" (forced)" if row["forced"] else ""),
-        f"{number['symbol']} = {shown}" if number else "",
-        digits(number["threshold"], 3) if number else "",
-        number.get("meaning", ""),
-        row["solver"],
-        show(row["predicted_seconds"], TIME, 2),
+        row["effect"],
+        row["state"] + (" (forced)" if row["forced"] else ""),
+        words.compared(number) if number else "",
+        number.meaning if number else "",
     ]
 
 

@@ -34,10 +34,5 @@ def _said(judgement: Judgement) -> str:
         parts.append(
             f"{words.amount(judgement.value, judgement.quantity)}, {_RELATION[judgement.sense]} {limit} is sound"
         )
-    if judgement.reason:
-        parts.append(judgement.reason)
-    if judgement.repair:
-        parts.append(f"{words.repair(judgement)} would pass")
-    if judgement.without:
-        parts.append(f"without {', '.join(judgement.without)}")
-    return ": " + "; ".join(parts) if parts else ""
+    parts.append(words.remark(judgement))
+    return ": " + "; ".join(filter(None, parts)) if any(parts) else ""

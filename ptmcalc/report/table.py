@@ -1,6 +1,6 @@
 """The report a designer reads on a terminal: loads by scene, checks worst first, then what was computed and why."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from io import StringIO
 
 from rich import box
@@ -9,8 +9,9 @@ from rich.table import Table
 from rich.text import Text
 
 from ptmcalc.base.diagnostic import Severity, Verdict
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
-from ptmcalc.base.units import TIME, digits
+from ptmcalc.base.units import TIME, show
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import EffectReport, FileReport, LoadReport, SceneReport, SolverReport, count
 from ptmcalc.report import words
@@ -27,16 +28,36 @@ _STYLE = {
     Severity.NOTE.value: "cyan",
 }
 _INVISIBLE = 1e-6
+_LONGEST_WORD = 16
 _SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
     """The tables of all files, and a summary line."""
+
+    def write(console: Console) -> None:
+        for report in reports:
+            _file(console, report)
+        console.print(words.summary(count(reports)))
+
+    return _printed(write, width, color)
+
+
+def listing(columns: Sequence[str], rows: Iterable[Sequence[str]], *, width: int) -> str:
+    """A plain table of texts, for the commands that list things."""
+    table, cells = _table(""), [list(columns), *map(list, rows)]
+    for column in zip(*cells, strict=True):
+        longest = max((len(word) for cell in column for word in cell.split()), default=0)
+        table.add_column(column[0], min_width=min(longest, _LONGEST_WORD), overflow="fold")
+    for row in cells[1:]:
+        table.add_row(*row)
+    return _printed(lambda console: console.print(table), width, color=False)
+
+
+def _printed(write: Callable[[Console], None], width: int, color: bool) -> str:
+    """What is written to a console, without spaces at the ends of lines."""
     out = StringIO()
-    console = Console(file=out, width=width, force_terminal=color, no_color=not color, highlight=False)
-    for report in reports:
-        _file(console, report)
-    console.print(words.summary(count(reports)))
+    write(Console(file=out, width=width, force_terminal=color, no_color=not color, highlight=False))
     return "\n".join(line.rstrip() for line in out.getvalue().split("\n"))
 
 
@@ -59,7 +80,7 @@ def _file(console: Console, report: FileReport) -> None:
 
 
 def _table(title: str, *columns: str) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=title or None, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in columns:
         table.add_column(column)
     return table
@@ -80,7 +101,8 @@ def _diagnostics(console: Console, report: FileReport) -> None:
 def _loads(console: Console, scenes: tuple[SceneReport, ...]) -> None:
     """Loads in rows, scenes in columns; the textbook's value with its ratio beside a simulated one."""
     table = _table("Loads")
-    table.add_column("", no_wrap=True)
+    table.add_column("")
+    table.add_column("")
     cells: list[dict[str, LoadReport]] = []
     textbook = [any(load.formula for load in scene.loads) for scene in scenes]
     for scene, has_formula in zip(scenes, textbook, strict=True):
@@ -91,61 +113,62 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...]) -> None:
     fullest_first = sorted(scenes, key=lambda scene: -len(scene.loads))
     names = dict.fromkeys(load.info for scene in fullest_first for load in scene.loads if load.info.headline)
     for info in names:
-        row = [info.title]
-        for found, has_formula in zip(cells, textbook, strict=True):
-            load = found.get(info.name)
-            row.append(words.amount(load.estimate, info.quantity) if load else "")
+        found = [scene.get(info.name) for scene in cells]
+        unit = words.common_unit((load.estimate.value for load in found if load), info.quantity)
+        row = [info.title, unit.removeprefix("1")]
+        for load, has_formula in zip(found, textbook, strict=True):
+            row.append(words.amount(load.estimate, info.quantity, unit) if load else "")
             if has_formula:
-                row.append(_formula(load))
+                row.append(_formula(load, unit))
         table.add_row(*row)
     console.print(table)
 
 
-def _formula(load: LoadReport | None) -> str:
+def _formula(load: LoadReport | None, unit: str) -> str:
     if load is None or load.formula is None:
         return ""
-    ratio = f"  ×{load.formula.ratio:.3f}" if load.formula.ratio is not None else ""
-    return words.number(load.formula.value, load.info.quantity) + ratio
+    ratio = f" ×{load.formula.ratio:.3f}" if load.formula.ratio is not None else ""
+    return words.amount(Estimate.exact(load.formula.value), load.info.quantity, unit) + ratio
 
 
 def _checks(console: Console, report: FileReport) -> None:
-    table = _table("Checks", "verdict", "check", "scene", "value", "limit", "margin", "governed by", "would pass")
+    """Verdicts in rows, the worst first; under them the key that governs each that is not sound, and the way out."""
+    table = _table("Checks", "verdict", "check", "scene", "value", "limit", "margin")
+    lines = []
     for scene, judgement in words.worst_first(report):
-        verdict = judgement.verdict.value
+        verdict = Text(judgement.verdict.value.replace("_", " "), style=_STYLE[judgement.verdict.value])
         value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
         limit = (
             f"{_SIGN[judgement.sense]} {words.amount(judgement.limit, judgement.quantity)}" if judgement.limit else ""
         )
-        blame = f"{dotted(judgement.blame.path)} ({words.place(judgement.blame.span)})"
-        remedy = words.repair(judgement) or judgement.reason
-        if judgement.without:
-            remedy = "; ".join(filter(None, (remedy, f"without {', '.join(judgement.without)}")))
-        table.add_row(
-            Text(verdict.replace("_", " "), style=_STYLE[verdict]),
-            f"{judgement.code} {judgement.title}",
-            scene,
-            value,
-            limit,
-            words.margin(judgement),
-            "" if judgement.verdict is Verdict.PASS else blame,
-            remedy,
-        )
+        title = f"{judgement.code} {judgement.title}"
+        table.add_row(verdict, title, scene, value, limit, words.margin(judgement))
+        remark = words.remark(judgement)
+        if judgement.verdict is not Verdict.PASS:
+            place = f"{report.path}:{words.place(judgement.blame.span)}"
+            governed = f" governed by {dotted(judgement.blame.path)} ({place})"
+            lines.append(Text.assemble(verdict, f" {judgement.code} {scene}:{governed}{'; ' * bool(remark)}{remark}"))
+        elif remark:
+            lines.append(Text.assemble(verdict, f" {judgement.code} {scene}: {remark}"))
     console.print(table)
+    for line in lines:
+        console.print(line)
+    if lines:
+        console.print()
 
 
 def _effects(console: Console, scenes: Iterable[SceneReport]) -> None:
     rows = [(scene.name, effect) for scene in scenes for effect in scene.effects]
     if not rows:
         return
-    table = _table("Effects", "scene", "effect", "state", "number", "threshold", "what it says", "without it")
+    table = _table("Effects", "scene", "effect", "state", "number", "what it says", "without it")
     for scene, effect in rows:
         number = effect.criterion
         table.add_row(
             scene,
             effect.name,
             f"{effect.state.value}{' (forced)' if effect.forced else ''}",
-            f"{number.symbol} = {digits(number.value, 3)}" if number else "",
-            digits(number.threshold, 3) if number else "",
+            words.compared(number) if number else "",
             number.meaning if number else effect.note,
             _change(effect),
         )
@@ -161,7 +184,7 @@ def _change(effect: EffectReport) -> str:
 
 
 def _solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
-    table = _table("Solvers", "scene", "solver", "effects carried", "work", "next would be")
+    table = _table("Solvers", "scene", "solver", "effects carried", "work", "next would take")
     for scene in scenes:
         for solver in scene.solvers:
             table.add_row(
@@ -177,7 +200,7 @@ def _solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
 def _next(solver: SolverReport) -> str:
     if solver.next is None:
         return ""
-    return f"{solver.next.name}, about {words.number(solver.next.predicted_seconds, TIME)}"
+    return f"{solver.next.name}, {show(solver.next.predicted_seconds, TIME, 2)}"
 
 
 def _assumed(console: Console, report: FileReport) -> None:

@@ -1,23 +1,28 @@
 """Words and numbers as every text format writes them."""
 
 import math
+from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import Quantity, digits, display_unit, unit_of
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import FileReport, Judgement
 
 
-def amount(estimate: Estimate, quantity: Quantity) -> str:
-    """A number with its bar: `83.56 ±0.36 kN`, `134.2 [134.2, 268.5] kN`, `189.5 kN` when the bar is invisible."""
+def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
+    """A number with its bar: `83.56 ±0.36 kN`, `134.2 [134.2, 268.5] kN`, `189.5 kN` when the bar is invisible.
+
+    With `unit` given the number is in that unit, which is not written again.
+    """
     value = estimate.value
     if math.isinf(value):
         return "unlimited" if value > 0 else "none"
     if math.isnan(value):
         return "unknown"
-    unit = display_unit(value, quantity)
-    factor = unit_of(unit)[0]
-    suffix = f" {unit}" if unit != "1" else ""
+    shown = unit or display_unit(value, quantity)
+    factor = unit_of(shown)[0]
+    suffix = "" if unit or shown == "1" else f" {shown}"
     low, high, middle = estimate.low / factor, estimate.high / factor, value / factor
     if not (math.isfinite(low) and math.isfinite(high)):
         return f"{digits(middle)}{suffix} (no bound)"
@@ -28,6 +33,11 @@ def amount(estimate: Estimate, quantity: Quantity) -> str:
         return f"{digits(middle)} [{digits(low)}, {digits(high)}]{suffix}"
     places = max(1 - math.floor(math.log10(bar)), 0)
     return f"{middle:.{places}f} ±{bar:.{places}f}{suffix}"
+
+
+def common_unit(values: Iterable[float], quantity: Quantity) -> str:
+    """The unit in which the largest of several values reads best."""
+    return display_unit(max((abs(value) for value in values if math.isfinite(value)), default=0.0), quantity)
 
 
 def number(value: float, quantity: Quantity) -> str:
@@ -54,11 +64,22 @@ def relative_margin(judgement: Judgement) -> float:
     return judgement.margin / scale
 
 
-def repair(judgement: Judgement) -> str:
-    """The value that would pass: `takeup.tension = 29.03 kN`."""
-    if judgement.repair is None:
-        return ""
-    return f"{dotted(judgement.repair.path)} = {number(judgement.repair.value, judgement.repair.quantity)}"
+def remark(judgement: Judgement) -> str:
+    """What a verdict rests on besides its numbers: the reason, the value that would pass, what was left out."""
+    parts = [judgement.reason]
+    if judgement.repair:
+        value = number(judgement.repair.value, judgement.repair.quantity)
+        parts.append(f"passes with {dotted(judgement.repair.path)} = {value}")
+    if judgement.without:
+        parts.append(f"without {', '.join(judgement.without)}")
+    return "; ".join(filter(None, parts))
+
+
+def compared(number: Criterion) -> str:
+    """The number that decided about an effect, beside its threshold: `E = 0.663 ≥ 0.05`."""
+    relation = "≥" if number.exceeded else "<"
+    value = digits(number.value, 3) if math.isfinite(number.value) else "unlimited"
+    return f"{number.symbol} = {value} {relation} {digits(number.threshold, 3)}"
 
 
 def place(span: Span | None) -> str:

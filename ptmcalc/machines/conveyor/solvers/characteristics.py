@@ -38,15 +38,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
     **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
     backward leaves it, which the result says.
-    **Error** the run is made on two grids, the finer with half the step. Histories that differ by at most d have
-    extremes that differ by at most d, and every tension is half a sum of the waves that leave drum, tail and take-up.
-    Without sag d is the largest difference of those waves on both grids; at second order a third of it is the error
-    of the finer grid, and 1.5 times that is the bar. Where slip begins between grid lines the order is lost: the bar
-    is twice d, and what corners between samples may hide inside the strands (`Extreme.missed`). No bar is below the
-    difference of the extreme itself on both grids. The mismatch of the travel times shifts every echo by at most
-    that part of the elapsed time, which adds that shift times the steepest slope. With sag a steep front that moves
-    a little differs by its whole height, which no extreme does; there d is the largest difference that no shift by a
-    few steps explains, times 3, and not below what the history bends between two samples at its extremes.
+    **Error** estimated from the differences of two grids, the finer with half the step; without sag of second order,
+    with slip or sag of first order. The bars are derived in `_straight_bars` and `_sagging_bars`.
     **Source** method of characteristics; drum and tail by the exponential step; derived in `numerics.strand`.
     """
     case = start_case(spec, scene)
@@ -145,7 +138,15 @@ class _Bars:
 
 
 def _straight_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
-    """Bars of a grid and its refinement, from the waves all tensions are sums of and from the extremes themselves."""
+    """Bars of a grid and its refinement, from the waves all tensions are sums of and from the extremes themselves.
+
+    Histories that differ by at most d have extremes that differ by at most d, and every tension is half a sum of the
+    waves that leave drum, tail and take-up. With d the largest difference of those waves on both grids, a third of it
+    is the error of the finer grid at second order, and 1.5 times that is the bar. Where slip begins between grid
+    lines the order is lost: the bar is twice d, and what corners between samples may hide inside the strands
+    (`Extreme.missed`). No bar is below the difference of the extreme itself on both grids. The mismatch of the travel
+    times shifts every echo by at most that part of the elapsed time: that shift times the steepest slope is added.
+    """
     waves = _wave_error(coarse, fine) * (_SLIP_MARGIN if fine.slipped else _MARGIN / 3)
     waves += _shift_error(fine, case.window)
     on, off = max(waves, _end_error(coarse, fine, "run_on")), max(waves, _end_error(coarse, fine, "run_off"))
@@ -166,11 +167,12 @@ def _inside_error(coarse: loop.Motion, fine: loop.Motion) -> float:
 
 
 def _sagging_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
-    """Bars of a grid and its refinement where fronts are steep: what no small shift in time explains.
+    """Bars of a grid and its refinement where fronts are steep: three times what no small shift in time explains.
 
-    Every value of one history is looked for among the values of the other within a few steps; the extremes of two
-    histories, at whatever moment, differ by no more than the largest gap. Inside the strands the gaps of the two
-    waves that make up the tension stand for it.
+    A steep front that moves a little differs by its whole height, which no extreme does. Every value of one history
+    is looked for among the values of the other within a few steps; the extremes of two histories, at whatever moment,
+    differ by no more than the largest gap. Inside the strands the gaps of the two waves that make up the tension
+    stand for it. No bar is below what the history bends between two samples at its extremes.
     """
     reach = math.ceil(_SHIFT_STEPS * coarse.grid.step / fine.grid.step)
 
