@@ -4,6 +4,8 @@ Everything is written with exp(-mu alpha) or expm1, so that 400 turns do not ove
 its digits.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -34,27 +36,67 @@ def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike,
         return np.where(grip > 0, pull * np.exp(-exponent) / grip, np.inf)
 
 
-def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike, exponent: float) -> FloatArray:
+def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, exponent: float) -> FloatArray:
     """Reserve of friction force at the drum: what it can transmit over what it must.
 
-        k = (S_s - rho v^2) (exp(mu alpha) - 1) / (S_t - S_s)
+        k = S_s (exp(mu alpha) - 1) / (S_t - S_s)
 
     Args:
         tight: S_t, tension of the tighter side [N].
         slack: S_s, tension of the slacker side [N].
-        centrifugal: rho v^2 of the bare belt [N].
         exponent: mu alpha [1].
 
     Returns:
         k; infinite where nothing is transmitted, 0 where the slack side has no tension left [1].
 
-    **Range** as `slip_utilisation`; k = 1 exactly where U = 1, which needs the centrifugal term here too.
-    **Error** exact for that model.
+    **Range** slow belts: the definition of handbooks leaves out the centrifugal tension, so that a belt slips
+    (`slip_utilisation` reaches 1) at k = S_s/(S_s - rho v^2), a little above 1.
+    **Error** exact for that definition.
     **Source** reserve of friction forces k_T, lecture notes Kramatorsk 2007, with the usual reading
     S_off (exp(mu alpha) - 1) >= k_T F.
     """
-    grip = np.asarray(slack, float) - centrifugal
-    pull = np.asarray(tight, float) - slack
+    grip, pull = np.asarray(slack, float), np.asarray(tight, float) - slack
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         reserve = grip * np.expm1(exponent) / pull
     return np.where(grip > 0, np.where(pull > 0, reserve, np.inf), 0.0)
+
+
+def slip_reserve_ratio(ratio: float, exponent: float) -> float:
+    """Reserve of friction force where the tensions have a ratio.
+
+        k = (1 - exp(-mu alpha)) / (r - exp(-mu alpha)),   r = S_t/S_s exp(-mu alpha)
+
+    Args:
+        ratio: r, the utilisation without centrifugal tension [1].
+        exponent: mu alpha [1].
+
+    Returns:
+        k; infinite where nothing is transmitted, 0 where the ratio is infinite [1].
+
+    **Range** as `slip_reserve_force`.
+    **Error** exact.
+    **Source** `slip_reserve_force`, divided by S_s.
+    """
+    if math.isinf(ratio):
+        return 0.0
+    pull = ratio - math.exp(-exponent)
+    return -math.expm1(-exponent) / pull if pull > 0 else math.inf
+
+
+def slip_ratio(reserve: float, exponent: float) -> float:
+    """The inverse of `slip_reserve_ratio`.
+
+        r = exp(-mu alpha) + (1 - exp(-mu alpha))/k
+
+    Args:
+        reserve: k [1].
+        exponent: mu alpha [1].
+
+    Returns:
+        r; infinite for no reserve [1].
+
+    **Range** k at least 0.
+    **Error** exact.
+    **Source** `slip_reserve_ratio`.
+    """
+    return math.exp(-exponent) - math.expm1(-exponent) / reserve if reserve > 0 else math.inf

@@ -310,7 +310,7 @@ def slip_loads(exponent: float, states: list[Sides]) -> dict[str, float]:
     tight, slack = np.maximum(on, off), np.minimum(on, off)
     return {
         "slip_utilisation_max": float(capstan.slip_utilisation(tight, slack, lift, exponent).max()),
-        "slip_reserve_min": float(capstan.slip_reserve_force(tight, slack, lift, exponent).min()),
+        "slip_reserve_min": float(capstan.slip_reserve_force(tight, slack, exponent).min()),
     }
 
 
@@ -376,8 +376,8 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
     """How far each load of a run may be off when every tension may be off by `change` [N] at any time.
 
     The grip follows from U' = (U x + change e)/(x - change), with x the smallest run-off tension less the
-    centrifugal one and e = exp(-mu alpha), and from k = (exp(mu alpha) - 1)/(U exp(mu alpha) - 1), which ties the
-    reserve to the utilisation of the same moment.
+    centrifugal one and e = exp(-mu alpha); the reserve, without the centrifugal one, from the ratio of tensions
+    that it stands for.
     """
     line = case.line
     moved = {name: Interval(-change, change) for name in _TENSIONS if name in loads}
@@ -409,33 +409,23 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
 
 
 def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
-    assert line.grip_exponent is not None
-    used = loads["slip_utilisation_max"].value
-    lift = line.centrifugal_at_speed
-    grip = (
-        min(
-            loads["tension_run_off_min"].value,
-            loads["tension_min"].value if "tension_min" in loads else np.inf,
-        )
-        - lift
-    )
+    exponent = line.grip_exponent
+    assert exponent is not None
+    slack = min(loads[name].value for name in ("tension_run_off_min", "tension_min") if name in loads)
     off_change = change if line.fixed_length else 0.0
-    squeeze = float(np.exp(-line.grip_exponent))
-    high = (used * grip + change * squeeze) / (grip - off_change) if grip > off_change else np.inf
-    low = max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0
-    moved = {"slip_utilisation_max": _around(used, [low, high])}
+    squeeze = float(np.exp(-exponent))
+
+    def ends(used: float, grip: float) -> list[float]:
+        high = (used * grip + change * squeeze) / (grip - off_change) if grip > off_change else np.inf
+        return [max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0, high]
+
+    used = loads["slip_utilisation_max"].value
+    moved = {"slip_utilisation_max": _around(used, ends(used, slack - line.centrifugal_at_speed))}
     if "slip_reserve_min" in loads:
-        ends = [reserve_of(value, line.grip_exponent) for value in (low, high)]
-        moved["slip_reserve_min"] = _around(loads["slip_reserve_min"].value, ends)
+        reserve = loads["slip_reserve_min"].value
+        ratios = ends(capstan.slip_ratio(reserve, exponent), slack)
+        moved["slip_reserve_min"] = _around(reserve, [capstan.slip_reserve_ratio(end, exponent) for end in ratios])
     return moved
-
-
-def reserve_of(utilisation: float, exponent: float) -> float:
-    """Reserve of friction force at a utilisation: k = (exp(mu alpha) - 1)/(U exp(mu alpha) - 1)."""
-    if not np.isfinite(utilisation):
-        return 0.0
-    pull = utilisation - np.exp(-exponent)
-    return float(-np.expm1(-exponent) / pull) if pull > 0 else np.inf
 
 
 def _around(value: float, ends: list[float]) -> Interval:

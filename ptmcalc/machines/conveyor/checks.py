@@ -1,5 +1,6 @@
 """The checks of a conveyor."""
 
+import math
 from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
@@ -12,6 +13,7 @@ Loads = Mapping[str, Estimate]
 
 _LEAST_WRAP = 2.8  # rad, 160 deg
 _LEAST_GRIP = 0.6931471805599453  # mu alpha = ln 2: below it the drum transmits less than the run-off tension
+_NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 _STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
 
 _SAFETY = {
@@ -52,13 +54,20 @@ def _slip_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 def _slip_value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
     """The reserve of grip by the definition of the file: of force, or of the ratio of tensions (1/U).
 
+    The reserve of force leaves out the centrifugal tension; a belt at U = 1 slips whatever it says, and has none.
+
     **Range** any state of the drum; infinite where it transmits nothing.
     **Error** that of the load.
     **Source** `laws.capstan`.
     """
-    if spec.checks.slip.definition == "force":
-        return loads["slip_reserve_min"]
     used = loads["slip_utilisation_max"]
+    if spec.checks.slip.definition == "force":
+        left = loads["slip_reserve_min"]
+        value, low, high = (
+            min(reserve, _NO_RESERVE) if state >= 1 else reserve
+            for reserve, state in ((left.value, used.value), (left.low, used.high), (left.high, used.low))
+        )
+        return Estimate(value, low, high, left.numerical, left.model)
     value, low, high = (_inverse(part) for part in (used.value, used.high, used.low))
     return Estimate(value, low, high, used.numerical / used.value**2, used.model / used.value**2)
 
@@ -100,7 +109,7 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
     repair=_takeup_tension,
     what="The grip of the drum exceeds what it must transmit by the reserve k_T, at every moment and in both senses.",
     why="A belt that slips on the drum wears the lagging, overheats and can burn; it does not recover by itself.",
-    formula="k = (S_slack - rho_B v^2)(exp(mu alpha) - 1)/(S_tight - S_slack) >= k_T   (definition `force`)\n"
+    formula="k = S_slack (exp(mu alpha) - 1)/(S_tight - S_slack) >= k_T, and U < 1   (definition `force`)\n"
     "1/U >= k_T,  U = (S_tight - rho_B v^2)/((S_slack - rho_B v^2) exp(mu alpha))   (definition `ratio`)",
     source="Euler-Eytelwein; k_T 1.1 to 1.5, lecture notes Kramatorsk 2007; 1.2 in handbooks",
 )

@@ -62,8 +62,8 @@ def wave_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
         S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
 
     A belt softened by sag is a linear belt of lower stiffness as long as the softening is the same over the swing:
-    below 5 % anywhere, or changing by less than 5 % over the swing (gravity take-up); then the lowest frequency is
-    taken of the softest belt. A belt that sags more is unbounded.
+    below 5 % anywhere, or changing by less than 5 % over the swing; then the lowest frequency is taken of the softest
+    belt. A belt that sags more is unbounded.
 
     **Range** linear undamped belt without slip; any jump of impedance and tail mass.
     **Error** a bound; at the run-on of a gravity take-up under a torque step it is attained.
@@ -73,8 +73,6 @@ def wave_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
     softening = None if spec.effects.get("sag") == "off" else bounds.largest_softening(case)
     if softening is None or softening < SAG_THRESHOLD:
         return bounds.offsets(case, bounds.enclose(case, softening or 0.0), loads)
-    if case.line.fixed_length:
-        return _anything(case, loads)
     enclosure = _gently_sagging(case)
     return bounds.offsets(case, enclosure, loads) if enclosure else _anything(case, loads)
 

@@ -268,13 +268,11 @@ def _slip(case: StartCase, exponent: float, motion: loop.Motion, bars: _Bars) ->
     driving = motion.run_on >= motion.run_off
     tight, slack = np.maximum(motion.run_on, motion.run_off), np.minimum(motion.run_on, motion.run_off)
     tight_bar, slack_bar = np.where(driving, bars.on, bars.off), np.where(driving, bars.off, bars.on)
-    states = (
-        capstan.slip_utilisation(tight + side * tight_bar, slack - side * slack_bar, lift, exponent)
-        for side in (0, -1, 1)
-    )
-    worst = [_largest(state, motion) for state in states]
+    sides = [(tight + side * tight_bar, slack - side * slack_bar) for side in (0, -1, 1)]
+    worst = [_largest(capstan.slip_utilisation(*pair, lift, exponent), motion) for pair in sides]
     used = [value for value, _ in worst]
-    left = [bounds.reserve_of(value, exponent) for value in used]
+    ratios = [_largest(capstan.slip_utilisation(*pair, 0.0, exponent), motion)[0] for pair in sides]
+    left = [capstan.slip_reserve_ratio(ratio, exponent) for ratio in ratios]
     at = {"time": worst[0][1] + case.held}
     found = {"slip_utilisation_max": Found(_spread(*used), at), "slip_reserve_min": Found(_spread(*left), at)}
     if motion.slipped:

@@ -39,13 +39,15 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     if line.grip_exponent is not None and line.run_on >= line.run_off:
         fastest = case.excess * case.window / line.drive_mass
         lift = line.belt_line_mass * fastest**2
-        for name, law in (
-            ("slip_utilisation_max", capstan.slip_utilisation),
-            ("slip_reserve_min", capstan.slip_reserve_force),
-        ):
-            slow = float(law(on, line.run_off, 0.0, line.grip_exponent))
-            fast = float(law(on, line.run_off, lift, line.grip_exponent))
-            loads[name] = Found(Estimate(slow, min(slow, fast), max(slow, fast), model=abs(fast - slow)), at)
+        slow, fast = (
+            float(capstan.slip_utilisation(on, line.run_off, part, line.grip_exponent)) for part in (0.0, lift)
+        )
+        used = Estimate(slow, min(slow, fast), max(slow, fast), model=abs(fast - slow))
+        left = float(capstan.slip_reserve_force(on, line.run_off, line.grip_exponent))
+        loads |= {
+            "slip_utilisation_max": Found(used, at),
+            "slip_reserve_min": Found(Estimate.exact(left), at),
+        }
     return Result(loads, work=1, window=(0.0, case.window))
 
 
