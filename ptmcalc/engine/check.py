@@ -278,7 +278,7 @@ class _Assembly:
         scene = self.settled.plan.scene
         path = ruling.check.repair(self.spec, scene)
         try:
-            solution = solve(self.kind, self.spec, ruling.check, path, scene.label) if path else None
+            solution = solve(self.kind, self.spec, ruling.check, path, scene.label, digits=3) if path else None
         except UsageError:
             return None
         return Repair(solution.path, solution.value, solution.quantity) if solution else None

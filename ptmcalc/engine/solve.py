@@ -18,10 +18,7 @@ from ptmcalc.spec.machine import MachineSpec
 
 _DECADES = 3
 _STEPS_PER_DECADE = 4
-_SIGNIFICANT = 4
 _MOST_STEPS = 60
-_WIDTH = 3e-4
-_FINEST = 1  # near the limit every refinement would run; the value is wanted to 4 digits only
 
 Clearance = Callable[[float], float]
 """How far the whole error bar lies on the sound side of the limit; the check passes from 0 up."""
@@ -36,11 +33,29 @@ class Solution:
     quantity: Quantity
 
 
-def solve(kind: AnyKind, spec: MachineSpec, check: AnyCheck, path: KeyPath, scene_name: str = "") -> Solution | None:
+@dataclass(frozen=True, slots=True)
+class _Wanted:
+    """How closely a value is looked for: digits, the bracket they need, and the finest setting a run may have (near
+    the limit every refinement would run, which no digit of the value is worth)."""
+
+    digits: int
+
+    @property
+    def width(self) -> float:
+        return 3 * 10.0**-self.digits
+
+    @property
+    def finest(self) -> int:
+        return max(self.digits - 3, 0)
+
+
+def solve(
+    kind: AnyKind, spec: MachineSpec, check: AnyCheck, path: KeyPath, scene_name: str = "", *, digits: int = 4
+) -> Solution | None:
     """The value nearest to the present one at which the check passes, or None when there is none within 3 decades.
 
     Values at growing distances on both sides of the present one are tried, the first change to a pass is narrowed
-    down, and the value is rounded to 4 digits of its unit towards the passing side. It is a value at which the
+    down, and the value is rounded to so many digits of its unit towards the passing side. It is a value at which the
     check was seen to pass, error bar included.
 
     Raises:
@@ -51,16 +66,24 @@ def solve(kind: AnyKind, spec: MachineSpec, check: AnyCheck, path: KeyPath, scen
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    clearance = _clearance(kind, spec, check, path, measure, scene_name)
+    decisive = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
+    wanted = _Wanted(digits)
+    clearance = _clearance(kind, decisive, check, path, measure, scene_name, wanted.finest)
     bracket = _bracket(clearance, float(present))
     if bracket is None:
         return None
-    good = _rounded(clearance, *_narrow(clearance, *bracket), measure.quantity)
+    good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
     return Solution(path, good, measure.quantity)
 
 
 def _clearance(
-    kind: AnyKind, spec: MachineSpec, check: AnyCheck, path: KeyPath, measure: Measure, scene_name: str
+    kind: AnyKind,
+    spec: MachineSpec,
+    check: AnyCheck,
+    path: KeyPath,
+    measure: Measure,
+    scene_name: str,
+    finest: int,
 ) -> Clearance:
     """The worst clearance of the check over its scenes as a function of the key; remembers what it has tried."""
     tried: dict[float, float] = {}
@@ -75,15 +98,17 @@ def _clearance(
             tried[value] = -math.inf
             if not measure.broken_by(value):
                 changed = spec.with_value(path, value)
-                tried[value] = min((_of_scene(kind, changed, check, index) for index in scenes), default=-math.inf)
+                tried[value] = min(
+                    (_of_scene(kind, changed, check, index, finest) for index in scenes), default=-math.inf
+                )
         return tried[value]
 
     return clearance
 
 
-def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int) -> float:
+def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int, finest: int) -> float:
     scene = plan_scene(kind, spec, spec.all_scenes[index])
-    settled = settle(kind, spec, scene, only=check, until=lambda rung: rung.level <= _FINEST)
+    settled = settle(kind, spec, scene, only=check, until=lambda rung: rung.level <= finest)
     return min((_of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
 
@@ -111,13 +136,13 @@ def _bracket(clearance: Clearance, present: float) -> tuple[float, float] | None
     return None
 
 
-def _narrow(clearance: Clearance, bad: float, good: float) -> tuple[float, float]:
+def _narrow(clearance: Clearance, bad: float, good: float, relative: float) -> tuple[float, float]:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
     halved where the clearance is not finite."""
     weight = 1.0
     for _ in range(_MOST_STEPS):
         width = good - bad
-        if abs(width) <= _WIDTH * abs(good):
+        if abs(width) <= relative * abs(good):
             break
         below, above = clearance(bad) * weight, clearance(good)
         share = 0.5
@@ -131,14 +156,14 @@ def _narrow(clearance: Clearance, bad: float, good: float) -> tuple[float, float
     return bad, good
 
 
-def _rounded(clearance: Clearance, bad: float, good: float, quantity: Quantity) -> float:
+def _rounded(clearance: Clearance, bad: float, good: float, quantity: Quantity, digits: int) -> float:
     """The passing value with few digits, in the unit it is shown in, if that still passes."""
     factor = unit_of(display_unit(good, quantity))[0]
     shown = good / factor
-    digits = _SIGNIFICANT - 1 - math.floor(math.log10(abs(shown)))
+    places = digits - 1 - math.floor(math.log10(abs(shown)))
     towards = math.ceil if good >= bad else math.floor
     for extra in range(3):
-        scale = 10.0 ** (digits + extra)
+        scale = 10.0 ** (places + extra)
         candidate = towards(shown * scale) / scale * factor
         if clearance(candidate) >= 0:
             return candidate

@@ -5,6 +5,9 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
+DEEPEST = 0.10
+"""Sag over span at which the shallow parabola ends, and with it every law here [1]."""
+
 
 def sag_ratio(span_weight: float, tension: ArrayLike) -> FloatArray:
     """Sag of a span over its length.

@@ -41,23 +41,22 @@ class Document:
     problems: tuple[Diagnostic, ...] = ()
 
     def value_span(self, path: KeyPath) -> Span:
-        """Where the value of `path` stands; for a key the file does not write, where its parent does."""
+        """Where the value of `path` stands; for one the file does not write, the key of its parent."""
         return self._nearest(path, self.values, self.keys)
 
     def key_span(self, path: KeyPath) -> Span:
-        """Where the key of `path` stands; for a key the file does not write, where its parent does."""
+        """Where the key of `path` stands; for one the file does not write, the key of its parent."""
         return self._nearest(path, self.keys, self.values)
 
     def holds(self, path: KeyPath) -> bool:
         """Whether the file writes this key itself."""
         return path in self.values
 
-    @staticmethod
-    def _nearest(path: KeyPath, first: Mapping[KeyPath, Span], second: Mapping[KeyPath, Span]) -> Span:
+    def _nearest(self, path: KeyPath, first: Mapping[KeyPath, Span], second: Mapping[KeyPath, Span]) -> Span:
         if span := first.get(path) or second.get(path):
             return span
         for length in range(len(path) - 1, 0, -1):
-            if span := second.get(path[:length]) or first.get(path[:length]):
+            if span := self.keys.get(path[:length]) or self.values.get(path[:length]):
                 return span
         return Span(1, 1)
 

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from ptmcalc.base.units import RATIO
+from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.spec.fields import (
     Efficiency,
     Force,
@@ -266,7 +267,7 @@ class ConveyorChecks(CheckSettings):
     """breaking force over largest tension during a start"""
     sag: PositiveRatio = 0.01
     """largest sag of the belt over the idler pitch, in steady running"""
-    slack_sag: PositiveRatio = 0.10
+    slack_sag: PositiveRatio = DEEPEST
     """sag over idler pitch at which the belt counts as slack, in every scene"""
 
 

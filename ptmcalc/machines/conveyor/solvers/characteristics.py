@@ -11,9 +11,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import capstan
+from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.laws.sag import tension_at_sag
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.model import StartCase, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
@@ -21,9 +20,10 @@ from ptmcalc.numerics import loop, sagging, strand
 
 FloatArray = NDArray[np.float64]
 
-_FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 100
+_FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 50
 _MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0  # on errors estimated from two grids
 _SHIFT_STEPS = 2
+_SLOWEST = 0.9  # ratio of the differences of three grids from which on they count as not converging
 _TAIL_SHARE = 5.0
 _STEPS_PER_SCALE = 20
 _SECONDS = {"delays": (1.4e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.7e-8)}
@@ -38,29 +38,27 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
     **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
     backward leaves it, which the result says.
-    **Error** estimated from the differences of two grids, the finer with half the step; without sag of second order,
-    with slip or sag of first order. The bars are derived in `_straight_bars` and `_sagging_bars`.
+    **Error** estimated from the differences of grids of halved step, two without sag and three with it; of second
+    order without slip and sag, else of first. The bars are derived in `_straight_bars` and `_sagging_bars`.
     **Source** method of characteristics; drum and tail by the exponential step; derived in `numerics.strand`.
     """
     case = start_case(spec, scene)
     if not case.moves:
         raise NumericsError("NUM102", "the drive does not move the belt: there is no motion to simulate")
     belt, drive, grid = _loop(case, carried), _drive(case), _grid(case, carried, level)
+    march, grids = strand.march, [grid, loop.refined(grid)]
     if "sag" in carried:
-        coarse = sagging.march(belt, drive, case.window, grid)
-        fine = sagging.march(belt, drive, case.window, loop.refined(grid))
-        bars = _sagging_bars(case, coarse, fine)
-    else:
-        coarse = strand.march(belt, drive, case.window, grid)
-        fine = strand.march(belt, drive, case.window, loop.refined(grid))
-        bars = _straight_bars(case, coarse, fine)
+        march, grids = sagging.march, [*grids, loop.refined(loop.refined(grid))]
+    motions = [march(belt, drive, case.window, one) for one in grids]
+    bars = _sagging_bars(case, *motions) if "sag" in carried else _straight_bars(case, *motions)
+    fine = motions[-1]
     loads = _loads(case, fine, bars)
     findings = _findings(case, fine, "sag" in carried)
     if any(finding.code == "NUM102" for finding in findings):
         loads = {name: _beyond_range(name, found) for name, found in loads.items()}
     return Result(
         loads,
-        work=coarse.cell_updates + fine.cell_updates,
+        work=sum(motion.cell_updates for motion in motions),
         window=(0.0, case.held + case.window),
         health={
             "energy_residual": fine.energy_residual,
@@ -123,18 +121,19 @@ def _grid(case: StartCase, carried: frozenset[str], level: int) -> loop.Grid:
     transit, other = case.line.transit(CARRY), case.line.transit(RETURN)
     cells = min(max(math.ceil(_STEPS_PER_SCALE * transit / scale), _FEWEST), _MOST_CELLS)
     if "sag" in carried:
-        return sagging.grid_of(_loop(case, carried), min(cells, _MOST_SAGGING_CELLS) << level)
+        return sagging.grid_of(_loop(case, carried), min(cells // 2, _MOST_SAGGING_CELLS) << level)
     tolerance = min(max(4e-4 * scale / case.window / 4**level, 2e-7), 1e-3)
     return loop.match(transit, other, cells << level, tolerance, at_most=max(16 * cells, 1024) << level)
 
 
 @dataclass(frozen=True, slots=True)
 class _Bars:
-    """Numerical error of tensions at the drum's run-on, at its run-off, and anywhere on the belt [N]."""
+    """Numerical error of tensions at the drum's run-on and run-off [N], and of the extremes inside the strands in the
+    order of `_inside`."""
 
     on: float
     off: float
-    inside: float
+    inside: tuple[float, ...]
 
 
 def _straight_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
@@ -149,48 +148,55 @@ def _straight_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _
     """
     waves = _wave_error(coarse, fine) * (_SLIP_MARGIN if fine.slipped else _MARGIN / 3)
     waves += _shift_error(fine, case.window)
-    on, off = max(waves, _end_error(coarse, fine, "run_on")), max(waves, _end_error(coarse, fine, "run_off"))
-    missed = waves + max(extreme.missed for extreme in _inside(fine)) if fine.slipped else 0.0
-    return _Bars(on, off if case.line.fixed_length else 0.0, max(on, off, missed, _inside_error(coarse, fine)))
+    on, off = (max(waves, *_end_errors(coarse, fine, end)) for end in ("run_on", "run_off"))
+    apart = _inside_errors(coarse, fine)
+    missed = [waves + extreme.missed * fine.slipped for extreme in _inside(fine)]
+    inside = tuple(max(on, off, *both) for both in zip(apart, missed, strict=True))
+    return _Bars(on, off if case.line.fixed_length else 0.0, inside)
 
 
-def _end_error(coarse: loop.Motion, fine: loop.Motion, end: str) -> float:
+def _end_errors(coarse: loop.Motion, fine: loop.Motion, end: str) -> list[float]:
     """Differences of the extremes at one end of the drum as they are reported, on both grids [N]."""
     one, other = getattr(coarse, end), getattr(fine, end)
     top, bottom = coarse.largest(one)[0] - fine.largest(other)[0], coarse.smallest(one)[0] - fine.smallest(other)[0]
-    return max(abs(top), abs(bottom))
+    return [abs(top), abs(bottom)]
 
 
-def _inside_error(coarse: loop.Motion, fine: loop.Motion) -> float:
-    """Largest difference of the extremes inside the strands on both grids [N]."""
-    return max(abs(one.value - other.value) for one, other in zip(_inside(coarse), _inside(fine), strict=True))
+def _inside_errors(coarse: loop.Motion, fine: loop.Motion) -> list[float]:
+    """Differences of the extremes inside the strands on both grids [N]."""
+    return [abs(one.value - other.value) for one, other in zip(_inside(coarse), _inside(fine), strict=True)]
 
 
-def _sagging_bars(case: StartCase, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
-    """Bars of a grid and its refinement where fronts are steep: three times what no small shift in time explains.
+def _sagging_bars(case: StartCase, coarsest: loop.Motion, coarse: loop.Motion, fine: loop.Motion) -> _Bars:
+    """Bars of a grid and its refinements where fronts are steep.
 
-    A steep front that moves a little differs by its whole height, which no extreme does. Every value of one history
-    is looked for among the values of the other within a few steps; the extremes of two histories, at whatever moment,
-    differ by no more than the largest gap. Inside the strands the gaps of the two waves that make up the tension
-    stand for it. No bar is below what the history bends between two samples at its extremes.
+    The extremes of all three grids are compared: with d the last difference and r its ratio to the one before, the
+    differences still to come sum up to d r/(1 - r). The bar of an extreme is three times d/(1 - r), r not taken below
+    0 or above 0.9, and inside the strands no less than at the drum.
+
+    At the drum, whose history decides about slip at every moment, two more hold. A steep front that moves a little
+    differs by its whole height, which no extreme does: every value of one history is looked for among the values of
+    the other within a few steps, and three times the largest gap is the bar. It is never below what the history bends
+    between two samples at its extremes.
     """
     reach = math.ceil(_SHIFT_STEPS * coarse.grid.step / fine.grid.step)
 
-    def gap(one: FloatArray, other: FloatArray) -> float:
-        again = np.interp(fine.times, coarse.times, one)
-        return max(_gap(other, again, reach), _gap(again, other, reach))
+    def still_to_come(before: float, last: float) -> float:
+        ratio = min(last / before, _SLOWEST) if before > 0 else 0.0
+        return _SAGGING_MARGIN * last / (1 - ratio)
 
     def end(name: str) -> float:
-        apart = gap(getattr(coarse, name), getattr(fine, name))
-        return _SAGGING_MARGIN * max(apart, _end_error(coarse, fine, name))
+        one, other = getattr(coarse, name), getattr(fine, name)
+        again = np.interp(fine.times, coarse.times, one)
+        apart = max(_gap(other, again, reach), _gap(again, other, reach))
+        errors = map(still_to_come, _end_errors(coarsest, coarse, name), _end_errors(coarse, fine, name))
+        return max(_SAGGING_MARGIN * apart, *errors)
 
-    waves = [gap(one, other) for one, other in zip(coarse.waves, fine.waves, strict=True)]
-    direct = _inside_error(coarse, fine)
     least = _bend(fine.run_on)
     on, off = max(end("run_on"), least), end("run_off")
     off = max(off, least) if case.line.fixed_length else 0.0
-    inside = max(_SAGGING_MARGIN * direct, on, off, (waves[0] + waves[1]) / 2, (waves[2] + waves[3]) / 2)
-    return _Bars(on, off, inside)
+    inside = map(still_to_come, _inside_errors(coarsest, coarse), _inside_errors(coarse, fine))
+    return _Bars(on, off, tuple(max(error, on, off) for error in inside))
 
 
 def _bend(history: FloatArray) -> float:
@@ -228,38 +234,53 @@ def _loads(case: StartCase, motion: loop.Motion, bars: _Bars) -> dict[str, Found
     line = case.line
     on, on_at = motion.largest(motion.run_on)
     off, off_at = motion.smallest(motion.run_off)
-    high = max(motion.carry_max, motion.back_max, key=lambda extreme: extreme.value)
-    if on > high.value:
-        high = loop.Extreme(on, on_at, line.back.length + line.carry.length)
-    low = min(motion.carry_min, motion.back_min, key=lambda extreme: extreme.value)
-    if off < low.value:
-        low = loop.Extreme(off, off_at, 0.0)
-    lows = (min(motion.back_min.value, off), motion.carry_min.value)
-    floor = 1e-12 * abs(high.value)  # rounding
-    on_bar, inside = bars.on + floor, bars.inside + floor
+    carry_max, carry_min, back_max, back_min = zip(_inside(motion), bars.inside, strict=True)
+    run_on = loop.Extreme(on, on_at, line.back.length + line.carry.length), bars.on
+    run_off = loop.Extreme(off, off_at, 0.0), bars.off
+    high, largest = _highest([run_on, carry_max, back_max])
+    low, smallest = _lowest([run_off, back_min, carry_min])
+    lows = _lowest([run_off, back_min])[1], _lowest([carry_min])[1]
 
     def at(time: float) -> dict[str, float]:
         return {"time": time + case.held}
 
+    top = at(high.time) | {"position": high.position}
+    bottom = at(low.time) | {"position": low.position}
+    floor = 1e-12 * abs(high.value)  # rounding
     loads = {
-        "tension_run_on_max": Found(Estimate.within(on, on_bar), at(on_at)),
-        "tension_dynamic_run_on_max": Found(Estimate.within(on - line.run_on, on_bar), at(on_at)),
+        "tension_run_on_max": Found(Estimate.within(on, bars.on + floor), at(on_at)),
+        "tension_dynamic_run_on_max": Found(Estimate.within(on - line.run_on, bars.on + floor), at(on_at)),
         "tension_run_off_min": Found(Estimate.within(off, bars.off), at(off_at)),
-        "tension_max": Found(Estimate.within(high.value, inside), at(high.time) | {"position": high.position}),
-        "tension_min": Found(Estimate.within(low.value, inside), at(low.time) | {"position": low.position}),
+        "tension_max": Found(largest, top),
+        "tension_min": Found(smallest, bottom),
     }
-    spread = [
-        bounds.derived_loads(line, high.value + sign * inside, tuple(part - sign * inside for part in lows))
-        for sign in (0, -1, 1)
-    ]
-    for name in spread[0]:
-        extreme = loads["tension_max" if name == "belt_safety_min" else "tension_min"]  # where it occurs
-        loads[name] = Found(_spread(*(part[name] for part in spread)), extreme.at)
+    states = (
+        bounds.derived_loads(line, largest.value, tuple(part.value for part in lows)),
+        bounds.derived_loads(line, largest.high, tuple(part.low for part in lows)),
+        bounds.derived_loads(line, largest.low, tuple(part.high for part in lows)),
+    )
+    for name in states[0]:
+        where = top if name == "belt_safety_min" else bottom
+        loads[name] = Found(_spread(*(state[name] for state in states)), where)
     if line.grip_exponent is not None:
         loads |= _slip(case, line.grip_exponent, motion, bars)
     if case.imposed_speed:
         loads |= _drive_force(case, motion, bars.on + bars.off)
     return loads
+
+
+def _highest(candidates: list[tuple[loop.Extreme, float]]) -> tuple[loop.Extreme, Estimate]:
+    """The largest of several extremes, each with its bar, and what the largest can be."""
+    top = max((extreme for extreme, _ in candidates), key=lambda extreme: extreme.value)
+    ends = (max(extreme.value + sign * bar for extreme, bar in candidates) for sign in (1, -1))
+    return top, _spread(top.value, *ends)
+
+
+def _lowest(candidates: list[tuple[loop.Extreme, float]]) -> tuple[loop.Extreme, Estimate]:
+    """The smallest of several extremes, each with its bar, and what the smallest can be."""
+    bottom = min((extreme for extreme, _ in candidates), key=lambda extreme: extreme.value)
+    ends = (min(extreme.value + sign * bar for extreme, bar in candidates) for sign in (1, -1))
+    return bottom, _spread(bottom.value, *ends)
 
 
 def _slip(case: StartCase, exponent: float, motion: loop.Motion, bars: _Bars) -> dict[str, Found]:
@@ -319,7 +340,7 @@ def _findings(case: StartCase, motion: loop.Motion, sagging: bool) -> list[Findi
     found = []
     for which, low in ((RETURN, motion.back_min), (CARRY, motion.carry_min)):
         span = case.line.strand(which).span_weight
-        slack = tension_at_sag(span, case.line.slack_sag) if sagging and span else 0.0
+        slack = sag.tension_at_sag(span, sag.DEEPEST) if sagging and span else 0.0
         if low.value < slack:
             found.append(
                 Finding(
@@ -347,9 +368,8 @@ def cost(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> f
     per_step, per_cell = _SECONDS["sag" if "sag" in carried else "grip" if "slip" in carried else "delays"]
     grid = _grid(case, carried, level)
     steps, cells = math.ceil(case.window / grid.step), grid.carry + grid.back
-    return (
-        _OVERHEAD + 3 * steps * per_step + 5 * steps * cells * per_cell
-    )  # the finer grid has twice the steps and cells
+    times, squares = (7, 21) if "sag" in carried else (3, 5)  # every finer grid has twice the steps and cells
+    return _OVERHEAD + times * steps * per_step + squares * steps * cells * per_cell
 
 
 def valid(spec: Conveyor, scene: Start) -> Criterion:
