@@ -57,13 +57,17 @@ class Estimate:
         return cls(value, -math.inf, math.inf, model=math.inf)
 
     def widened(self, offset: Interval) -> "Estimate":
-        """The same number when the truth may differ from it by anything in `offset`: a model error."""
+        """The same number when the truth may differ from it by anything in `offset`: a model error.
+
+        Offsets that rule the number itself out move it to the nearest one they allow.
+        """
         if offset == NOTHING:
             return self
+        low, high = self.low + offset.low, self.high + offset.high
         return Estimate(
-            self.value,
-            self.low + offset.low,
-            self.high + offset.high,
+            min(max(self.value, low), high),
+            low,
+            high,
             self.numerical,
             self.model + max(-offset.low, offset.high),
         )

@@ -23,7 +23,7 @@ FloatArray = NDArray[np.float64]
 _FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 50
 _MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0  # on errors estimated from two grids
 _SHIFT_STEPS = 2
-_SLOWEST = 0.9  # ratio of the differences of three grids from which on they count as not converging
+_SECOND_ORDER, _SLOWEST = 0.25, 0.9  # ratio of the differences of three grids: at best, and hardly converging
 _TAIL_SHARE = 5.0
 _STEPS_PER_SCALE = 20
 _SECONDS = {"delays": (1.4e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.7e-8)}
@@ -171,26 +171,27 @@ def _sagging_bars(case: StartCase, coarsest: loop.Motion, coarse: loop.Motion, f
     """Bars of a grid and its refinements where fronts are steep.
 
     The extremes of all three grids are compared: with d the last difference and r its ratio to the one before, the
-    differences still to come sum up to d r/(1 - r). The bar of an extreme is three times d/(1 - r), r not taken below
-    0 or above 0.9, and inside the strands no less than at the drum.
+    differences still to come sum up to d r/(1 - r). The bar of an extreme is three times that, with r not taken below
+    1/4 (second order; two grids may agree by chance) nor above 0.9, and inside the strands no less than at the drum.
 
     At the drum, whose history decides about slip at every moment, two more hold. A steep front that moves a little
     differs by its whole height, which no extreme does: every value of one history is looked for among the values of
-    the other within a few steps, and three times the largest gap is the bar. It is never below what the history bends
-    between two samples at its extremes.
+    the other within a few steps, and one and a half times the largest gap is the bar. It is never below what the
+    history bends between two samples at its extremes.
     """
     reach = math.ceil(_SHIFT_STEPS * coarse.grid.step / fine.grid.step)
 
     def still_to_come(before: float, last: float) -> float:
-        ratio = min(last / before, _SLOWEST) if before > 0 else 0.0
-        return _SAGGING_MARGIN * last / (1 - ratio)
+        last = max(last, _SECOND_ORDER * before)
+        ratio = min(last / before, _SLOWEST) if before > 0 else _SECOND_ORDER
+        return _SAGGING_MARGIN * last * ratio / (1 - ratio)
 
     def end(name: str) -> float:
         one, other = getattr(coarse, name), getattr(fine, name)
         again = np.interp(fine.times, coarse.times, one)
         apart = max(_gap(other, again, reach), _gap(again, other, reach))
         errors = map(still_to_come, _end_errors(coarsest, coarse, name), _end_errors(coarse, fine, name))
-        return max(_SAGGING_MARGIN * apart, *errors)
+        return max(_MARGIN * apart, *errors)
 
     least = _bend(fine.run_on)
     on, off = max(end("run_on"), least), end("run_off")
