@@ -246,7 +246,7 @@ def solve(
 ) -> None:
     """Find the value of one key at which a check just passes, its error bar included.
 
-    Exit status 1 when no value within three decades passes.
+    Exit status 1 when no value within three decades changes the verdict.
     """
     from ptmcalc.cli.listing import show_solution
 

@@ -84,11 +84,14 @@ def _plan_rows(made: Plan, scene: ScenePlan) -> Iterator[Row]:
         scene,
         until=lambda rung: rung.solver.fidelity is Fidelity.FORMULA and rung.level == 0,
     )
-    last = settled.next_rung or settled.runs[-1].rung
-    seconds = sum(run.rung.seconds for run in settled.runs) + (settled.next_rung.seconds if settled.next_rung else 0.0)
-    common = {"scene": scene.scene.label, "solver": last.solver.name, "predicted_seconds": seconds}
+    rungs = [run.rung for run in settled.runs] + ([settled.next_rung] if settled.next_rung else [])
+    common = {
+        "scene": scene.scene.label,
+        "solver": rungs[-1].solver.name if rungs else "none",
+        "predicted_seconds": sum(rung.seconds for rung in rungs),
+    }
     for planned in scene.effects:
-        carried = planned.effect.name in (last.carried | settled.carried)
+        carried = planned.effect.name in settled.carried.union(*(rung.carried for rung in rungs[-1:]))
         state = EffectState.SIMULATED if carried else EffectState.BOUNDED if planned.active else EffectState.SKIPPED
         yield common | {
             "effect": planned.effect.name,
@@ -278,11 +281,13 @@ def show_solution(path: str, code: str, key: str, scene: str, as_json: bool) -> 
     if check is None:
         codes = ", ".join(check.code for check in loaded.kind.checks)
         raise UsageError(f"a {loaded.kind.name} has no check `{code}`", f"checks: {codes}")
+    if loaded.spec.settings.switched_off(check.code):
+        raise UsageError(f"{check.code} is switched off in this file", f"delete `{check.code}` under `checks`")
     if scene:
         chosen_scenes(loaded.spec, (scene,))
-    solution = solve(loaded.kind, loaded.spec, check, key_path(key), scene)
+    solution = solve(loaded.kind, loaded.spec, check, key_path(key), scene, loaded.assumed)
     if solution is None:
-        typer.echo(f"ptmcalc: no value of `{key}` within three decades makes {check.code} pass", err=True)
+        typer.echo(f"ptmcalc: within three decades no value of `{key}` changes the verdict of {check.code}", err=True)
         return 1
     if as_json:
         found = {"path": list(solution.path), "value": solution.value, "unit": solution.quantity.si}

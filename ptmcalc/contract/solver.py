@@ -28,6 +28,7 @@ class Solver(Generic[S, C]):
 
     `run(spec, scene, carried, level)` computes with the effects `carried`, at refinement `level` (0 is the
     coarsest); `cost` predicts its seconds. `valid` gives the criterion that must not be exceeded.
+    `always` names effects that are in every run of it, asked for or not: it is not used where one is excluded.
     A solver that does not decide is a textbook formula: shown beside the reported load, never judged.
     """
 
@@ -41,6 +42,7 @@ class Solver(Generic[S, C]):
     cost: Callable[[S, C, frozenset[str], int], float]
     source: str
     valid: Callable[[S, C], Criterion | None] = always_valid
+    always: frozenset[str] = frozenset()
     levels: int = 1
     decides: bool = True
 

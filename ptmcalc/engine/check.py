@@ -28,7 +28,7 @@ from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import Run, Settled, sensitive, settle, without
-from ptmcalc.engine.solve import solve
+from ptmcalc.engine.solve import solve, variants
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
@@ -132,16 +132,12 @@ def _flips(
     """
     base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
     found: dict[tuple[str, str], tuple[AssumedReport, float, Verdict]] = {}
-    for value in assumed:
-        for end in dict.fromkeys((value.interval.low, value.interval.high)):
-            if end == value.value:
-                continue
-            changed = spec.with_value(value.path, end)
-            chosen = [scene.scene.label for scene in made.scenes]
-            again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
-            for key, ruling in _by_key(again, [settle(kind, changed, scene) for scene in again.scenes]):
-                if ruling.verdict is not base.get(key) and key not in found:
-                    found[key] = (value, end, ruling.verdict)
+    chosen = [scene.scene.label for scene in made.scenes]
+    for value, end, changed in variants(spec, assumed):
+        again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
+        for key, ruling in _by_key(again, [settle(kind, changed, scene) for scene in again.scenes]):
+            if ruling.verdict is not base.get(key) and key not in found:
+                found[key] = (value, end, ruling.verdict)
     return found
 
 
@@ -201,7 +197,8 @@ class _Assembly:
             for load in loads
             if other is not None
             and load in other
-            and (best := self.settled.loads[load].estimate).bounded
+            and (known := self.settled.loads.get(load)) is not None
+            and (best := known.estimate).bounded
             and other[load].bounded
             and best.value != 0
         ]
@@ -269,7 +266,7 @@ class _Assembly:
             without=tuple(
                 planned.effect.name
                 for planned in self.settled.plan.effects
-                if planned.forced and planned.excluded and verdict is not Verdict.NOT_CHECKED
+                if planned.forced_off and verdict is not Verdict.NOT_CHECKED
             ),
             repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
         )
@@ -278,7 +275,11 @@ class _Assembly:
         scene = self.settled.plan.scene
         path = ruling.check.repair(self.spec, scene)
         try:
-            solution = solve(self.kind, self.spec, ruling.check, path, scene.label, digits=3) if path else None
+            solution = (
+                solve(self.kind, self.spec, ruling.check, path, scene.label, self.loaded.assumed, digits=3)
+                if path
+                else None
+            )
         except UsageError:
             return None
         return Repair(solution.path, solution.value, solution.quantity) if solution else None
@@ -304,9 +305,11 @@ def _solver(run: Run, decides: bool, following: NextSolver | None) -> SolverRepo
 
 
 def _note(planned: PlannedEffect) -> str:
-    if planned.forced:
-        return f"forced {'off' if planned.excluded else 'on'} by the file"
-    return "an input it needs is not given: loads are those without it" if planned.criterion is None else ""
+    if planned.forced_off:
+        return "forced off by the file"
+    if planned.criterion is None:
+        return "an input it needs is not given: loads are those without it"
+    return "forced on by the file" if planned.forced else ""
 
 
 def _span(document: Document, path: tuple[str | int, ...]) -> Span:

@@ -12,17 +12,31 @@ from ptmcalc.spec.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class PlannedEffect:
-    """An effect in a scene: its number, and what the file or the number decided.
-
-    `active` effects belong to the scene; the others may be left out as long as their bound allows. `excluded`
-    ones are never computed: forced off, or not computable because an input is missing.
-    """
+    """An effect in a scene: its number (None where an input is missing), and what the file wishes: auto, on or off."""
 
     effect: AnyEffect
     criterion: Criterion | None
-    active: bool
-    excluded: bool
-    forced: bool
+    wish: str
+
+    @property
+    def active(self) -> bool:
+        """Whether it belongs to the scene; the others may be left out as long as their bound allows."""
+        return not self.excluded and (self.wish == "on" or (self.criterion is not None and self.criterion.exceeded))
+
+    @property
+    def excluded(self) -> bool:
+        """Whether it is never computed: forced off, or an input it needs is missing."""
+        return self.forced_off or self.criterion is None
+
+    @property
+    def forced(self) -> bool:
+        """Whether the file decides, not the number."""
+        return self.wish != "auto"
+
+    @property
+    def forced_off(self) -> bool:
+        """Whether the file leaves it out."""
+        return self.wish == "off"
 
     @property
     def must_run(self) -> bool:
@@ -73,20 +87,26 @@ def plan_scene(kind: AnyKind, spec: MachineSpec, scene: Scene) -> ScenePlan:
     """The plan of one scene.
 
     A solver is offered with the active effects it can carry, and with all that it can carry and the file does not
-    exclude, at each of its refinements.
+    exclude, at each of its refinements. A part of an effect is excluded with it.
     """
-    effects = tuple(_planned(effect, spec, scene) for effect in kind.effects if effect.applies_to(scene))
-    allowed = frozenset(planned.effect.name for planned in effects if not planned.excluded)
-    active = frozenset(planned.effect.name for planned in effects if planned.active)
+    effects = tuple(
+        PlannedEffect(effect, effect.criterion(spec, scene), spec.effects.get(effect.name, "auto"))
+        for effect in kind.effects
+        if effect.applies_to(scene)
+    )
+    out = {planned.effect.name for planned in effects if planned.excluded}
+    allowed = frozenset(p.effect.name for p in effects if p.effect.name not in out and p.effect.part_of not in out)
+    active = allowed.intersection(planned.effect.name for planned in effects if planned.active)
     rungs: list[Rung] = []
     formulas = []
     for solver in kind.solvers:
-        if not solver.usable_for(spec, scene):
+        if not (solver.always <= allowed and solver.usable_for(spec, scene)):
             continue
         if not solver.decides:
             formulas.append(solver)
             continue
-        for carried in dict.fromkeys((_whole(active & solver.represents, effects), allowed & solver.represents)):
+        needed = _whole(active & solver.represents, effects) | solver.always
+        for carried in dict.fromkeys((needed, allowed & solver.represents)):
             if carried or not solver.represents:
                 rungs += [
                     Rung(solver, carried, level, solver.cost(spec, scene, carried, level))
@@ -99,16 +119,4 @@ def plan_scene(kind: AnyKind, spec: MachineSpec, scene: Scene) -> ScenePlan:
 def _whole(carried: frozenset[str], effects: tuple[PlannedEffect, ...]) -> frozenset[str]:
     """The effects with those they are part of: a part cannot be carried without its whole."""
     wholes = {p.effect.part_of for p in effects if p.effect.name in carried and p.effect.part_of}
-    return carried | frozenset(p.effect.name for p in effects if p.effect.name in wholes and not p.excluded)
-
-
-def _planned(effect: AnyEffect, spec: MachineSpec, scene: Scene) -> PlannedEffect:
-    criterion = effect.criterion(spec, scene)
-    wish = spec.effects.get(effect.name, "auto")
-    return PlannedEffect(
-        effect=effect,
-        criterion=criterion,
-        active=wish == "on" or (wish == "auto" and criterion is not None and criterion.exceeded),
-        excluded=wish == "off" or criterion is None,
-        forced=wish != "auto",
-    )
+    return carried | frozenset(p.effect.name for p in effects if p.effect.name in wholes)

@@ -34,10 +34,11 @@ class Best:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One solver run that was made."""
+    """One solver run that was made; `estimates` are its loads with the bounds of what it leaves out."""
 
     rung: Rung
     result: Result
+    estimates: Mapping[str, Estimate] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -79,44 +80,52 @@ def settle(
     """
     settled = Settled(scene)
     for solver in scene.formulas if only is None else ():
-        shown = Run(Rung(solver, solver.represents, 0, 0.0), solver.run(spec, scene.scene, solver.represents, 0))
-        settled.shown.append(shown)
-        for name, found in shown.result.loads.items():
-            settled.formulas[name] = (solver.name, found.estimate.value)
+        rung = Rung(solver, solver.represents, 0, 0.0)
+        shown = _made(settled, spec, rung)
+        if shown is not None:
+            settled.shown.append(Run(rung, shown))
+            settled.formulas |= {name: (solver.name, found.estimate.value) for name, found in shown.loads.items()}
     waiting = list(scene.rungs)
     spent = 0.0
     while True:
         settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
         if only is not None:
             settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check is only)
-        rung = _next(settled, waiting, _wanted(kind, spec, settled))
-        settled.next_rung = rung
-        if rung is None or not until(rung):
+        following = _next(settled, waiting, _wanted(kind, spec, settled))
+        settled.next_rung = following
+        if following is None or not until(following):
             return settled
-        if spent + rung.seconds > budget:
+        if spent + following.seconds > budget:
             settled.findings.append(
                 Finding(
                     "NUM103",
-                    f"scene `{scene.scene.label}`: the next run ({rung.solver.name}) is predicted to take"
-                    f" {rung.seconds:.3g} s, beyond the budget of {budget:.3g} s",
+                    f"scene `{scene.scene.label}`: the next run ({following.solver.name}) is predicted to take"
+                    f" {following.seconds:.3g} s, beyond the budget of {budget:.3g} s",
                 )
             )
             return settled
-        waiting.remove(rung)
-        spent += rung.seconds
-        _climb(settled, spec, rung)
+        waiting.remove(following)
+        spent += following.seconds
+        _climb(settled, spec, following)
+
+
+def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
+    """The result of a rung; None, and a finding, where its numerics break down."""
+    scene = settled.plan.scene
+    try:
+        return rung.solver.run(spec, scene, rung.carried, rung.level)
+    except NumericsError as error:
+        settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
+        return None
 
 
 def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
     """Run a rung and keep every load it knows better."""
-    scene = settled.plan.scene
-    try:
-        result = rung.solver.run(spec, scene, rung.carried, rung.level)
-    except NumericsError as error:
-        settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
+    scene, result = settled.plan.scene, _made(settled, spec, rung)
+    if result is None:
         return
-    settled.runs.append(Run(rung, result))
     estimates = widen(settled.plan, spec, rung, result)
+    settled.runs.append(Run(rung, result, estimates))
     for name, estimate in estimates.items():
         if math.isnan(estimate.value):
             settled.findings.append(
@@ -187,21 +196,24 @@ def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung |
 
 
 def _helps(settled: Settled, rung: Rung, name: str) -> bool:
-    """Whether a rung can narrow the bar of a load: by an effect the best run leaves out, or by a finer setting."""
+    """Whether a rung can narrow the bar of a load: by an effect no run has carried for it, or by a finer setting of
+    a run whose bar is mostly its grid's."""
     if name not in rung.solver.gives:
         return False
+    same = [run for run in settled.runs if run.rung.solver is rung.solver and run.rung.carried == rung.carried]
     best = settled.loads.get(name)
     if best is None:
-        return not any(run.rung.solver is rung.solver and run.rung.carried == rung.carried for run in settled.runs)
-    carries_more = bool(rung.carried - best.rung.carried - _ran(settled, name))
-    numerical = best.estimate.bounded and best.estimate.numerical > 0.1 * best.estimate.bar
-    finer = numerical and rung.level > best.rung.level
+        return not same
+    ran = {effect for run in settled.runs if name in run.estimates for effect in run.rung.carried}
+    carries_more = bool(rung.carried - best.rung.carried - ran)
+    coarser = [run for run in same if run.rung.level < rung.level and name in run.estimates]
+    finer = any(_of_the_grid(run.estimates[name]) for run in coarser)
     return rung.carried >= best.rung.carried and (carries_more or finer)
 
 
-def _ran(settled: Settled, name: str) -> frozenset[str]:
-    """Effects that some run has already carried for a load, even if it did not turn out better."""
-    return frozenset(effect for run in settled.runs if name in run.rung.solver.gives for effect in run.rung.carried)
+def _of_the_grid(estimate: Estimate) -> bool:
+    """Whether a bar would shrink noticeably with a finer setting."""
+    return estimate.bounded and estimate.numerical > 0.1 * estimate.bar
 
 
 def sensitive(settled: Settled) -> list[PlannedEffect]:
@@ -214,13 +226,20 @@ def sensitive(settled: Settled) -> list[PlannedEffect]:
 
 
 def without(settled: Settled, spec: MachineSpec, name: str) -> Mapping[str, Estimate] | None:
-    """The loads of the richest run again with one effect left out, or None when it cannot be made."""
-    richest = max(settled.runs, key=lambda run: (len(run.rung.carried), run.rung.level))
-    rung = richest.rung
-    if name not in rung.carried:
+    """The loads of the richest run again with one effect and its parts left out, or None when that cannot be made.
+
+    A solver that cannot leave it out gives way to the best run that did without it.
+    """
+    gone = {p.effect.name for p in settled.plan.effects if name in (p.effect.name, p.effect.part_of)}
+    richest = max(settled.runs, key=lambda run: (len(run.rung.carried), run.rung.level)).rung
+    if name not in richest.carried:
         return None
-    try:
-        result = rung.solver.run(spec, settled.plan.scene, rung.carried - {name}, rung.level)
-    except NumericsError:
-        return None
-    return {load: found.estimate for load, found in result.loads.items()}
+    if gone & richest.solver.always:
+        spared = [run for run in settled.runs if not gone & run.rung.carried]
+        result = spared[-1].result if spared else None
+    else:
+        try:
+            result = richest.solver.run(spec, settled.plan.scene, richest.carried - gone, richest.level)
+        except NumericsError:
+            return None
+    return {load: found.estimate for load, found in result.loads.items()} if result else None

@@ -1,7 +1,7 @@
 """The value of one key at which a check just passes, by bracketing on the clearance of its verdict."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from ptmcalc.base.errors import UsageError
@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.units import Quantity, display_unit, unit_of
 from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.report import AssumedReport
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.plan import plan_scene
@@ -49,14 +50,29 @@ class _Wanted:
         return max(self.digits - 3, 0)
 
 
-def solve(
-    kind: AnyKind, spec: MachineSpec, check: AnyCheck, path: KeyPath, scene_name: str = "", *, digits: int = 4
-) -> Solution | None:
-    """The value nearest to the present one at which the check passes, or None when there is none within 3 decades.
+def variants(spec: MachineSpec, assumed: Iterable[AssumedReport]) -> Iterator[tuple[AssumedReport, float, MachineSpec]]:
+    """The machine with each assumed value at each end of its interval: (the value, that end, the machine)."""
+    for value in assumed:
+        for end in dict.fromkeys((value.interval.low, value.interval.high)):
+            if end != value.value:
+                yield value, end, spec.with_value(value.path, end)
 
-    Values at growing distances on both sides of the present one are tried, the first change to a pass is narrowed
-    down, and the value is rounded to so many digits of its unit towards the passing side. It is a value at which the
-    check was seen to pass, error bar included.
+
+def solve(
+    kind: AnyKind,
+    spec: MachineSpec,
+    check: AnyCheck,
+    path: KeyPath,
+    scene_name: str = "",
+    assumed: Iterable[AssumedReport] = (),
+    *,
+    digits: int = 4,
+) -> Solution | None:
+    """The value nearest to the present one at which the check just passes, or None when there is none within 3 decades.
+
+    Values at growing distances on both sides of the present one are tried, the first change between pass and fail is
+    narrowed down, and the value is rounded to so many digits of its unit towards the passing side. It is a value at
+    which the check was seen to pass, error bar included, with every assumed value at both ends of its interval.
 
     Raises:
         UsageError: the key is not a number of this file.
@@ -66,14 +82,20 @@ def solve(
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    decisive = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
     wanted = _Wanted(digits)
-    clearance = _clearance(kind, decisive, check, path, measure, scene_name, wanted.finest)
-    bracket = _bracket(clearance, float(present))
-    if bracket is None:
-        return None
-    good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
-    return Solution(path, good, measure.quantity)
+    decisive = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
+    machines = [decisive, *(machine for value, _, machine in variants(decisive, assumed) if value.path != path)]
+    clearances = [_clearance(kind, one, check, path, measure, scene_name, wanted.finest) for one in machines]
+    clearance: Clearance | None = clearances[0]
+    for _ in clearances:
+        if clearance is None:
+            break
+        bracket = _bracket(clearance, float(present))
+        if bracket is None:
+            return None
+        good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
+        clearance = next((other for other in clearances if other(good) < 0), None)
+    return Solution(path, good, measure.quantity) if clearance is None else None
 
 
 def _clearance(
@@ -123,16 +145,15 @@ def _of_ruling(ruling: Ruling) -> float:
 
 
 def _bracket(clearance: Clearance, present: float) -> tuple[float, float] | None:
-    """(a value that fails, the nearest found that passes), searched outwards on both sides in equal ratios."""
-    if clearance(present) >= 0:
-        return present, present
-    failing = [present, present]
+    """(a value that fails, one that passes), neighbours in a search outwards on both sides in equal ratios."""
+    passes = clearance(present) >= 0
+    reached = [present, present]
     for step in range(1, _DECADES * _STEPS_PER_DECADE + 1):
         for side, sign in ((0, 1), (1, -1)):
             candidate = present * 10 ** (sign * step / _STEPS_PER_DECADE)
-            if clearance(candidate) >= 0:
-                return failing[side], candidate
-            failing[side] = candidate
+            if (clearance(candidate) >= 0) is not passes:
+                return (candidate, reached[side]) if passes else (reached[side], candidate)
+            reached[side] = candidate
     return None
 
 

@@ -190,6 +190,8 @@ def _check(judgement: Judgement) -> dict[str, Any]:
         "margin": finite(judgement.margin),
         "blame": _place(judgement.blame),
     }
+    if value and not math.isfinite(value.value):
+        entry["unbounded"] = True
     if judgement.reason:
         entry["reason"] = judgement.reason
     if judgement.without:

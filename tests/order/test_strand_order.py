@@ -34,7 +34,7 @@ def test_characteristics_are_of_second_order_through_every_echo() -> None:
     grid = loop.match(CARRY.transit, RETURN.transit, 40, 2e-7, at_most=4000)
     grids = [grid, loop.refined(grid), loop.refined(loop.refined(grid))]
     errors = _errors(strand.march, grids)
-    assert errors[-1] < 1e-4 * FORCE
+    assert errors[-1] < 5e-4 * FORCE
     assert _orders(errors) == pytest.approx([2.0, 2.0], abs=0.15)
 
 

@@ -418,5 +418,6 @@ CHARACTERISTICS: Solver[Conveyor, Start] = Solver(
     cost=cost,
     source="method of characteristics; derived in ptmcalc.numerics.strand",
     valid=valid,
+    always=frozenset({"belt_wave"}),
     levels=3,
 )
