@@ -16,6 +16,7 @@ from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
 """Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
+_GOOD_PART, _SOME_PART = 0.25, 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,33 +188,43 @@ def _accurate(estimate: Estimate, asked: float | None) -> bool:
 
 
 def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung | None:
-    """The cheapest waiting rung that can improve a wanted load, or that carries what the file insists on."""
+    """The cheapest waiting rung that can improve a wanted load, or that carries what the file insists on.
+
+    What makes up a good part of a bar is tackled first: the grid by a finer setting, the model by a richer run.
+    """
     forced = {planned.effect.name for planned in settled.plan.effects if planned.must_run} - settled.carried
-    for rung in waiting:
-        if not settled.runs or forced & rung.carried or any(_helps(settled, rung, name) for name in wanted):
-            return rung
+    for share in (_GOOD_PART, _SOME_PART, 0.0):
+        for rung in waiting:
+            helps = any(_helps(settled, rung, name, share) for name in wanted)
+            if not settled.runs or forced & rung.carried or helps:
+                return rung
     return None
 
 
-def _helps(settled: Settled, rung: Rung, name: str) -> bool:
-    """Whether a rung can narrow the bar of a load: by an effect no run has carried for it, or by a finer setting of
-    a run whose bar is mostly its grid's."""
+def _helps(settled: Settled, rung: Rung, name: str, share: float) -> bool:
+    """Whether a rung can narrow the bar of a load: by an effect no run has carried for it, where the model makes up
+    so much of the bar, or by a finer setting of a run where the grid does."""
     if name not in rung.solver.gives:
         return False
     same = [run for run in settled.runs if run.rung.solver is rung.solver and run.rung.carried == rung.carried]
     best = settled.loads.get(name)
     if best is None:
         return not same
+    if not rung.carried >= best.rung.carried:
+        return False
     ran = {effect for run in settled.runs if name in run.estimates for effect in run.rung.carried}
-    carries_more = bool(rung.carried - best.rung.carried - ran)
+    bar = best.estimate
+    model = not bar.bounded or bar.bar - bar.numerical >= share * bar.bar
     coarser = [run for run in same if run.rung.level < rung.level and name in run.estimates]
-    finer = any(_of_the_grid(run.estimates[name]) for run in coarser)
-    return rung.carried >= best.rung.carried and (carries_more or finer)
+    finer = any(_worth_refining(run, rung, name, bar, share) for run in coarser)
+    return finer or (model and bool(rung.carried - best.rung.carried - ran))
 
 
-def _of_the_grid(estimate: Estimate) -> bool:
-    """Whether a bar would shrink noticeably with a finer setting."""
-    return estimate.bounded and estimate.numerical > 0.1 * estimate.bar
+def _worth_refining(run: Run, finer: Rung, name: str, best: Estimate, share: float) -> bool:
+    """Whether the grid makes up so much of a run's bar, and at first order, half of it a level, would beat the best."""
+    own = run.estimates[name]
+    promised = own.numerical / 2 ** (finer.level - run.rung.level)
+    return own.bounded and own.numerical > share * own.bar and not promised > best.bar
 
 
 def sensitive(settled: Settled) -> list[PlannedEffect]:
