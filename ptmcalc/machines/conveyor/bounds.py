@@ -14,25 +14,10 @@ from numpy.typing import NDArray
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
-
-_TENSIONS = (
-    "tension_run_on_max",
-    "tension_dynamic_run_on_max",
-    "tension_max",
-    "tension_min",
-    "slack_margin_min",
-)
-_FOLLOWING = (
-    "tension_run_off_min",
-    "slip_utilisation_max",
-    "slip_reserve_min",
-    "belt_safety_min",
-    "sag_relative_max",
-)
-_DRIVE = ("starting_force_needed", "starting_reserve")
 
 _X = np.linspace(0.0, 1.0, 129)
 _STRANDS = (RETURN, CARRY)
@@ -369,7 +354,7 @@ def _less(end: float, value: float) -> float:
 
 def changed_by_motion(case: StartCase) -> frozenset[str]:
     """Loads that depend on how the belt moves; the others are closed forms, among them what a torque must exceed."""
-    return frozenset(_TENSIONS + _FOLLOWING + (_DRIVE if case.imposed_speed else ()))
+    return OF_BELT.union(DRIVE if case.imposed_speed else ())
 
 
 def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
@@ -380,7 +365,7 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
     that it stands for.
     """
     line = case.line
-    moved = {name: Interval(-change, change) for name in _TENSIONS if name in loads}
+    moved = {name: Interval(-change, change) for name in TENSIONS if name in loads}
     if line.fixed_length and "tension_run_off_min" in loads:
         moved["tension_run_off_min"] = Interval(-change, change)
     if case.imposed_speed and "starting_force_needed" in loads:

@@ -28,3 +28,24 @@ LOADS = (
     LoadInfo("impedance_carry", "impedance, carry strand", units.IMPEDANCE, headline=False),
     LoadInfo("impedance_return", "impedance, return strand", units.IMPEDANCE, headline=False),
 )
+
+TENSIONS = (
+    "tension_run_on_max",
+    "tension_dynamic_run_on_max",
+    "tension_max",
+    "tension_min",
+    "slack_margin_min",
+)
+"""Loads that move with the tension somewhere on the belt, newton by newton."""
+
+GRIP = ("slip_utilisation_max", "slip_reserve_min")
+"""Loads of the drive drum's grip."""
+
+DRIVE = ("starting_force_needed", "starting_reserve")
+"""What a start asks of the drive."""
+
+AT_DRUM = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", *GRIP})
+"""Loads known from the two tensions at the drive drum."""
+
+OF_BELT = AT_DRUM.union(TENSIONS, {"belt_safety_min", "sag_relative_max"})
+"""Loads that depend on how the belt moves."""

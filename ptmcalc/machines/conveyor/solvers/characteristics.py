@@ -14,6 +14,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
 from ptmcalc.machines.conveyor.model import StartCase, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, sagging, strand
@@ -398,22 +399,7 @@ CHARACTERISTICS: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "sag"}),
-    gives=frozenset(
-        {
-            "tension_run_on_max",
-            "tension_dynamic_run_on_max",
-            "tension_run_off_min",
-            "tension_max",
-            "tension_min",
-            "slack_margin_min",
-            "slip_utilisation_max",
-            "slip_reserve_min",
-            "belt_safety_min",
-            "sag_relative_max",
-            "starting_force_needed",
-            "starting_reserve",
-        }
-    ),
+    gives=OF_BELT.union(DRIVE),
     run=run,
     cost=cost,
     source="method of characteristics; derived in ptmcalc.numerics.strand",

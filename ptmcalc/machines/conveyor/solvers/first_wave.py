@@ -7,6 +7,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
@@ -66,15 +67,7 @@ FIRST_WAVE: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave"}),
-    gives=frozenset(
-        {
-            "tension_dynamic_run_on_max",
-            "tension_run_on_max",
-            "tension_run_off_min",
-            "slip_utilisation_max",
-            "slip_reserve_min",
-        }
-    ),
+    gives=AT_DRUM,
     run=run,
     cost=lambda spec, scene, carried, level: 5e-5,
     source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",

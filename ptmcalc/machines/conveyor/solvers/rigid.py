@@ -4,6 +4,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import LOADS
 from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
@@ -31,33 +32,7 @@ RIGID: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=frozenset(
-        {
-            "tension_run_on_max",
-            "tension_dynamic_run_on_max",
-            "tension_run_off_min",
-            "tension_max",
-            "tension_min",
-            "slack_margin_min",
-            "slip_utilisation_max",
-            "slip_reserve_min",
-            "belt_safety_min",
-            "sag_relative_max",
-            "static_resistance",
-            "starting_force",
-            "starting_force_needed",
-            "starting_reserve",
-            "rim_force_excess",
-            "acceleration_rigid",
-            "start_time_rigid",
-            "first_wave_time_max",
-            "reduced_drive_mass",
-            "wave_speed_carry",
-            "wave_speed_return",
-            "impedance_carry",
-            "impedance_return",
-        }
-    ),
+    gives=frozenset(info.name for info in LOADS),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-4,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",

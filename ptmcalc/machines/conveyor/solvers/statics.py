@@ -7,6 +7,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import OF_BELT
 from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 
@@ -51,20 +52,7 @@ STATICS: Solver[Conveyor, Run] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=frozenset(
-        {
-            "static_resistance",
-            "tension_run_on_max",
-            "tension_run_off_min",
-            "tension_max",
-            "tension_min",
-            "slack_margin_min",
-            "slip_utilisation_max",
-            "slip_reserve_min",
-            "belt_safety_min",
-            "sag_relative_max",
-        }
-    ),
+    gives=OF_BELT - {"tension_dynamic_run_on_max"} | {"static_resistance"},
     run=run,
     cost=lambda spec, scene, carried, level: 5e-5,
     source="ISO 5048:1989; DIN 22101",

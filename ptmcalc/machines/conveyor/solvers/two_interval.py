@@ -9,6 +9,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
 from ptmcalc.machines.conveyor import effects
+from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import StartCase, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
@@ -95,15 +96,7 @@ TWO_INTERVAL: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave"}),
-    gives=frozenset(
-        {
-            "tension_dynamic_run_on_max",
-            "tension_run_on_max",
-            "tension_run_off_min",
-            "slip_utilisation_max",
-            "slip_reserve_min",
-        }
-    ),
+    gives=AT_DRUM,
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="derived in ptmcalc.laws.wave",
