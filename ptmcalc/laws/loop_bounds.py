@@ -121,10 +121,12 @@ def _mean_mass(loop: LoopMasses) -> float:
 def tension_green(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
     """Tension at a section when the loop is opened there with unit relative acceleration.
 
-        gravity take-up: G = m (M - m)/M, the two free parts pulled together; m alone when the speed is imposed
-        fixed length:    the opening is shared by a uniform stretch, acceleration = a0 + gamma(s) - H(s - s0), with
-                         gamma the share of compliance behind s; a0 from the momentum of the loop (0 when the speed
-                         is imposed), the mean tension from constant elongation
+        gravity take-up: G = m m'/M, the two free parts pulled together, m' = M - m; m alone when the speed is imposed
+        fixed length:    G = integral A^2 dm,  A = a0 + gamma(s) - H(s - s0)
+
+    In a fixed loop the opening is shared by a uniform stretch, gamma the share of compliance behind s, and a0 keeps
+    the momentum of the loop (0 when the speed is imposed): A is the acceleration, and its kinetic power is the work
+    of the opening.
 
     Args:
         loop: the loop.
@@ -135,31 +137,55 @@ def tension_green(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
         G, tension per unit of relative acceleration [kg].
 
     **Range** 0 <= x <= 1; stiffness constant along each strand.
-    **Error** exact.
+    **Error** exact; a sum of squares, so that masses may differ by any number of decades.
     **Source** derived here; checked against a finite-element solution and against sums over modes.
     """
-    m0 = mass_behind(loop, strand, x)
     if not loop.fixed_length:
-        return m0 if loop.imposed_speed else m0 * (loop.total_mass - m0) / loop.total_mass
-    of_return, of_carry = loop._shares
-    m2, mt, m1 = loop.return_mass, loop.tail_mass, loop.carry_mass
-    fraction = np.asarray(x, float)
+        behind = mass_behind(loop, strand, x)
+        if loop.imposed_speed:
+            return behind
+        return np.asarray(behind * ((_belt_ahead(loop, strand, x) + loop.drive_mass) / loop.total_mass))
+    masses, first, last = _accelerations(loop, strand, np.asarray(x, float))
+    if loop.imposed_speed:
+        return _power(masses, first, last)
+    start = -np.sum(masses * (first + last) / 2, axis=0) / loop.total_mass
+    return np.asarray(_power(masses, first + start, last + start) + loop.drive_mass * start**2)
+
+
+def _power(masses: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Integral of the square of an acceleration that is linear over each mass [kg]."""
+    return np.asarray(np.sum(masses * (first**2 + first * last + last**2) / 3, axis=0))
+
+
+def _belt_ahead(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
+    """Mass between a section and the run-on of the drum [kg]."""
+    left = 1 - np.asarray(x, float)
+    if strand == CARRY:
+        return np.asarray(loop.carry_mass * left)
+    return np.asarray(loop.return_mass * left + loop.tail_mass + loop.carry_mass)
+
+
+def _accelerations(loop: LoopMasses, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """gamma - H of a fixed loop opened at a section, piece by piece from the run-off on: masses [kg] and the values at
+    both ends of each, all of shape (4, *x.shape)."""
+    g2, g1 = (np.full_like(x, share) for share in loop._shares)
+    none, m2, mt, m1 = np.zeros_like(x), loop.return_mass, loop.tail_mass, loop.carry_mass
     if strand == RETURN:
-        gamma = of_return * fraction
-        mass_moment = of_return * m2 * fraction**2 / 2  # integral of m d(gamma) up to the section
-        gamma_moment = m2 * of_return * fraction**2 / 2  # integral of gamma dm up to the section
+        pieces = [
+            (m2 * x, none, g2 * x),
+            (m2 * (1 - x), -(g1 + g2 * (1 - x)), -g1),
+            (none + mt, -g1, -g1),
+            (none + m1, -g1, none),
+        ]
     else:
-        gamma = of_return + of_carry * fraction
-        mass_moment = of_return * m2 / 2 + of_carry * ((m2 + mt) * fraction + m1 * fraction**2 / 2)
-        gamma_moment = m2 * of_return / 2 + mt * of_return + m1 * (of_return * fraction + of_carry * fraction**2 / 2)
-    whole_gamma_moment = m2 * of_return / 2 + mt * of_return + m1 * (of_return + of_carry / 2)
-    mean_gamma_moment = of_return * m2 * of_return / 6 + of_carry * (
-        m2 * of_return / 2 + mt * of_return + m1 * (of_return / 2 + of_carry / 6)
-    )
-    mean_behind = _mean_mass(loop) - mass_moment - m0 * (1 - gamma)
-    a0 = 0.0 if loop.imposed_speed else (loop.belt_mass - m0 - whole_gamma_moment) / loop.total_mass
-    at_run_off = mean_behind - a0 * _mean_mass(loop) - mean_gamma_moment
-    return np.asarray(at_run_off + a0 * m0 + gamma_moment)
+        pieces = [
+            (none + m2, none, g2),
+            (none + mt, g2, g2),
+            (m1 * x, g2, g2 + g1 * x),
+            (m1 * (1 - x), -g1 * (1 - x), none),
+        ]
+    masses, first, last = (np.array(part) for part in zip(*pieces, strict=True))
+    return masses, first, last
 
 
 def stray(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
@@ -180,17 +206,17 @@ def stray(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
 
     **Range** linear undamped strands, any tail mass and jump of impedance; no slip. Not for a drive without mass,
     where b is infinite except at the run-on of a gravity take-up, where it is M_belt.
-    **Error** a bound; exact at the run-on of a gravity take-up, within 20 % of the sum over modes elsewhere.
+    **Error** a bound; exact at the run-on of a gravity take-up. In 25 periods the worst section of a loop comes to
+    over 90 % of it; a section near the free end of a gravity loop, or half way round a fixed one, to much less.
     **Source** derived here (module docstring).
     """
     green = tension_green(loop, strand, x)
     if loop.imposed_speed:
         return np.asarray(np.sqrt(loop.belt_mass * green))
-    # gravity: (M - m) m0 (m + rest)/m with rest = M_belt - m0, which stays finite at the run-on for m -> 0
+    # gravity: M_belt m0 (m + ahead)/m, which stays finite at the run-on for m -> 0
     if not loop.fixed_length:
-        m0 = mass_behind(loop, strand, x)
-        rest = loop.belt_mass - m0
-        return np.asarray(np.sqrt(loop.belt_mass * m0 * (1 + rest / loop.drive_mass)))
+        ahead = _belt_ahead(loop, strand, x)
+        return np.asarray(np.sqrt(loop.belt_mass * mass_behind(loop, strand, x) * (1 + ahead / loop.drive_mass)))
     return np.asarray(np.sqrt(loop.belt_mass * loop.total_mass / loop.drive_mass * green))
 
 
@@ -207,7 +233,7 @@ def lowest_frequency_bound(loop: LoopMasses) -> float:
 
     **Range** linear undamped strands.
     **Error** 10 % below the quarter-wave of a uniform loop with gravity take-up, 22 % for a loop clamped at both
-    ends; never above the true frequency.
+    ends, 45 % for a fixed one with a light drive, whose frequencies come in pairs; never above the true frequency.
     **Source** S. Dunkerley (1894); the trace of the Green's function is the sum of 1/w_n^2.
     """
     total = 0.0

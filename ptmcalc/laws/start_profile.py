@@ -63,8 +63,15 @@ def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     if shape == RAMP:
         area = inside**2 / (2 * rise_time)
     else:
-        area = inside / 2 - rise_time / (2 * np.pi) * np.sin(np.pi * inside / rise_time)
+        angle = np.pi * inside / rise_time
+        area = rise_time / (2 * np.pi) * _angle_less_sine(angle)
     return np.asarray(area + np.maximum(times - rise_time, 0))
+
+
+def _angle_less_sine(y: FloatArray) -> FloatArray:
+    """y - sin y, by its series where the difference would lose digits."""
+    series = y**3 / 6 * (1 - y**2 / 20 * (1 - y**2 / 42 * (1 - y**2 / 72 * (1 - y**2 / 110))))
+    return np.where(y < 0.5, series, y - np.sin(y))
 
 
 def rise_rate(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
@@ -145,7 +152,7 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
         the phases in order of time.
 
     **Range** undamped linear modes, t_s > 0 unless the shape is a step; a speed step has no bound.
-    **Error** a bound, attained by the torque step; between 1 and 2 times the worst mode otherwise.
+    **Error** a bound, attained by the torque step; over a whole start up to 1.8 times the worst mode otherwise.
     **Source** Duhamel's integral for each profile in closed form.
 
     Raises:

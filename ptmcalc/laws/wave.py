@@ -161,7 +161,7 @@ def two_interval_force(force: float, contour_time: float, time_constant: float, 
     """Exact dynamic run-on tension of a uniform loop over its first two contour times.
 
         0 <= t <= T :  S = F (1 - exp(-t/tau))
-        T <= t <= 2T:  S = F (1 - (2 x + exp(-T/tau)) exp(-x)),   x = (t - T)/tau
+        T <= t <= 2T:  S = F (1 - exp(-t/tau) - 2 x exp(-x)),   x = (t - T)/tau
 
     Args:
         force: F, step of rim force over the static resistance [N].
@@ -178,17 +178,15 @@ def two_interval_force(force: float, contour_time: float, time_constant: float, 
     """
     times = np.asarray(time, float)
     x = (times - contour_time) / time_constant
-    late = 1 - (2 * x + np.exp(-contour_time / time_constant)) * np.exp(-np.maximum(x, 0))
+    late = -np.expm1(-times / time_constant) - 2 * x * np.exp(-np.maximum(x, 0))
     return np.asarray(force * np.where(x <= 0, -np.expm1(-times / time_constant), late))
 
 
-def two_interval_extremes(
-    force: float, contour_time: float, time_constant: float, window: float
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Largest and smallest value of `two_interval_force` after the start, with their times.
+def two_interval_peak(force: float, contour_time: float, time_constant: float, window: float) -> tuple[float, float]:
+    """Largest value of `two_interval_force`, with its time.
 
     The force rises to t = T, where the echo makes a corner, falls to x = 1 - exp(-T/tau)/2 and rises again; so the
-    extremes lie at T, at that root of the derivative, or at an end of the window.
+    largest value lies at T or at the end of the window.
 
     Args:
         force: F, step of rim force over the static resistance [N].
@@ -197,14 +195,13 @@ def two_interval_extremes(
         window: end of the window, at most 2 T [s].
 
     Returns:
-        ((largest [N], its time [s]), (smallest [N], its time [s])).
+        (largest [N], its time [s]).
 
     **Range** as `two_interval_force`.
     **Error** exact.
     **Source** derivative of `two_interval_force`.
     """
-    turn = contour_time + time_constant * (1 - np.exp(-contour_time / time_constant) / 2)
-    times = np.array([t for t in (0.0, contour_time, turn, window) if t <= window])
+    times = np.array([min(contour_time, window), window])
     forces = two_interval_force(force, contour_time, time_constant, times)
-    high, low = int(np.argmax(forces)), int(np.argmin(forces))
-    return (float(forces[high]), float(times[high])), (float(forces[low]), float(times[low]))
+    top = int(np.argmax(forces))
+    return float(forces[top]), float(times[top])

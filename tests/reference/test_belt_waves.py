@@ -174,7 +174,7 @@ class TestBW03:
         assert value == pytest.approx(printed, rel=5e-3)
 
     def test_first_peak(self) -> None:
-        (peak, when), _ = wave.two_interval_extremes(self.FORCE, 2.0, 1.0, 4.0)
+        peak, when = wave.two_interval_peak(self.FORCE, 2.0, 1.0, 4.0)
         assert (peak, when) == pytest.approx((51879.9, 2.0), rel=PRINTED)
         rigid = self.FORCE / 2
         assert peak / rigid == pytest.approx(1.72933, rel=PRINTED)

@@ -29,7 +29,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     """
     case = start_case(spec, scene)
     line = case.line
-    (rise, when), _ = wave.two_interval_extremes(case.excess, _contour(case), _tau(case), case.window)
+    rise, when = wave.two_interval_peak(case.excess, _contour(case), _tau(case), case.window)
     at = {"time": when}
     on = line.run_on + rise
     loads = {

@@ -1,0 +1,146 @@
+"""The README says what is so: its commands are those CI runs, its report is what the program prints."""
+
+import re
+import subprocess
+import sys
+import tomllib
+
+import pytest
+from support.command import ROOT, ptmcalc, unpainted
+
+from ptmcalc.cli.app import app
+
+README = (ROOT / "README.md").read_text("utf-8")
+CI = (ROOT / ".ci" / "run").read_text("utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+LOCK = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))
+
+COMMANDS = {
+    "Install and run": "python -m pip install . && ptmcalc check specs/",
+    "Install and test": 'python -m pip install -e ".[test]" && python -m pytest',
+}
+TOP = {
+    ".ci",
+    ".gitignore",
+    "CHANGELOG.md",
+    "LICENSE",
+    "README.md",
+    "ptmcalc",
+    "pyproject.toml",
+    "specs",
+    "tests",
+    "uv.lock",
+}
+
+
+def tracked() -> list[str]:
+    """The files under version control, or all that a source archive holds."""
+    listed = subprocess.run(
+        ["git", "-C", str(ROOT), "ls-files", "-z"], capture_output=True, text=True, encoding="utf-8", check=False
+    )
+    if listed.returncode == 0 and listed.stdout:
+        return listed.stdout.rstrip("\0").split("\0")
+    files = (path.relative_to(ROOT) for path in ROOT.rglob("*") if path.is_file())
+    return [path.as_posix() for path in files if path.parts[0] in TOP and "__pycache__" not in path.parts]
+
+
+# -- commands -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("heading", "command"), COMMANDS.items(), ids=COMMANDS)
+def test_a_command_of_the_readme_stands_alone_under_its_heading(heading: str, command: str) -> None:
+    section = README.partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+    assert re.findall(r"```sh\n(.*?)```", section, re.DOTALL) == [f"{command}\n"]
+
+
+def test_ci_runs_the_commands_of_the_readme_and_no_others_of_its_own() -> None:
+    """With the very lines of `.ci/run` that take them out of the README."""
+    assert re.findall(r"command_of '([^']+)'", CI) == list(COMMANDS)
+    found = re.search(r"^command_of\(\).*?<<'PY'\n(.*?)^PY$", CI, re.MULTILINE | re.DOTALL)
+    assert found is not None
+    for heading, command in COMMANDS.items():
+        taken = subprocess.run(
+            [sys.executable, "-", heading], input=found[1], cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        assert taken.stdout.strip() == command
+
+
+def test_ci_is_executable_and_checks_lint_types_and_contracts() -> None:
+    assert (ROOT / ".ci" / "run").stat().st_mode & 0o111
+    for command in ("ruff check", "ruff format --check", "mypy", "lint-imports"):
+        assert re.search(rf"^{command}", CI, re.MULTILINE), command
+
+
+def test_the_table_names_every_command_and_no_other() -> None:
+    rows = re.findall(r"^\| (`ptmcalc .*?) \|", README, re.MULTILINE)
+    named = {name for row in rows for name in re.findall(r"`ptmcalc (\w+)", row)}
+    assert named == {
+        command.name or command.callback.__name__ for command in app.registered_commands if command.callback
+    }
+
+
+@pytest.mark.parametrize("option", sorted(set(re.findall(r"(--?[a-z]+)[ =`]", README.partition("## Commands")[2]))))
+def test_an_option_the_readme_names_exists(option: str) -> None:
+    helps = [unpainted(ptmcalc(command, "--help").out) for command in ("check", "solve")]
+    assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)
+
+
+def test_the_printed_report_is_what_the_command_prints(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    (console,) = re.findall(r"```console\n(.*?)```", README, re.DOTALL)
+    command, _, printed = console.partition("\n")
+    assert command.startswith("$ ptmcalc check specs/")
+    done = ptmcalc(*command.split()[2:])
+    assert (done.status, done.err) == (0, "")
+    assert done.out == printed
+
+
+def test_the_python_the_readme_asks_for_is_the_one_the_package_asks_for() -> None:
+    (version,) = re.findall(r"Python (\d\.\d+) or newer", README)
+    assert PROJECT["requires-python"] == f">={version}"
+
+
+# -- what stands where ----------------------------------------------------------------------------------------------
+
+
+def test_the_top_of_the_project_holds_what_belongs_there() -> None:
+    assert {name.partition("/")[0] for name in tracked()} == TOP
+
+
+def test_no_file_knows_the_machine_it_was_written_on() -> None:
+    machine = re.compile(r"(?<![\w.}])/(?:home|work|root|tmp|Users)/")
+    found = []
+    for name in tracked():
+        if name == "uv.lock" or not (ROOT / name).is_file():
+            continue
+        text = (ROOT / name).read_bytes().decode("utf-8", "replace")
+        found += [f"{name}:{number}" for number, line in enumerate(text.splitlines(), 1) if machine.search(line)]
+    assert found == []
+
+
+# -- the lock file --------------------------------------------------------------------------------------------------
+
+
+def plain(requirement: str) -> str:
+    """The name of a requirement, as registries write it."""
+    name = re.match(r"[A-Za-z0-9._-]+", requirement)
+    assert name is not None
+    return re.sub(r"[-_.]+", "-", name[0]).lower()
+
+
+def test_the_lock_names_every_dependency() -> None:
+    wanted = {plain(one) for one in PROJECT["dependencies"]}
+    wanted |= {plain(one) for extra in PROJECT["optional-dependencies"].values() for one in extra}
+    locked = {package["name"] for package in LOCK["package"]}
+    assert wanted - locked == set()
+    (ours,) = (package for package in LOCK["package"] if package["name"] == PROJECT["name"])
+    assert ours["version"] == PROJECT["version"]
+    assert {one["name"] for one in ours["metadata"]["requires-dist"]} == wanted
+
+
+def test_the_lock_knows_one_registry() -> None:
+    sources = [package["source"] for package in LOCK["package"] if package["name"] != PROJECT["name"]]
+    assert sources
+    assert all(source == {"registry": "https://pypi.org/simple"} for source in sources)
+    urls = re.findall(r'url = "(https?://[^/"]+/)', (ROOT / "uv.lock").read_text("utf-8"))
+    assert set(urls) == {"https://files.pythonhosted.org/"}

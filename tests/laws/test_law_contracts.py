@@ -1,0 +1,243 @@
+"""What the docstrings of all laws promise: units that fit together, floats and arrays alike, and the errors raised.
+
+Dimensions: the units in brackets are read from the docstrings; mass, length and time are then measured in other units
+at random, every argument is converted, and the result must come out converted. A wrong unit in a docstring or a
+formula that adds metres to seconds cannot pass.
+"""
+
+import importlib
+import inspect
+import pkgutil
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+import ptmcalc.laws
+from ptmcalc.laws import capstan, inertia, loop_bounds, motor, resistance, sag, start_profile, wave
+from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+
+SEEDS = range(5)
+Law = Callable[..., Any]
+Dimension = tuple[int, int, int]
+"""Exponents of mass, length and time."""
+
+BASE: dict[str, Dimension] = {
+    "1": (0, 0, 0),
+    "rad": (0, 0, 0),
+    "kg": (1, 0, 0),
+    "m": (0, 1, 0),
+    "s": (0, 0, 1),
+    "Hz": (0, 0, -1),
+    "N": (1, 1, -2),
+}
+
+
+def dimension(unit: str) -> Dimension:
+    """kg*m^2, N*s/m, m/s^2: products, then one quotient after each stroke."""
+    total = np.zeros(3, dtype=int)
+    for k, part in enumerate(unit.split("/")):
+        for factor in part.split("*"):
+            name, _, power = factor.partition("^")
+            total += np.array(BASE[name]) * int(power or 1) * (-1 if k else 1)
+    return tuple(int(p) for p in total)  # type: ignore[return-value]
+
+
+def section(law: Law, title: str) -> str:
+    """A section of a docstring, up to the next heading at the same indentation."""
+    found = re.search(rf"^{title}:\n((?:    .*\n|\n)*)", (inspect.getdoc(law) or "") + "\n", re.MULTILINE)
+    return found[1] if found else ""
+
+
+def units(text: str) -> list[str]:
+    return re.findall(r"\[([^\[\]]+)\]", text)
+
+
+def argument_units(law: Law) -> dict[str, str]:
+    """Unit of every argument that has one."""
+    entries = re.split(r"^    (\w+): ", section(law, "Args"), flags=re.MULTILINE)[1:]
+    return {name: units(text)[-1] for name, text in zip(entries[::2], entries[1::2], strict=True) if units(text)}
+
+
+def all_laws() -> dict[str, Law]:
+    """Every public function of every module of the laws."""
+    found = {}
+    for info in pkgutil.iter_modules(ptmcalc.laws.__path__):
+        module = importlib.import_module(f"ptmcalc.laws.{info.name}")
+        for name, law in vars(module).items():
+            if inspect.isfunction(law) and law.__module__ == module.__name__ and not name.startswith("_"):
+                found[f"{info.name}.{name}"] = law
+    return found
+
+
+LAWS = all_laws()
+FIXED_LOOP = LoopMasses(3e3, 9e3, 400.0, 5e3, 1e-5, 3e-5, fixed_length=True, imposed_speed=False)
+GRAVITY_LOOP = replace(FIXED_LOOP, fixed_length=False)
+LOOPS = [replace(loop, imposed_speed=speed) for loop in (FIXED_LOOP, GRAVITY_LOOP) for speed in (False, True)]
+SECTIONS = [(loop, strand, 0.3) for loop in LOOPS for strand in (RETURN, CARRY)]
+
+CALLS: dict[Law, list[tuple[Any, ...]]] = {
+    capstan.slip_utilisation: [(9e3, 3e3, 400.0, 1.3), (9e3, 300.0, 400.0, 1.3)],
+    capstan.slip_reserve_force: [(9e3, 3e3, 1.3), (2e3, 3e3, 1.3), (3e3, -1.0, 1.3)],
+    capstan.slip_reserve_ratio: [(0.7, 1.3), (0.1, 1.3)],
+    capstan.slip_ratio: [(1.4, 1.3), (0.0, 1.3)],
+    inertia.reduced_drive_mass: [(3.0, 20.0, 0.94, 60.0, 0.4)],
+    loop_bounds.mass_behind: SECTIONS,
+    loop_bounds.quasi_static: SECTIONS,
+    loop_bounds.tension_green: SECTIONS,
+    loop_bounds.stray: SECTIONS,
+    loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
+    loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
+    motor.mean_starting_torque: [(900.0, 500.0)],
+    motor.rim_force: [(700.0, 20.0, 0.94, 0.4)],
+    resistance.main_resistance_per_length: [(0.022, 9.81, 180.0, 15.0, 0.97)],
+    resistance.length_factor: [(430.0,)],
+    sag.sag_ratio: [(900.0, 5e4), (900.0, -1.0)],
+    sag.tension_at_sag: [(900.0, 0.015)],
+    sag.softening: [(1.2e8, 900.0, 5e4), (1.2e8, 900.0, 0.0)],
+    start_profile.rise: [(shape, 4.0, t) for shape in ("step", "ramp", "cosine") for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_integral: [(shape, 4.0, t) for shape in ("step", "ramp", "cosine") for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_rate: [(shape, 4.0, t) for shape in ("ramp", "cosine") for t in (1.3, 9.0)],
+    start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0)],
+    start_profile.phases: [
+        ("step", False, 4.0, 3.0), ("ramp", False, 4.0, 3.0), ("cosine", False, 4.0, 3.0), ("ramp", True, 4.0, 3.0),
+        ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0),
+    ],
+    wave.wave_speed: [(1.2e8, 70.0)],
+    wave.impedance: [(1.2e8, 70.0)],
+    wave.reflection: [(9e4, 4e4)],
+    wave.first_wave_time: [(1.3, 0.5)],
+    wave.first_wave_force: [(5e4, 9e4, 4e4, 0.7)],
+    wave.first_wave_speed: [(5e4, 9e4, 4e4, 0.7), (5e4, 0.0, 4e4, 0.7)],
+    wave.first_wave_peak: [(5e4, 9e4, 4e4, 0.7)],
+    wave.two_interval_force: [(5e4, 2.0, 0.6, t) for t in (0.7, 3.1)],
+    wave.two_interval_peak: [(5e4, 2.0, 0.6, t) for t in (0.7, 3.9)],
+}  # fmt: skip
+"""Calls of every law, in its range and over its branches."""
+
+ONE_CALL_EACH = [pytest.param(law, call, id=f"{law.__name__}-{k}") for law, calls in CALLS.items()
+                 for k, call in enumerate(calls)]  # fmt: skip
+TABLES_IN_METRES = {resistance.length_factor}
+"""Laws that are read from a table and know no other unit than its own."""
+
+REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
+    resistance.length_factor: [(ValueError, (79.0,))],
+    start_profile.phases: [(ValueError, ("step", True, 4.0, 3.0))],
+}
+
+
+@dataclass(frozen=True)
+class Units:
+    """How large the units of mass, length and time are in the others."""
+
+    scale: tuple[float, float, float]
+
+    def factor(self, unit: str) -> float:
+        return float(np.prod([s**p for s, p in zip(self.scale, dimension(unit), strict=True)]))
+
+    def converted(self, value: Any, unit: str | None) -> Any:
+        if isinstance(value, LoopMasses):
+            of = dict(re.findall(r"(masses|compliances)[^\[]*\[([^\]]+)\]", inspect.getdoc(LoopMasses) or ""))
+            suffix = {"mass": of["masses"], "compliance": of["compliances"]}
+            numbers = {f.name: suffix[f.name.rpartition("_")[2]] for f in fields(value) if f.type is float}
+            return replace(value, **{name: getattr(value, name) * self.factor(u) for name, u in numbers.items()})
+        return value * self.factor(unit) if unit is not None else value
+
+
+def numbers_of(result: Any) -> Iterator[float]:
+    """All numbers of a result, in order."""
+    if is_dataclass(result):
+        for f in fields(result):
+            yield from numbers_of(getattr(result, f.name))
+    elif isinstance(result, tuple):
+        for part in result:
+            yield from numbers_of(part)
+    else:
+        yield from np.ravel(np.asarray(result, float)).tolist()
+
+
+def random_units(seed: int) -> Units:
+    return Units(tuple(float(x) for x in 10 ** np.random.default_rng(seed).uniform(-3, 3, 3)))  # type: ignore[arg-type]
+
+
+def test_every_law_is_called_here() -> None:
+    assert {law.__name__ for law in CALLS} == {law.__name__ for law in LAWS.values()}
+    assert set(CALLS) == set(LAWS.values())
+
+
+@pytest.mark.parametrize("law", CALLS, ids=lambda law: law.__name__)
+def test_every_number_has_a_unit(law: Law) -> None:
+    parameters = inspect.signature(law).parameters
+    assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
+    numbers = {name for name, p in parameters.items() if p.annotation not in (str, bool, int, LoopMasses)}
+    assert set(argument_units(law)) == numbers
+    for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:
+        assert dimension(unit) is not None
+
+
+@pytest.mark.parametrize(("law", "call"), ONE_CALL_EACH)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_other_units_of_mass_length_and_time_give_the_same_physics(law: Law, call: tuple[Any, ...], seed: int) -> None:
+    other = random_units(seed)
+    if law in TABLES_IN_METRES:
+        other = Units((other.scale[0], 1.0, other.scale[2]))
+    of = argument_units(law)
+    names = list(inspect.signature(law).parameters)
+    converted = [other.converted(value, of.get(name)) for name, value in zip(names, call, strict=True)]
+    here, there = list(numbers_of(law(*call))), list(numbers_of(law(*converted)))
+    results = units(section(law, "Returns")) or ["1"]  # a result without a unit is a pure number
+    results = results * (len(here) // len(results))
+    expected = [value * other.factor(unit) for value, unit in zip(here, results, strict=True)]
+    assert there == pytest.approx(expected, rel=1e-9)
+
+
+def array_arguments(law: Law) -> list[str]:
+    return [name for name, p in inspect.signature(law).parameters.items() if p.annotation == ArrayLike]
+
+
+@pytest.mark.parametrize("law", [law for law in CALLS if array_arguments(law)], ids=lambda law: law.__name__)
+@pytest.mark.parametrize("shape", [(7,), (2, 3), (1,), (0,)])
+def test_an_array_gives_what_its_numbers_give_one_by_one(law: Law, shape: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(8)
+    names = list(inspect.signature(law).parameters)
+    for call in CALLS[law]:
+        given = dict(zip(names, call, strict=True))
+        arrays = {name: given[name] * rng.uniform(0.2, 1.8, shape) for name in array_arguments(law)}
+        if "x" in arrays:
+            arrays["x"] = np.minimum(arrays["x"], 1.0)  # fraction of a strand
+        whole = np.asarray(law(**given | arrays))
+        assert whole.shape == shape
+        for index in np.ndindex(shape):
+            one = law(**given | {name: float(values[index]) for name, values in arrays.items()})
+            assert float(whole[index]) == pytest.approx(float(one), rel=1e-14, abs=1e-300)
+
+
+@pytest.mark.parametrize("law", [law for law in CALLS if array_arguments(law)], ids=lambda law: law.__name__)
+def test_arguments_are_left_as_they_were(law: Law) -> None:
+    names = list(inspect.signature(law).parameters)
+    given = dict(zip(names, CALLS[law][0], strict=True))
+    arrays = {name: np.full(4, float(given[name])) for name in array_arguments(law)}
+    result = np.asarray(law(**given | arrays))
+    result[...] = -1.0  # nor is the result a view of them
+    assert all(np.all(values == given[name]) for name, values in arrays.items())
+
+
+def documented_errors(law: Law) -> set[str]:
+    return set(re.findall(r"^    (\w+):", section(law, "Raises"), re.MULTILINE))
+
+
+def test_the_errors_tested_are_those_documented() -> None:
+    documented = {law: documented_errors(law) for law in CALLS if documented_errors(law)}
+    assert documented == {law: {error.__name__ for error, _ in calls} for law, calls in REFUSED.items()}
+
+
+@pytest.mark.parametrize(
+    ("law", "error", "call"), [(law, *refused) for law, calls in REFUSED.items() for refused in calls]
+)
+def test_documented_errors_are_raised(law: Law, error: type[Exception], call: tuple[Any, ...]) -> None:
+    with pytest.raises(error, match=r"\w+ \w+"):  # with a sentence
+        law(*call)

@@ -1,0 +1,89 @@
+"""Snapshots of every format: what a reader sees changes only on purpose.
+
+The files stand in `tests/golden/`. To write them anew, and then to read the difference before it is committed:
+
+    PTMCALC_UPDATE_GOLDEN=1 python -m pytest tests/report/test_golden.py
+
+Numbers may differ as far as another processor or mathematical library makes them: floats of the JSON by 1e-6 of
+their value, decimals of a text by one unit of their last digit.
+"""
+
+import json
+import os
+import re
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+from support.command import ROOT, report_of_file
+
+from ptmcalc.report import Format, render
+
+GOLDEN = ROOT / "tests" / "golden"
+MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
+CLOSE = 1e-6
+STORED_DIGITS = 9  # more than are compared, so that rounding cannot make two close numbers differ
+NOISE = ("energy_residual", "grid_mismatch")  # differences of large numbers: only their size means something
+DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]+(?:e[-+][0-9]+)?")
+
+
+def golden(path: Path, text: str) -> str:
+    """The snapshot, written first when asked for."""
+    if os.environ.get("PTMCALC_UPDATE_GOLDEN"):
+        path.write_text(text, encoding="utf-8")
+    return path.read_text("utf-8")
+
+
+def rounded(node: Any) -> Any:
+    """A document with as many digits as are worth storing, and without the version, which changes on its own."""
+    if isinstance(node, dict):
+        return {key: "..." if key == "version" else rounded(value) for key, value in node.items()}
+    if isinstance(node, list):
+        return [rounded(item) for item in node]
+    return float(f"{node:.{STORED_DIGITS}g}") if isinstance(node, float) else node
+
+
+def assert_close(found: Any, stored: Any, place: str = "") -> None:
+    if isinstance(stored, dict):
+        assert list(found) == list(stored), place
+        for key in stored:
+            assert_close(found[key], stored[key], f"{place}.{key}")
+    elif isinstance(stored, list):
+        assert len(found) == len(stored), place
+        for index, (one, other) in enumerate(zip(found, stored, strict=True)):
+            assert_close(one, other, f"{place}[{index}]")
+    elif place.endswith(NOISE):
+        assert found == pytest.approx(stored, rel=1.0, abs=1e-9), place
+    elif isinstance(stored, float) and isinstance(found, float):
+        assert found == pytest.approx(stored, rel=CLOSE, abs=1e-9), place
+    else:
+        assert found == stored, place
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_json(name: str) -> None:
+    found = rounded(json.loads(render(Format.JSON, [report_of_file(MACHINES[name])])))
+    text = json.dumps(found, indent=2, ensure_ascii=False) + "\n"
+    assert_close(found, json.loads(golden(GOLDEN / f"{name}.json", text)))
+
+
+@pytest.mark.parametrize("form", [Format.TABLE, Format.PLAIN])
+@pytest.mark.parametrize("name", MACHINES)
+def test_text(name: str, form: Format) -> None:
+    found = render(form, [report_of_file(MACHINES[name])])
+    stored = golden(GOLDEN / f"{name}.{form.value}.txt", found)
+    assert DECIMAL.sub("0.0", found) == DECIMAL.sub("0.0", stored)
+    for one, other in zip(DECIMAL.findall(found), DECIMAL.findall(stored), strict=True):
+        last_digit = max(Decimal(1).scaleb(int(Decimal(number).as_tuple().exponent)) for number in (one, other))
+        assert abs(Decimal(one) - Decimal(other)) <= last_digit, f"{one} where {other} is stored"
+
+
+def test_every_snapshot_belongs_to_a_test() -> None:
+    expected = {f"{name}.json" for name in MACHINES}
+    expected |= {f"{name}.{form}.txt" for name in MACHINES for form in ("table", "plain")}
+    assert {path.name for path in GOLDEN.iterdir()} == expected
+
+
+def test_every_format_has_snapshots() -> None:
+    assert {form.value for form in Format} == {"table", "plain", "json"}

@@ -1,0 +1,110 @@
+"""The plain lines: one `file:line:column: verdict CODE ...` each, for editors, logs and grep."""
+
+import re
+
+import pytest
+from support.command import report_of_file
+from support.samples import SAMPLES
+
+from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.contract.report import FileReport
+from ptmcalc.report import Format, render
+
+FILES = ("specs/conveyor.yaml", "tests/cli/specs/slipping.yaml", "tests/cli/specs/faulty.yaml")
+LINE = re.compile(
+    r"(?P<file>[^:\s]+):(?P<line>[1-9][0-9]*):(?P<column>[1-9][0-9]*): "
+    r"(?P<verdict>fail|undecided|not_checked|waived|pass|error|warning|note) (?P<code>[A-Z]{3}[0-9]{3}) (?P<rest>\S.*)"
+)
+RANK = ["fail", "undecided", "not_checked", "waived", "pass"]
+
+
+def lines(name: str) -> list[str]:
+    *found, _ = render(Format.PLAIN, [SAMPLES[name]]).splitlines()
+    return found
+
+
+@pytest.mark.parametrize("path", FILES)
+def test_every_line_has_its_place_verdict_and_code(path: str) -> None:
+    *found, summary = render(Format.PLAIN, [report_of_file(path)]).splitlines()
+    assert found
+    for line in found:
+        match = LINE.fullmatch(line)
+        assert match is not None, line
+        assert match["file"] == path
+    assert summary.startswith("1 file, ")
+
+
+@pytest.mark.parametrize("path", FILES[:2])
+def test_the_worst_come_first(path: str) -> None:
+    matches = [LINE.fullmatch(line) for line in render(Format.PLAIN, [report_of_file(path)]).splitlines()]
+    ranks = [RANK.index(match["verdict"]) for match in matches if match and match["verdict"] in RANK]
+    assert ranks == sorted(ranks)
+    assert len(ranks) > 5
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        (
+            "failing",
+            [
+                "toy.yaml:2:7: fail TOY101 too much weight on the hook [gust]: 13.2 kN, at most 10 kN is sound;"
+                " passes with load = 9.09 kN",
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook [calm]: 6.6 kN, at most 10 kN is sound",
+            ],
+        ),
+        (
+            "undecided",
+            [  # blamed on the key that is not written: where its parent, the whole file, begins
+                "toy.yaml:1:1: undecided TOY101 too much weight on the hook [hang]: 9.35 kN, at most 10 kN is sound;"
+                " fail if `shock` is 1.2: give its value"
+            ],
+        ),
+        (
+            "open_bar",
+            [
+                "toy.yaml:2:7: undecided TOY101 too much weight on the hook [hang]: 8 kN (no bound), at most 10 kN is"
+                " sound; the error bar straddles the limit"
+            ],
+        ),
+        (
+            "not_checked",
+            ["toy.yaml:3:11: not_checked TOY101 too much weight on the hook [hang]: `strength` is not given"],
+        ),
+        ("switched_off", []),
+        (
+            "passing",
+            [
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook [hang]: 9.00 ±0.25 kN,"
+                " at most 10 kN is sound; without rain"
+            ],
+        ),
+        (
+            "warned",
+            [
+                "toy.yaml:2:7: warning NUM104 the rope was slack for a moment; hang it gently",
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook [hang]: 9 kN, at most 10 kN is sound",
+            ],
+        ),
+    ],
+)
+def test_a_line_says_what_a_reader_needs(name: str, expected: list[str]) -> None:
+    assert lines(name) == expected
+
+
+def test_findings_of_a_file_without_a_place_name_the_file_alone() -> None:
+    nowhere = FileReport("specs", diagnostics=(Diagnostic("TXT102", "the folder holds no design file"),))
+    assert render(Format.PLAIN, [nowhere]).splitlines()[0] == "specs: error TXT102 the folder holds no design file"
+
+
+@pytest.mark.parametrize(
+    ("names", "summary"),
+    [
+        ((), "0 files, 0 checks passed"),
+        (("infinite",), "1 file, 2 checks passed"),
+        (("failing", "undecided", "passing"), "3 files, 2 checks passed, 1 failed, 1 undecided"),
+        (("invalid", "not_checked"), "2 files, 0 checks passed, 1 invalid, 1 not checked"),
+    ],
+)
+def test_the_last_line_counts(names: tuple[str, ...], summary: str) -> None:
+    assert render(Format.PLAIN, [SAMPLES[name] for name in names]).splitlines()[-1] == summary
