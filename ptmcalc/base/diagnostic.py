@@ -79,7 +79,8 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         ),
         "TXT105": CodeText(
             "text that is not YAML",
-            "The YAML parser stopped at this place; nothing behind it could be read.",
+            "The YAML parser stopped at this place; nothing behind it could be read. Control characters and the line"
+            " breaks U+0085, U+2028 and U+2029, which few editors show, are refused as well.",
             "Mend the place named; indentation by tabs and a missing space after a colon are the usual causes.",
         ),
         "TXT106": CodeText(
@@ -149,7 +150,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         ),
         "SPC107": CodeText(
             "a decimal comma",
-            "`3,5` reads as 35 in some tools and as 3.5 in others.",
+            "`3,5` reads as 35 in some tools and as 3.5 in others; between braces the comma ends the value.",
             "Write a decimal point.",
         ),
         "SPC108": CodeText(
@@ -164,7 +165,8 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         ),
         "SPC110": CodeText(
             "a value out of its range",
-            "No machine has this value, or the formulas do not hold there.",
+            "No machine has this value, or the formulas do not hold there. Whatever the key, a value other than 0 lies"
+            " between 1e-12 and 1e15 in SI units.",
             "Write a value inside the range named.",
         ),
         "SPC111": CodeText(

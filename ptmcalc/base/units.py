@@ -3,7 +3,8 @@
 The table is closed: a unit that is not in it is an error, never a guess. Angle is a dimension of its own,
 so revolutions per minute (angle/time) and hertz (1/time) cannot be mistaken for each other.
 
-A unit is a product of factors with at most one slash: `kg*m^2`, `N*s/m`, `t/h`, `N/mm2`.
+A unit is a product of factors with at most one slash: `kg*m^2`, `N*s/m`, `t/h`, `N/mm2`. Blanks stand round a `*`
+or a `/`, not inside: `m m` may mean a product or a millimetre.
 """
 
 import difflib
@@ -12,6 +13,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+
+from ptmcalc.base.words import quote, with_article
 
 Dimension = tuple[int, int, int, int]
 """Exponents of mass, length, time, angle."""
@@ -69,8 +72,6 @@ _HINTS: Mapping[str, str] = MappingProxyType(
         "tonne": "write `t`",
         "mt": "a tonne is `t`",
         "U/min": "write `rpm`",
-        "rev/min": "write `rpm`",
-        "1/min": "a rotational speed is `rpm`; a frequency is `Hz`",
         "kgf": "a force is `N`: 1 kgf = 9.80665 N",
         "kp": "a force is `N`: 1 kp = 9.80665 N",
         "tf": "a force is `kN`: 1 tf = 9.80665 kN",
@@ -88,7 +89,10 @@ _HINTS: Mapping[str, str] = MappingProxyType(
         "in": "write `mm`: 1 in = 25.4 mm",
         "lb": "write `kg`: 1 lb = 0.45359 kg",
         "lbf": "write `N`: 1 lbf = 4.44822 N",
+        "lb/m": "write `kg/m`: 1 lb/m = 0.45359 kg/m",
+        "lb/ft": "write `kg/m`: 1 lb/ft = 1.48816 kg/m",
         "fpm": "write `m/s`: 1 ft/min = 0.00508 m/s",
+        "°C": "no key takes a temperature; an angle is in `deg`",
     }
 )
 
@@ -123,6 +127,7 @@ def _quantity(name: str, si: str, *display: str, example: str) -> Quantity:
 
 
 RATIO = _quantity("ratio", "1", example="0.94")
+FACTOR = _quantity("ratio", "1", example="1.2")
 SHARE = _quantity("ratio", "1", "%", example="1 %")
 MASS = _quantity("mass", "kg", "kg", "t", example="1200 kg")
 LENGTH = _quantity("length", "m", "mm", "m", example="1200 mm")
@@ -135,8 +140,8 @@ ANGULAR_SPEED = _quantity("rotational speed", "rad/s", "rpm", example="1485 rpm"
 FREQUENCY = _quantity("frequency", "Hz", example="0.8 Hz")
 FORCE = _quantity("force", "N", "N", "kN", "MN", example="12 kN")
 LINE_MASS = _quantity("mass per length", "kg/m", example="24 kg/m")
-LINE_FORCE = _quantity("force per length", "N/m", "N/m", "kN/m", example="1600 N/mm")
-LINE_STIFFNESS = _quantity("stiffness per width", "N/m", "kN/m", "MN/m", example="72000 N/mm")
+LINE_FORCE = _quantity("force per length", "N/m", "N/mm", example="1600 N/mm")
+LINE_STIFFNESS = _quantity("stiffness per width", "N/m", "N/mm", example="72000 N/mm")
 FLOW = _quantity("mass flow", "kg/s", "t/h", example="1500 t/h")
 TORQUE = _quantity("torque", "N*m", "N*m", "kN*m", example="3000 N*m")
 INERTIA = _quantity("moment of inertia", "kg*m^2", example="4.2 kg*m^2")
@@ -146,11 +151,13 @@ POWER = _quantity("power", "W", "W", "kW", example="250 kW")
 STRESS = _quantity("stress", "Pa", "MPa", example="210 MPa")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*", re.DOTALL)
+_VALUE = re.compile(rf"\s*((?>{_NUMBER}))\s*((?:[^\W\d_]|[°%]|1(?![0-9])).*?|)\s*", re.DOTALL)
 _NOT_FINITE = re.compile(r"\s*[-+]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
-_DECIMAL_COMMA = re.compile(r"\s*([-+]?[0-9]+),([0-9]+)(.*)", re.DOTALL)
-_SPACED = re.compile(r"\s*([-+]?[0-9]{1,3}(?:[ '_][0-9]{3})+)(.*)", re.DOTALL)
-_FACTOR = re.compile(r"([A-Za-z°%]+|1)(?:\^?([-+]?[0-9]))?")
+_COMMA = re.compile(r"\s*([-+]?[0-9]+),((?>[0-9]+))(?!\s?[0-9]|[.,'_][0-9])(.*)", re.DOTALL)
+_GROUPS = re.compile(
+    r"\s*([-+]?[0-9]{1,3}(?:([\s'_.,])[0-9]{3})(?:\2[0-9]{3})*)(?:(?!\2)[.,]([0-9]+))?(?![0-9])(.*)", re.DOTALL
+)
+_FACTOR = re.compile(r"([A-Za-z°%]+)(?:\^?([-+]?[0-9]))?|(1)(?:\^([-+]?[0-9]))?")
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "⁴": "^4", "·": "*", "×": "*", "−": "-"})
 
 
@@ -162,10 +169,12 @@ def unit_of(text: str) -> tuple[float, Dimension]:
     known = UNITS.get(text)
     if known:
         return known
-    plain = text.translate(_SUPERSCRIPT).replace(" ", "")
+    plain = text.translate(_SUPERSCRIPT)
+    if " " in plain:
+        plain = re.sub(r" *([*/]) *", r"\1", plain)
     numerator, slash, denominator = plain.partition("/")
     if "/" in denominator:
-        raise UnitError("unit", f"the unit `{text}` has more than one slash", "write it with one: `N*s/m`")
+        raise UnitError("unit", f"the unit {quote(text)} has more than one slash", "write it with one: `N*s/m`")
     factor, dimension = _product(text, numerator)
     if slash:
         below, of_below = _product(text, denominator)
@@ -178,10 +187,10 @@ def _product(text: str, factors: str) -> tuple[float, Dimension]:
     factor, dimension = 1.0, _PURE
     for part in factors.split("*"):
         match = _FACTOR.fullmatch(part)
-        known = UNITS.get(match[1]) if match else None
+        known = UNITS.get(match[1] or match[3]) if match else None
         if match is None or known is None:
-            raise UnitError("unit", f"`{text}` is not a unit ptmcalc knows", _suggest(text, part))
-        power = int(match[2] or 1)
+            raise UnitError("unit", f"{quote(text)} is not a unit ptmcalc knows", _suggest(text, part))
+        power = int(match[2] or match[4] or 1)
         factor *= known[0] ** power
         dimension = _combine(dimension, known[1], power)
     return factor, dimension
@@ -195,12 +204,21 @@ def _suggest(text: str, part: str) -> str:
     for candidate in (text, part):
         if candidate in _HINTS:
             return _HINTS[candidate]
+    if without_blanks := [joined for sign in ("*", "") if _is_unit(joined := sign.join(text.split()))]:
+        return f"write {' or '.join(f'`{unit}`' for unit in without_blanks)}"
+    if part[:1] == "m" and part[1:] in UNITS:  # in lower case: `mN` is no slip of `MN`
+        return f"write `{part[1:]}`: 1 {part} = 0.001 {part[1:]}"
     folded = {name.lower(): name for name in UNITS if name != "1"}
     name = re.sub(r"[\^0-9+-]", "", part)
     close = folded.get(name.lower()) or next(iter(difflib.get_close_matches(name, folded.values(), 1)), None)
     if close:
         return f"did you mean `{close}`?"
     return "units are SI and engineering ones: " + " ".join(name for name in UNITS if name not in {"1", "°"})
+
+
+def _is_unit(text: str) -> bool:
+    factors = [_FACTOR.fullmatch(part) for part in re.split(r"[*/]", text.translate(_SUPERSCRIPT))]
+    return all(match and (match[1] or match[3]) in UNITS for match in factors)
 
 
 def read(text: str, quantity: Quantity) -> float:
@@ -210,7 +228,7 @@ def read(text: str, quantity: Quantity) -> float:
     `unit` (unknown unit), `dimension` (unit of something else), `finite` (NaN or infinite).
     """
     match = _VALUE.fullmatch(text)
-    if match is None or (match[2] and not match[2][0].isalpha() and match[2][0] not in "°%1"):
+    if match is None:
         raise _not_a_number(text, quantity)
     number, unit = float(match[1]), match[2]
     if not math.isfinite(number):
@@ -221,10 +239,11 @@ def read(text: str, quantity: Quantity) -> float:
         raise bare_number(match[1], quantity)
     factor, dimension = unit_of(unit)
     if dimension != quantity.dimension:
+        wanted = with_article(quantity.name)
         raise UnitError(
             "dimension",
-            f"`{text.strip()}` is a {_name_of(dimension)}, not a {quantity.name}",
-            f"write a {quantity.name}, e.g. `{quantity.example}`",
+            f"{quote(text.strip())} is {with_article(_name_of(dimension))}, not {wanted}",
+            f"write {wanted}, e.g. `{quantity.example}`",
         )
     if not math.isfinite(number * factor):
         raise not_finite(text.strip(), quantity)
@@ -233,30 +252,45 @@ def read(text: str, quantity: Quantity) -> float:
 
 def bare_number(number: object, quantity: Quantity) -> UnitError:
     """The error for a number without its unit, with the units that would do."""
-    units = " or ".join(f"`{number} {unit}`" for unit in quantity.display)
-    return UnitError("bare", f"`{number}` has no unit: a {quantity.name} needs one", f"write {units}")
+    units = " or ".join(quote(f"{number} {unit}") for unit in quantity.display)
+    reason = f"{quote(str(number))} has no unit: {with_article(quantity.name)} needs one"
+    return UnitError("bare", reason, f"write {units}")
 
 
-def not_finite(text: object, quantity: Quantity) -> UnitError:
+def not_finite(text: str, quantity: Quantity) -> UnitError:
     """The error for NaN and infinity, and for a number too large for a float."""
-    return UnitError("finite", f"`{text}` is not a finite number", f"write a number, e.g. `{quantity.example}`")
+    return UnitError("finite", f"{quote(text)} is not a finite number", f"write a number, e.g. `{quantity.example}`")
 
 
 def _not_a_number(text: str, quantity: Quantity) -> UnitError:
     stripped = text.strip()
     if _NOT_FINITE.fullmatch(text):
         return not_finite(stripped, quantity)
-    if match := _DECIMAL_COMMA.fullmatch(text):
-        fixed = f"{match[1]}.{match[2]}{match[3]}".strip()
-        return UnitError("comma", f"`{stripped}` has a decimal comma", f"write a decimal point: `{fixed}`")
-    if match := _SPACED.fullmatch(text):
-        fixed = (re.sub(r"[ '_]", "", match[1]) + " " + match[2].strip()).strip()
-        return UnitError("number", f"`{stripped}` groups its digits", f"write them together: `{fixed}`")
+    if plain := without_commas(text):
+        if _COMMA.fullmatch(text):
+            return UnitError("comma", f"{quote(stripped)} has a decimal comma", f"write a decimal point: {plain}")
+        return UnitError("number", f"{quote(stripped)} groups its digits", f"write them together: {plain}")
     return UnitError(
         "number",
-        f"`{stripped}` is not a {quantity.name}",
+        f"{quote(stripped)} is not {with_article(quantity.name)}",
         f"write a number with a unit, e.g. `{quantity.example}`",
     )
+
+
+def without_commas(text: str) -> str:
+    """How a number with a decimal comma or with grouped digits is to be written, to be copied; empty for any other.
+
+    One comma in front of three digits may be either: both readings are shown, a factor of 1000 is not guessed.
+    """
+    if match := _COMMA.fullmatch(text):
+        plain = quote(f"{match[1]}.{match[2]}{match[3]}".strip())
+        if len(match[2]) == 3 and match[1].lstrip("+-") in map(str, range(1, 1000)):
+            return f"{plain}, or {quote(f'{match[1]}{match[2]}{match[3]}'.strip())} if the comma groups digits"
+        return plain
+    if match := _GROUPS.fullmatch(text):
+        number = re.sub(r"[\s'_.,]", "", match[1]) + (f".{match[3]}" if match[3] else "")
+        return quote(f"{number} {match[4].strip()}".strip())
+    return ""
 
 
 def _name_of(dimension: Dimension) -> str:

@@ -11,6 +11,7 @@ import typer
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.output import say, steady_streams
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -54,35 +55,33 @@ ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print."
 
 def main() -> None:
     """Entry point: maps what can go wrong to exit statuses."""
+    steady_streams()
     try:
         app()
     except UsageError as error:
         _fail(error)
     except KeyboardInterrupt:
         sys.exit(130)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
     except Exception as error:
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
-        typer.echo(
+        say(
             f"ptmcalc: internal error: {type(error).__name__}: {error}\n"
             "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
-            " command under PTMCALC_TRACEBACK=1.",
+            " command under PTMCALC_TRACEBACK=1.\n",
             err=True,
         )
         sys.exit(EXIT_BUG)
 
 
 def _fail(error: UsageError) -> NoReturn:
-    typer.echo(f"ptmcalc: {error.message}" + (f" ({error.hint})" if error.hint else ""), err=True)
+    say(f"ptmcalc: {error.message}" + (f" ({error.hint})" if error.hint else "") + "\n", err=True)
     sys.exit(EXIT_USAGE)
 
 
 def _version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"ptmcalc {__version__}")
+        say(f"ptmcalc {__version__}\n")
         raise typer.Exit
 
 
@@ -128,7 +127,7 @@ def check(
         _write(Path(name), _rendered(Format(target), reports, to_terminal=False))
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
-    typer.echo(_rendered(chosen, reports, to_terminal=terminal), nl=False)
+    say(_rendered(chosen, reports, to_terminal=terminal))
     status = exit_status(reports)
     if status in (0, 3) and _reaches(reports, fail_level):
         status = 1
@@ -159,7 +158,7 @@ def _target(text: str) -> tuple[str, str]:
 
 def _write(path: Path, text: str) -> None:
     try:
-        path.write_text(text, encoding="utf-8")
+        path.write_text(text, encoding="utf-8", errors="replace")
     except OSError as error:
         raise UsageError(f"cannot write `{path}`: {error.strerror}") from None
 
@@ -198,7 +197,7 @@ def explain(
     """Explain a check, an effect, a solver or a finding: formula, range, error, source."""
     from ptmcalc.cli.listing import explanation
 
-    typer.echo(explanation(name), nl=False)
+    say(explanation(name))
 
 
 @app.command()
@@ -206,7 +205,7 @@ def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when le
     """Print the JSON Schema of design files, for completion and checks in an editor."""
     from ptmcalc.cli.listing import json_schema
 
-    typer.echo(json_schema(kind), nl=False)
+    say(json_schema(kind))
 
 
 @app.command()
@@ -214,7 +213,7 @@ def new(kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")])
     """Print a commented design file to start from."""
     from ptmcalc.engine.registry import load_kind
 
-    typer.echo(load_kind(kind).template, nl=False)
+    say(load_kind(kind).template)
 
 
 @app.command()
@@ -222,7 +221,7 @@ def kinds(form: ListOption = ListFormat.TABLE) -> None:
     """List the kinds of machines."""
     from ptmcalc.cli.listing import show_kinds
 
-    typer.echo(show_kinds(form == ListFormat.JSON), nl=False)
+    say(show_kinds(form == ListFormat.JSON))
 
 
 @app.command()
@@ -233,7 +232,7 @@ def solvers(
     """List the solvers: scene, effects they carry, predicted cost on the kind's template, error, source."""
     from ptmcalc.cli.listing import show_solvers
 
-    typer.echo(show_solvers(kind, form == ListFormat.JSON), nl=False)
+    say(show_solvers(kind, form == ListFormat.JSON))
 
 
 @app.command()

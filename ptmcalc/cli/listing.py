@@ -9,12 +9,11 @@ from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
-import typer
-
 from ptmcalc.base.diagnostic import CODES
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import dotted, key_path
 from ptmcalc.base.units import TIME, show
+from ptmcalc.cli.output import say
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, EffectState
 from ptmcalc.contract.machine import AnyKind
@@ -43,7 +42,7 @@ def _loaded(path: str, options: Options) -> Loaded:
 def _reported(loaded: Loaded) -> int:
     """Prints what is wrong with a file that could not be loaded."""
     report = FileReport(loaded.document.name, diagnostics=loaded.diagnostics)
-    typer.echo(render(Format.PLAIN, [report]), nl=False, err=True)
+    say(render(Format.PLAIN, [report]), err=True)
     return exit_status((report,))
 
 
@@ -63,7 +62,7 @@ def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
             found = list(_plan_rows(made, scene))
             rows += [{"path": path} | row | {"criterion": json.criterion(row["criterion"])} for row in found]
             tables.append(_plan_table(path, found))
-    typer.echo(json.rows(rows) if as_json else "\n".join(tables), nl=False)
+    say(json.rows(rows) if as_json else "\n".join(tables))
     return status
 
 
@@ -287,14 +286,13 @@ def show_solution(path: str, code: str, key: str, scene: str, as_json: bool) -> 
         chosen_scenes(loaded.spec, (scene,))
     solution = solve(loaded.kind, loaded.spec, check, key_path(key), scene, loaded.assumed)
     if solution is None:
-        typer.echo(f"ptmcalc: within three decades no value of `{key}` changes the verdict of {check.code}", err=True)
+        say(f"ptmcalc: within three decades no value of `{key}` changes the verdict of {check.code}\n", err=True)
         return 1
     if as_json:
         found = {"path": list(solution.path), "value": solution.value, "unit": solution.quantity.si}
-        typer.echo(json.dump(found), nl=False)
+        say(json.dump(found))
     else:
         where = f" in {scene}" if scene else ""
-        typer.echo(
-            f"{dotted(solution.path)}: {show(solution.value, solution.quantity, 6)}   {check.code} just passes{where}"
-        )
+        value = show(solution.value, solution.quantity, 6)
+        say(f"{dotted(solution.path)}: {value}   {check.code} just passes{where}\n")
     return 0

@@ -9,7 +9,7 @@ _RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
     """All lines, and a summary."""
-    lines = [line for report in reports for line in _lines(report)]
+    lines = [line for report in words.printable(reports) for line in _lines(report)]
     return "\n".join([*lines, words.summary(count(reports))]) + "\n"
 
 

@@ -28,7 +28,7 @@ _STYLE = {
     Severity.NOTE.value: "cyan",
 }
 _INVISIBLE = 1e-6
-_LONGEST_WORD = 16
+_GAP = 3
 _SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
@@ -36,7 +36,7 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
     """The tables of all files, and a summary line."""
 
     def write(console: Console) -> None:
-        for report in reports:
+        for report in words.printable(reports):
             _file(console, report)
         console.print(words.summary(count(reports)))
 
@@ -45,13 +45,28 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
 
 def listing(columns: Sequence[str], rows: Iterable[Sequence[str]], *, width: int) -> str:
     """A plain table of texts, for the commands that list things."""
-    table, cells = _table(""), [list(columns), *map(list, rows)]
-    for column in zip(*cells, strict=True):
-        longest = max((len(word) for cell in column for word in cell.split()), default=0)
-        table.add_column(column[0], min_width=min(longest, _LONGEST_WORD), overflow="fold")
+    cells = words.printable([list(columns), *map(list, rows)])
+    table = _table("")
+    for column, wide in zip(columns, _widths(cells, width), strict=True):
+        table.add_column(column, width=wide, overflow="fold")
     for row in cells[1:]:
         table.add_row(*row)
     return _printed(lambda console: console.print(table), width, color=False)
+
+
+def _widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
+    """Widths of columns that leave words whole as far as the screen allows, the rest where it saves most lines."""
+    columns = list(zip(*cells, strict=True))
+    widths = [max(len(word) for cell in column for word in (*cell.split(), "")) for column in columns]
+    while sum(widths) + _GAP * len(widths) > width and max(widths) > 1:
+        widths[widths.index(max(widths))] -= 1
+    longest = [max(map(len, column)) for column in columns]
+    while sum(widths) + _GAP * len(widths) < width:
+        lines = [long / wide if long > wide else 0.0 for long, wide in zip(longest, widths, strict=True)]
+        if not max(lines):
+            break
+        widths[lines.index(max(lines))] += 1
+    return widths
 
 
 def _printed(write: Callable[[Console], None], width: int, color: bool) -> str:
@@ -82,7 +97,7 @@ def _file(console: Console, report: FileReport) -> None:
 def _table(title: str, *columns: str) -> Table:
     table = Table(title=title or None, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in columns:
-        table.add_column(column)
+        table.add_column(column, overflow="fold")
     return table
 
 
@@ -101,14 +116,14 @@ def _diagnostics(console: Console, report: FileReport) -> None:
 def _loads(console: Console, scenes: tuple[SceneReport, ...]) -> None:
     """Loads in rows, scenes in columns; the textbook's value with its ratio beside a simulated one."""
     table = _table("Loads")
-    table.add_column("")
+    table.add_column("", overflow="fold")
     table.add_column("")
     cells: list[dict[str, LoadReport]] = []
     textbook = [any(load.formula for load in scene.loads) for scene in scenes]
     for scene, has_formula in zip(scenes, textbook, strict=True):
-        table.add_column(scene.name, justify="right")
+        table.add_column(scene.name, justify="right", overflow="fold")
         if has_formula:
-            table.add_column("textbook", justify="right", style="dim")
+            table.add_column("textbook", justify="right", style="dim", overflow="fold")
         cells.append({load.info.name: load for load in scene.loads})
     fullest_first = sorted(scenes, key=lambda scene: -len(scene.loads))
     names = dict.fromkeys(load.info for scene in fullest_first for load in scene.loads if load.info.headline)

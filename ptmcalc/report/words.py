@@ -1,13 +1,36 @@
 """Words and numbers as every text format writes them."""
 
+import dataclasses
 import math
 from collections.abc import Iterable
+from typing import Any
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import Quantity, digits, display_unit, unit_of
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import FileReport, Judgement
+
+
+def printable(node: Any) -> Any:
+    """Reports, or texts in lists, in which what a terminal would obey or not show is written as an escape.
+
+    Names, keys and values of a file reach the report; an escape sequence or a line break among them must not go on to
+    a terminal. JSON has its own escapes and needs none of this.
+    """
+    if isinstance(node, str):
+        return node if node.isprintable() else "".join(map(_shown, node))
+    if isinstance(node, list | tuple):
+        return type(node)(map(printable, node))
+    if dataclasses.is_dataclass(node) and not isinstance(node, type):
+        parts = {field.name: getattr(node, field.name) for field in dataclasses.fields(node)}
+        changed = {name: new for name, old in parts.items() if (new := printable(old)) != old}
+        return dataclasses.replace(node, **changed) if changed else node
+    return node
+
+
+def _shown(char: str) -> str:
+    return char if char.isprintable() else char.encode("unicode_escape").decode()
 
 
 def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:

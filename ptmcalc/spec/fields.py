@@ -4,6 +4,7 @@
 editor shows the unit and an example while the file is written.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -13,6 +14,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ptmcalc.base import units
 from ptmcalc.base.units import Quantity, UnitError
+from ptmcalc.base.words import quote, with_article
 
 _CODES = {
     "bare": "SPC106",
@@ -22,6 +24,7 @@ _CODES = {
     "finite": "SPC109",
     "number": "SPC114",
 }
+_LEAST, _MOST = 1e-12, 1e15  # in SI units: no machine has a value outside, and formulas overflow there
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,7 @@ class Measure:
         except UnitError as error:
             raise problem(_CODES[error.code], error.reason, error.hint) from None
         if broken := self.broken_by(number):
-            raise problem("SPC110", f"`{value}` is out of range: it must be {broken}", f"write a value {broken}")
+            raise out_of_range(value, broken)
         return number
 
     def broken_by(self, number: float) -> str:
@@ -51,6 +54,10 @@ class Measure:
             return f"at least {units.show(self.at_least, self.quantity)}"
         if self.at_most is not None and not number <= self.at_most:
             return f"at most {units.show(self.at_most, self.quantity)}"
+        if abs(number) > _MOST:
+            return f"at most {units.show(_MOST, self.quantity)}" + " in size" * (number < 0)
+        if 0 < abs(number) < _LEAST:
+            return f"at least {units.show(_LEAST, self.quantity)} in size"
         return ""
 
     def _number(self, value: object) -> float:
@@ -59,15 +66,15 @@ class Measure:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise problem(
                 "SPC111",
-                f"expected a {self.quantity.name}, found {describe(value)}",
+                f"expected {with_article(self.quantity.name)}, found {describe(value)}",
                 f"write e.g. `{self.quantity.example}`",
             )
         try:
             number = float(value)
         except OverflowError:
-            number = float("inf")
-        if number != number or number in (float("inf"), float("-inf")):
-            raise units.not_finite(".nan" if number != number else ".inf", self.quantity)
+            number = math.inf
+        if not math.isfinite(number):
+            raise units.not_finite(_written(value), self.quantity)
         if self.quantity.dimension != units.RATIO.dimension:
             raise units.bare_number(value, self.quantity)
         return number
@@ -78,7 +85,8 @@ class Measure:
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         form: dict[str, Any] = {"type": "string", "examples": [self.quantity.example]}
         if self.quantity.dimension == units.RATIO.dimension:
-            form = {"type": ["number", "string"], "examples": [float(self.quantity.example), "94 %"]}
+            example = float(self.quantity.example)
+            form = {"type": ["number", "string"], "examples": [example, f"{100 * example:g} %"]}
         form["x-quantity"] = self.quantity.name
         form["x-units"] = list(self.quantity.display)
         for key, limit in (
@@ -96,13 +104,27 @@ def problem(code: str, reason: str, hint: str = "") -> PydanticCustomError:
     return PydanticCustomError("ptmcalc", "{reason}", {"code": code, "reason": reason, "hint": hint})
 
 
+def out_of_range(value: object, limit: str) -> PydanticCustomError:
+    """The error for a value beyond a limit, which is given in words."""
+    return problem("SPC110", f"{describe(value)} is out of range: it must be {limit}", f"write a value {limit}")
+
+
 def describe(value: object) -> str:
     """What a value is, in the words of the file."""
     if isinstance(value, dict):
         return "a mapping"
     if isinstance(value, list):
         return "a list"
-    return "nothing" if value is None else f"`{value}`"
+    return "nothing" if value is None else quote(_written(value))
+
+
+def _written(value: object) -> str:
+    """A scalar as YAML writes it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float) and not math.isfinite(value):
+        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
+    return str(value)
 
 
 Ratio = Annotated[float, Measure(units.RATIO)]

@@ -1,13 +1,15 @@
 """What every machine description has besides the machine itself."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ptmcalc.base.span import KeyPath
+from ptmcalc.base.words import quote
 from ptmcalc.spec.fields import Efficiency, PositiveAcceleration
-from ptmcalc.spec.scene import Fragment, Scene
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.scene import Scene
 
 Accuracy = Efficiency
 """A relative error asked for: above 0, at most 1."""
@@ -51,6 +53,17 @@ class MachineSpec(Fragment):
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect says so"""
 
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Scenes are told apart by their names."""
+        seen = set()
+        for index, scene in enumerate(given.blocks("scenes")):
+            label = _label(scene) if scene else ""
+            if label and label in seen:
+                reason = f"two scenes are called {quote(label)}"
+                yield Conflict(("scenes", index), reason, "give this one a `name:` of its own")
+            seen.add(label)
+
     @property
     def all_scenes(self) -> Sequence[Scene]:
         """The scenes of the file, or the kind's default ones."""
@@ -79,6 +92,16 @@ class MachineSpec(Fragment):
             else:
                 return None
         return node
+
+
+def _label(scene: Given) -> str:
+    """The name of a scene as far as its faults leave it known, else an empty text."""
+    try:
+        read = scene.model.model_validate(scene.raw)
+    except ValidationError:
+        name = scene.raw.get("name")
+        return name if isinstance(name, str) else ""
+    return read.label if isinstance(read, Scene) else ""
 
 
 def attribute(model: BaseModel, key: str) -> str:

@@ -1,12 +1,8 @@
 """What happens to a machine: a scene is an event the machine must survive, in a load state."""
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-
-class Fragment(BaseModel):
-    """A part of a description: immutable, and nothing in it is read without being known."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+from ptmcalc.spec.fragment import Fragment
 
 
 class Scene(Fragment):

@@ -1,19 +1,25 @@
 """YAML to plain data with the line and column of every key and value.
 
-Built on the parser's events, not on a loader: nothing can construct an object, the depth is known before any
-recursion (composing 100 000 nested lists overflows the C stack of libyaml's composer), and each event carries
-its place. Scalars are resolved by the core schema of YAML 1.2, so `no`, `12:30` and `010` mean what they say.
+Built on the parser's events, not on a loader: nothing can construct an object, depth and size are known before any
+recursion and any expansion (composing 100 000 nested lists overflows the C stack of libyaml's composer), and each
+event carries its place. Scalars are resolved by the core schema of YAML 1.2, so `no`, `12:30` and `010` mean what
+they say.
 """
 
+import codecs
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 from types import MappingProxyType
+from typing import Any, TypeGuard
 
 import yaml
 
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.span import KeyPath, Span, dotted
+from ptmcalc.base.units import without_commas
+from ptmcalc.base.words import quote
 
 MAX_BYTES = 1 << 20
 MAX_NODES = 50_000
@@ -28,6 +34,15 @@ _CONSTANTS: Mapping[str, bool | None] = MappingProxyType(
 _INT = re.compile(r"[-+]?[0-9]{1,300}|0o[0-7]{1,100}|0x[0-9a-fA-F]{1,80}")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 _SPECIAL = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+_LINE_BREAK = re.compile(r"\r\n?|\n")
+_REFUSED = re.compile("[^\t\n\r -~\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What YAML does not allow, and its line breaks that no editor counts as such: they would shift every line below."""
+
+
+class Unread(Enum):
+    """Stands in the data for a value that could not be read; a problem already says why."""
+
+    VALUE = "unread"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,258 +80,251 @@ class Document:
 class _Scalar:
     span: Span
     value: object
+    levels: int = 1
 
 
 @dataclass(frozen=True, slots=True)
 class _Sequence:
     span: Span
     items: "list[_Node]"
+    levels: int
 
 
 @dataclass(frozen=True, slots=True)
 class _Mapping:
     span: Span
-    entries: "list[_Entry]"
+    entries: "dict[str, _Entry]"
+    levels: int
 
 
 _Node = _Scalar | _Sequence | _Mapping
-_Entry = tuple[str, Span, _Node]
+_Entry = tuple[Span, _Node]
+"""A value with the place of its key."""
 
 
 class _UnreadableError(Exception):
     """The rest of the file cannot be read; the problem says why."""
 
-    def __init__(self, problem: Diagnostic) -> None:
-        super().__init__(problem.message)
-        self.problem = problem
+    def __init__(self, code: str, reason: str, span: Span, hint: str) -> None:
+        super().__init__(reason)
+        self.problem = Diagnostic(code, reason, span, hint=hint)
 
 
 def parse(raw: bytes, name: str) -> Document:
     """Read one design file; what is wrong with its text comes back in `problems`, nothing is raised."""
     problems: list[Diagnostic] = []
-    reader = _Reader(problems)
     try:
-        node = reader.document(_decode(raw))
-        flat = _Flattener(problems)
-        data = flat.flatten(node, (), None)
+        node = _Reader(problems).document(_decode(raw))
     except _UnreadableError as stop:
         return Document(name, None, problems=(*problems, stop.problem))
-    if not isinstance(data, dict):
+    keys: dict[KeyPath, Span] = {}
+    values: dict[KeyPath, Span] = {}
+    data = _flatten(node, (), keys, values)
+    if not isinstance(data, dict | Unread):
         form = "a list" if isinstance(data, list) else "a single value"
-        problems.append(
-            Diagnostic(
-                "TXT112",
-                f"the document is {form}, not a mapping",
-                node.span,
-                hint="start with `kind: conveyor`",
-            )
-        )
-        data = None
-    return Document(name, data, flat.keys, flat.values, tuple(problems))
+        reason, hint = f"the document is {form}, not a mapping", "start with `kind: conveyor`"
+        problems.append(Diagnostic("TXT112", reason, node.span, hint=hint))
+    return Document(name, data if isinstance(data, dict) else None, keys, values, tuple(problems))
 
 
 def _decode(raw: bytes) -> str:
     if len(raw) > MAX_BYTES:
-        raise _UnreadableError(Diagnostic("TXT108", f"the file has {len(raw)} bytes, more than 1 MiB", Span(1, 1)))
+        raise _UnreadableError("TXT108", "the file has more than 1 MiB", Span(1, 1), "split the file")
+    raw = raw.removeprefix(codecs.BOM_UTF8)
     try:
-        text = raw.decode("utf-8-sig")
+        text = raw.decode()
     except UnicodeDecodeError as error:
-        before = raw[: error.start].decode("utf-8", "replace")
-        line = before.count("\n") + 1
-        column = len(before) - (before.rfind("\n") + 1) + 1
-        raise _UnreadableError(
-            Diagnostic(
-                "TXT103",
-                f"byte 0x{raw[error.start]:02x} is not UTF-8",
-                Span(line, column),
-                hint="save the file as UTF-8",
-            )
-        ) from None
+        reason, place = f"byte 0x{raw[error.start]:02x} is not UTF-8", _end_of(raw[: error.start].decode())
+        raise _UnreadableError("TXT103", reason, place, "save the file as UTF-8") from None
+    if refused := _REFUSED.search(text):
+        reason = f"character U+{ord(refused[0]):04X} is not allowed in a design file"
+        hint = f"delete it, or write `{refused[0].encode('unicode_escape').decode()}` between double quotes"
+        raise _UnreadableError("TXT105", reason, _end_of(text[: refused.start()]), hint)
     if not text.strip():
-        raise _UnreadableError(
-            Diagnostic("TXT104", "the file is empty", Span(1, 1), hint="`ptmcalc new conveyor` prints a template")
-        )
+        raise _UnreadableError("TXT104", "the file is empty", Span(1, 1), "`ptmcalc new conveyor` prints a template")
     return text
 
 
+def _end_of(text: str) -> Span:
+    """The place behind a text."""
+    lines = _LINE_BREAK.split(text)
+    return Span(len(lines), len(lines[-1]) + 1)
+
+
 class _Reader:
-    """Composes the parser's events into nodes, within the budgets."""
+    """Composes the parser's events into nodes, within the budgets.
+
+    An alias costs as many nodes and levels as what it stands for, so nothing that is expanded later can exceed them.
+    """
 
     def __init__(self, problems: list[Diagnostic]) -> None:
         self.problems = problems
-        self.anchors: dict[str, _Node] = {}
+        self.anchors: dict[str, tuple[_Node, int]] = {}
         self.nodes = 0
 
     def document(self, text: str) -> _Node:
         try:
             return self._single(iter(yaml.parse(text, Loader=_Loader)))
-        except yaml.reader.ReaderError as error:
-            before = text[: error.position]
-            place = Span(before.count("\n") + 1, len(before) - (before.rfind("\n") + 1) + 1)
-            raise _UnreadableError(
-                Diagnostic("TXT105", f"character U+{_code_point(error):04X} is not allowed in YAML", place)
-            ) from None
         except yaml.MarkedYAMLError as error:
-            raise _UnreadableError(_syntax_problem(error, text)) from None
+            raise _syntax_error(error, _LINE_BREAK.split(text)) from None
 
     def _single(self, events: Iterator[yaml.Event]) -> _Node:
         root: _Node | None = None
         for event in events:
             if isinstance(event, yaml.DocumentStartEvent):
                 if root is not None:
-                    raise _UnreadableError(
-                        Diagnostic(
-                            "TXT109",
-                            "a second document starts here",
-                            _span(event),
-                            hint="put each machine into a file of its own",
-                        )
-                    )
-                root = self._node(next(events), events, 1)
+                    hint = "put each machine into a file of its own"
+                    raise _UnreadableError("TXT109", "a second document starts here", _span(event), hint)
+                root = self._node(next(events), events, ())
         if root is None or (isinstance(root, _Scalar) and root.value is None):
-            raise _UnreadableError(
-                Diagnostic(
-                    "TXT104",
-                    "the file holds no data",
-                    Span(1, 1),
-                    hint="`ptmcalc new conveyor` prints a template",
-                )
-            )
+            hint = "`ptmcalc new conveyor` prints a template"
+            raise _UnreadableError("TXT104", "the file holds no data", Span(1, 1), hint)
         return root
 
-    def _node(self, event: yaml.Event, events: Iterator[yaml.Event], depth: int) -> _Node:
-        span = _span(event)
-        self.nodes += 1
+    def _spend(self, nodes: int, path: KeyPath, levels: int, span: Span) -> None:
+        self.nodes += nodes
         if self.nodes > MAX_NODES:
-            raise _UnreadableError(Diagnostic("TXT108", f"the file has more than {MAX_NODES} nodes", span))
-        if depth > MAX_DEPTH:
-            raise _UnreadableError(Diagnostic("TXT108", f"more than {MAX_DEPTH} levels are nested here", span))
+            reason, hint = f"with this the file has more than {MAX_NODES} nodes", "split the file, or use fewer aliases"
+            raise _UnreadableError("TXT108", reason, span, hint)
+        if len(path) + levels > MAX_DEPTH:
+            reason, hint = f"more than {MAX_DEPTH} levels are nested here", "nest less deeply"
+            raise _UnreadableError("TXT108", reason, span, hint)
+
+    def _say(self, code: str, reason: str, span: Span, path: KeyPath, hint: str) -> None:
+        self.problems.append(Diagnostic(code, reason, span, path, hint))
+
+    def _node(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> _Node:
+        span = _span(event)
         if isinstance(event, yaml.AliasEvent):
-            return self._alias(event, span)
+            return self._alias(event, span, path)
         assert isinstance(event, yaml.NodeEvent)
+        before = self.nodes
+        self._spend(1, path, 1, span)
         tag = getattr(event, "tag", None)
         if tag is not None:
-            self.problems.append(
-                Diagnostic(
-                    "TXT107",
-                    f"the tag `{tag}` is refused",
-                    span,
-                    hint="delete it: a design file is data",
-                )
-            )
+            self._say("TXT107", f"the tag {quote(tag)} is refused", span, path, "delete it: a design file is data")
         node: _Node
         if isinstance(event, yaml.ScalarEvent):
-            plain = event.style in ("", None)
-            node = _Scalar(span, resolve(event.value) if plain else event.value)
+            node = _Scalar(span, resolve(event.value) if _plain(event) else event.value)
         elif isinstance(event, yaml.SequenceStartEvent):
-            node = _Sequence(span, self._items(events, depth))
+            node = self._sequence(span, events, path)
         else:
-            node = _Mapping(span, self._entries(events, depth))
+            node = self._mapping(span, events, path)
         if event.anchor:
-            self.anchors[event.anchor] = node
+            self.anchors[event.anchor] = node, self.nodes - before
         return node
 
-    def _alias(self, event: yaml.AliasEvent, span: Span) -> _Node:
-        known = self.anchors.get(event.anchor or "")
-        if known is None:
-            self.problems.append(
-                Diagnostic(
-                    "TXT110",
-                    f"no anchor `&{event.anchor}` is finished before this alias",
-                    span,
-                    hint=f"write `&{event.anchor}` in front of the value it stands for",
-                )
-            )
-            return _Scalar(span, None)
-        return known
+    def _alias(self, event: yaml.AliasEvent, span: Span, path: KeyPath) -> _Node:
+        name = str(event.anchor)
+        if name not in self.anchors:
+            reason, hint = f"no anchor {quote(f'&{name}')} is finished before this alias", quote(f"&{name}")
+            self._say("TXT110", reason, span, path, f"write {hint} in front of the value it stands for")
+            return _Scalar(span, Unread.VALUE)
+        node, nodes = self.anchors[name]
+        self._spend(nodes, path, node.levels, span)
+        return node
 
-    def _items(self, events: Iterator[yaml.Event], depth: int) -> list[_Node]:
-        items = []
+    def _sequence(self, span: Span, events: Iterator[yaml.Event], path: KeyPath) -> _Sequence:
+        items: list[_Node] = []
         while not isinstance(event := next(events), yaml.SequenceEndEvent):
-            items.append(self._node(event, events, depth + 1))
-        return items
+            items.append(self._node(event, events, (*path, len(items))))
+        return _Sequence(span, items, _levels(items))
 
-    def _entries(self, events: Iterator[yaml.Event], depth: int) -> list[_Entry]:
-        entries: list[_Entry] = []
+    def _mapping(self, span: Span, events: Iterator[yaml.Event], path: KeyPath) -> _Node:
+        entries: dict[str, _Entry] = {}
+        merges: list[_Entry] = []
+        cut: dict[str, str] = {}
+        last: _Written | None = None
         while not isinstance(event := next(events), yaml.MappingEndEvent):
-            key = event.value if isinstance(event, yaml.ScalarEvent) else None
-            span = _span(event)
-            if key is None or not key:
-                self.problems.append(Diagnostic("TXT111", "this key is not a word", span, hint="write `key: value`"))
-            self._node(event, events, depth + 1)
-            node = self._node(next(events), events, depth + 1)
-            if key:
-                entries.append((key, span, node))
-        return entries
-
-
-class _Flattener:
-    """Turns nodes into plain data, expanding aliases and merges, and notes every place."""
-
-    def __init__(self, problems: list[Diagnostic]) -> None:
-        self.problems = problems
-        self.keys: dict[KeyPath, Span] = {}
-        self.values: dict[KeyPath, Span] = {}
-        self.nodes = 0
-
-    def flatten(self, node: _Node, path: KeyPath, key: Span | None) -> object:
-        self.nodes += 1
-        if self.nodes > MAX_NODES or len(path) > MAX_DEPTH:
-            raise _UnreadableError(
-                Diagnostic(
-                    "TXT108",
-                    f"with its aliases expanded the file has more than {MAX_NODES} nodes or {MAX_DEPTH} levels",
-                    key or node.span,
-                    hint="remove the nested aliases",
-                )
-            )
-        self.values[path] = node.span
-        if key is not None:
-            self.keys[path] = key
-        if isinstance(node, _Sequence):
-            return [self.flatten(item, (*path, index), None) for index, item in enumerate(node.items)]
-        if isinstance(node, _Mapping):
-            return self._mapping(node.entries, path)
-        return node.value
-
-    def _mapping(self, entries: list[_Entry], path: KeyPath) -> dict[str, object]:
-        chosen: dict[str, tuple[Span, _Node]] = {}
-        merged: dict[str, tuple[Span, _Node]] = {}
-        for key, span, node in entries:
-            if key == "<<":
-                for name, where, value in self._merge(span, node):
-                    merged.setdefault(name, (where, value))
-            elif key in chosen:
-                first = chosen[key][0]
-                self.problems.append(
-                    Diagnostic(
-                        "TXT106",
-                        f"`{dotted((*path, key))}` is written twice, first in line {first.line}",
-                        span,
-                        (*path, key),
-                        hint="delete one of them",
-                    )
-                )
-            else:
-                chosen[key] = (span, node)
-        return {
-            key: self.flatten(node, (*path, key), span)
-            for key, (span, node) in (chosen | {k: v for k, v in merged.items() if k not in chosen}).items()
-        }
-
-    def _merge(self, span: Span, node: _Node) -> Iterator[_Entry]:
-        for source in node.items if isinstance(node, _Sequence) else [node]:
-            self.nodes += 1
-            if not isinstance(source, _Mapping):
-                self.problems.append(
-                    Diagnostic("TXT110", "`<<` merges a mapping or a list of mappings", span, hint="`<<: *anchor`")
-                )
+            key, where = self._key(event, events, path)
+            value = next(events)
+            node = self._node(value, events, (*path, key or "?"))
+            if last and _goes_on(last, event, value):
+                last = last[0], f"{last[1]},{key}", event
+                cut[last[0]] = last[1]
                 continue
-            for key, where, value in source.entries:
-                if key == "<<":
-                    yield from self._merge(where, value)
-                else:
-                    yield key, where, value
+            last = None
+            if key == "<<" and _plain(event):
+                merges.append((where, node))
+            elif key in entries:
+                name, first = quote(dotted((*path, key))), entries[key][0].line
+                reason = f"{name} is written twice, first in line {first}"
+                self._say("TXT106", reason, where, (*path, key), "delete one of them")
+            elif key:
+                entries[key] = where, node
+                last = (key, value.value, value) if _plain(value) else None
+        for key, text in cut.items():
+            where, node = entries[key]
+            self._say_cut(text, node.span, (*path, key))
+            entries[key] = where, _Scalar(node.span, Unread.VALUE)
+        if not self._merge(merges, entries, path):
+            return _Scalar(span, Unread.VALUE)
+        return _Mapping(span, entries, _levels(node for _, node in entries.values()))
+
+    def _key(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> tuple[str, Span]:
+        """A key and its place; an empty text for one that is no word."""
+        key, span = event.value if isinstance(event, yaml.ScalarEvent) else "", _span(event)
+        if not key:
+            self._say("TXT111", "this key is not a word", span, path, "write `key: value`")
+        self._node(event, events, (*path, key or "?"))
+        return key, span
+
+    def _say_cut(self, text: str, span: Span, path: KeyPath) -> None:
+        plain = without_commas(text)
+        hint = f"write {plain}" if plain else "put the text in quotes"
+        reason = f"{quote(dotted(path))}: between braces a comma ends a value and cuts {quote(text)} to pieces"
+        self._say("SPC107", reason, span, path, hint)
+
+    def _merge(self, merges: list[_Entry], entries: dict[str, _Entry], path: KeyPath) -> bool:
+        """Adds what `<<` brings and the mapping does not write itself; whether all of it could be read."""
+        readable = True
+        for span, node in merges:
+            for source in node.items if isinstance(node, _Sequence) else [node]:
+                if isinstance(source, _Mapping):
+                    for key, entry in source.entries.items():
+                        entries.setdefault(key, entry)
+                    continue
+                readable = False
+                if not (isinstance(source, _Scalar) and source.value is Unread.VALUE):
+                    reason = "`<<` merges a mapping or a list of mappings"
+                    self._say("TXT110", reason, span, path, "write `<<: *anchor`")
+        return readable
+
+
+_Written = tuple[str, str, yaml.Event]
+"""A key, the words behind it, and the event that ends them."""
+
+
+def _goes_on(last: _Written, key: yaml.Event, value: yaml.Event) -> bool:
+    """Whether a key is the rest of the value before it, cut by a comma between braces: `{lift: 18,5 m}`."""
+    if not (_plain(value) and not value.value and _plain(key)):
+        return False
+    _, text, before = last
+    end = _place(before.end_mark)
+    return text[-1:].isdigit() and key.value[:1].isdigit() and _span(key) == Span(end.line, end.column + 1)
+
+
+def _plain(event: yaml.Event) -> TypeGuard[yaml.ScalarEvent]:
+    """Whether an event is a scalar without quotes."""
+    return isinstance(event, yaml.ScalarEvent) and event.style in ("", None)
+
+
+def _levels(nodes: Iterable[_Node]) -> int:
+    return 1 + max((node.levels for node in nodes), default=0)
+
+
+def _flatten(node: _Node, path: KeyPath, keys: dict[KeyPath, Span], values: dict[KeyPath, Span]) -> object:
+    """Plain data with aliases expanded, and every place noted."""
+    values[path] = node.span
+    if isinstance(node, _Sequence):
+        return [_flatten(item, (*path, index), keys, values) for index, item in enumerate(node.items)]
+    if isinstance(node, _Scalar):
+        return node.value
+    data = {}
+    for key, (span, value) in node.entries.items():
+        keys[*path, key] = span
+        data[key] = _flatten(value, (*path, key), keys, values)
+    return data
 
 
 def resolve(text: str) -> object:
@@ -332,22 +340,45 @@ def resolve(text: str) -> object:
     return text
 
 
-def _code_point(error: yaml.reader.ReaderError) -> int:
-    return error.character if isinstance(error.character, int) else ord(error.character)
-
-
 def _span(event: yaml.Event) -> Span:
-    mark = event.start_mark
+    return _place(event.start_mark)
+
+
+def _place(mark: Any) -> Span:
     return Span(mark.line + 1, mark.column + 1) if mark else Span(1, 1)
 
 
-def _syntax_problem(error: yaml.MarkedYAMLError, text: str) -> Diagnostic:
-    mark = error.problem_mark or error.context_mark
-    span = Span(mark.line + 1, mark.column + 1) if mark else Span(1, 1)
+_SYNTAX_HINTS = (
+    ("end of stream", "close the quote"),
+    ("document indicator", "close the quote"),
+    ("document separator", "close the quote"),
+    ("Unicode character escape", "write the character itself (from Python: `json.dumps(..., ensure_ascii=False)`)"),
+    ("flow", "close the bracket or brace, and put commas between what is in it"),
+)
+
+
+def _syntax_error(error: yaml.MarkedYAMLError, lines: list[str]) -> _UnreadableError:
+    """What the parser stumbled over, where the fault is.
+
+    What is never closed is noticed at the end of the file, and a key without its colon in the next line: then the
+    fault is where the quote, the bracket or the key begins.
+    """
     reason = " ".join(part for part in (error.context, error.problem) if part)
-    lines = text.splitlines()
-    line = lines[span.line - 1] if span.line <= len(lines) else ""
-    hint = "check the indentation and the space behind each colon"
-    if line[: span.column].count("\t"):
+    mark = error.problem_mark or error.context_mark
+    begun = error.context in ("while scanning a quoted scalar", "while scanning a simple key")
+    if mark and error.context_mark and (begun or not any(_behind(mark, lines))):
+        mark = error.context_mark
+    line, column = (mark.line, mark.column) if mark else (0, 0)
+    if line >= len(lines):
+        line, column = len(lines) - 1, len(lines[-1])
+    hint = next((hint for words, hint in _SYNTAX_HINTS if words in reason), "")
+    if "\t" in lines[line][: column + 1]:
         hint = "indent with spaces, not with tabs"
-    return Diagnostic("TXT105", f"not YAML: {reason}", span, hint=hint)
+    hint = hint or "check the indentation and the space behind each colon"
+    return _UnreadableError("TXT105", f"not YAML: {reason}", Span(line + 1, column + 1), hint)
+
+
+def _behind(mark: yaml.Mark, lines: list[str]) -> Iterator[str]:
+    """What the lines still hold behind a mark."""
+    yield "".join(lines[mark.line : mark.line + 1])[mark.column :].strip()
+    yield from (line.strip() for line in lines[mark.line + 1 :])

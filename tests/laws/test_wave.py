@@ -242,9 +242,7 @@ class TestTwoIntervals:
 
     @pytest.mark.parametrize(("force", "contour", "tau"), LOOPS)
     @pytest.mark.parametrize("window", [0.3, 1.0, 1.2, 2.0])
-    def test_peak_is_that_of_a_dense_sample(
-        self, force: float, contour: float, tau: float, window: float
-    ) -> None:
+    def test_peak_is_that_of_a_dense_sample(self, force: float, contour: float, tau: float, window: float) -> None:
         end = window * contour
         times = np.append(np.linspace(0, end, 40001), min(contour, end))
         dense = delayed(force, contour, tau)(times)

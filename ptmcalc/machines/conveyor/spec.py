@@ -1,12 +1,11 @@
 """How a designer writes a belt conveyor."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ptmcalc.base.units import RATIO
+from ptmcalc.base.units import FACTOR
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.spec.fields import (
     Efficiency,
@@ -30,23 +29,12 @@ from ptmcalc.spec.fields import (
     PositiveSpeed,
     PositiveTime,
     PositiveTorque,
-    problem,
 )
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.scene import Fragment, Scene
+from ptmcalc.spec.scene import Scene
 
-RatioFromOne = Annotated[float, Measure(RATIO, at_least=1)]
-
-
-def exactly_one(part: Fragment, *keys: str) -> None:
-    """Refuses a fragment that gives none or more than one of alternative keys."""
-    given = [key for key in keys if getattr(part, key) is not None]
-    if len(given) == 1:
-        return
-    choice = " or ".join(f"`{key}`" for key in keys)
-    if given:
-        raise problem("SPC113", f"give {choice}, not both: they say the same thing", f"delete `{given[-1]}`")
-    raise problem("SPC113", f"give {choice}", f"add `{keys[0]}: ...`")
+RatioFromOne = Annotated[float, Measure(FACTOR, at_least=1)]
 
 
 class Route(Fragment):
@@ -59,11 +47,12 @@ class Route(Fragment):
     inclination: Literal["exact", "small_angle"] = "exact"
     """`small_angle` sets the cosine of the slope to 1, as ISO 5048 allows below 18 degrees"""
 
-    @model_validator(mode="after")
-    def _lift_fits(self) -> "Route":
-        if abs(self.lift) >= self.length:
-            raise problem("SPC113", "the lift is not smaller than the length along the belt", "check both values")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The belt cannot rise further than it is long."""
+        lift, length = given.number("lift"), given.number("length")
+        if lift is not None and length is not None and abs(lift) >= length:
+            yield Conflict(("lift",), "the lift is not smaller than the length along the belt", "check both values")
 
 
 class Belt(Fragment):
@@ -84,15 +73,13 @@ class Belt(Fragment):
     carcass: Literal["textile", "steel_cord"] | None = None
     """what carries the tension; chooses the default safety factors"""
 
-    @model_validator(mode="after")
-    def _one_of_each(self) -> "Belt":
-        exactly_one(self, "stiffness", "modulus")
-        if self.breaking_force is not None and self.strength is not None:
-            exactly_one(self, "breaking_force", "strength")
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Stiffness and strength are of the whole belt, or per width with the width."""
+        yield from exactly_one(given, "stiffness", "modulus")
+        yield from at_most_one(given, "breaking_force", "strength")
         for key in ("modulus", "strength"):
-            if getattr(self, key) is not None and self.width is None:
-                raise problem("SPC113", f"`{key}` is per width: `width` is missing", "add `width: 1200 mm`")
-        return self
+            yield from together(given, key, "width", f"`{key}` is per width")
 
 
 class IdlerRow(Fragment):
@@ -105,12 +92,11 @@ class IdlerRow(Fragment):
     line_mass: LineMass | None = None
     """rotating mass per length, or give `set_mass` and `pitch`"""
 
-    @model_validator(mode="after")
-    def _one_mass(self) -> "IdlerRow":
-        exactly_one(self, "set_mass", "line_mass")
-        if self.set_mass is not None and self.pitch is None:
-            raise problem("SPC113", "`set_mass` is per idler set: `pitch` is missing", "add `pitch: 1200 mm`")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The mass is per length, or per set with the pitch."""
+        yield from exactly_one(given, "set_mass", "line_mass")
+        yield from together(given, "set_mass", "pitch", "`set_mass` is per idler set")
 
     @property
     def rotating_line_mass(self) -> float:
@@ -139,10 +125,10 @@ class Load(Fragment):
     capacity: MassFlow | None = None
     """mass flow; the load per length is capacity over belt speed"""
 
-    @model_validator(mode="after")
-    def _one_mass(self) -> "Load":
-        exactly_one(self, "mass", "capacity")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The load is given in one way."""
+        yield from exactly_one(given, "mass", "capacity")
 
 
 class Resistance(Fragment):
@@ -157,11 +143,10 @@ class Resistance(Fragment):
     start_factor: RatioFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
 
-    @model_validator(mode="after")
-    def _one_secondary(self) -> "Resistance":
-        if self.secondary is not None and self.secondary_force is not None:
-            exactly_one(self, "secondary", "secondary_force")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The secondary resistances are given in one way."""
+        yield from at_most_one(given, "secondary", "secondary_force")
 
 
 class Motor(Fragment):
@@ -180,18 +165,21 @@ class Motor(Fragment):
     smallest_starting_torque: PositiveTorque | None = None
     """torque before each step of a rheostat start, one motor"""
 
-    @model_validator(mode="after")
-    def _torque(self) -> "Motor":
-        exactly_one(self, "mean_starting_torque", "largest_starting_torque")
-        if (self.largest_starting_torque is None) != (self.smallest_starting_torque is None):
-            raise problem(
-                "SPC113",
-                "`largest_starting_torque` and `smallest_starting_torque` go together",
-                "give both, or `mean_starting_torque` alone",
-            )
-        if (self.smallest_starting_torque or 0.0) > (self.largest_starting_torque or math.inf):
-            raise problem("SPC113", "the smallest starting torque is above the largest", "swap them")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The starting torque is a mean one, or swings between a largest and a smallest."""
+        mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
+        if largest not in given and smallest not in given:
+            yield from exactly_one(given, mean, largest)
+        elif mean in given:
+            for key in (largest, smallest):
+                yield from at_most_one(given, mean, key)
+        else:
+            yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
+            yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+            high, low = given.number(largest), given.number(smallest)
+            if high is not None and low is not None and low > high:
+                yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
 
 
 class Gear(Fragment):
@@ -281,16 +269,18 @@ class Profile(Fragment):
     control: Literal["torque", "speed"] | None = None
     """what follows the profile; a step is of torque, ramp and cosine are of speed unless this says `torque`"""
 
-    @model_validator(mode="after")
-    def _complete(self) -> "Profile":
-        if self.shape == "step":
-            if self.time is not None:
-                raise problem("SPC113", "a `step` has no `time`", "delete `time`, or write `shape: ramp`")
-            if self.control == "speed":
-                raise problem("SPC113", "a step of speed needs an infinite force", "write `shape: ramp` and a `time`")
-        elif self.time is None:
-            raise problem("SPC113", f"a `{self.shape}` needs its `time`", "add `time: 20 s`")
-        return self
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A step is at once and of torque; anything else takes its time."""
+        shape = given.word("shape")
+        if shape == "step":
+            if "time" in given:
+                yield Conflict(("time",), "a `step` has no `time`", "delete `time`, or write `shape: ramp`")
+            if given.word("control") == "speed":
+                reason = "a step of speed needs an infinite force"
+                yield Conflict(("control",), reason, "write `shape: ramp` and a `time`")
+        elif shape is not None and "time" not in given:
+            yield given.missing("time", f"a `{shape}` needs its `time`")
 
     @property
     def imposes_speed(self) -> bool:
@@ -354,6 +344,19 @@ class Conveyor(MachineSpec):
 
     DEFAULT_SCENES: ClassVar[tuple[Run | Start, ...]] = (Run(), Start(), Start(load="empty"))
 
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The secondary resistances of a short conveyor are not in the table."""
+        yield from super().conflicts(given)
+        route, resistance = given.block("route"), given.block("resistance")
+        length = route.number("length") if route else None
+        if length is None or length >= 80 or resistance is None:
+            return
+        if "secondary" not in resistance and "secondary_force" not in resistance:
+            reason = "below 80 m the table of C(L) does not apply: the secondary resistances must be given"
+            hint = "add `secondary_force: 1 kN` or `secondary: 2.5` under `resistance`"
+            yield Conflict(("resistance",), reason, hint)
+
     @property
     def all_scenes(self) -> Sequence[Run | Start]:
         return self.scenes or self.DEFAULT_SCENES
@@ -361,13 +364,3 @@ class Conveyor(MachineSpec):
     @property
     def settings(self) -> ConveyorChecks:
         return self.checks
-
-    @model_validator(mode="after")
-    def _secondary_resistance_known(self) -> "Conveyor":
-        if self.route.length < 80 and self.resistance.secondary is None and self.resistance.secondary_force is None:
-            raise problem(
-                "SPC113",
-                "below 80 m the table of C(L) does not apply: the secondary resistances must be given",
-                "add `secondary_force: 1 kN` or `secondary: 2.5` under `resistance`",
-            )
-        return self

@@ -1,0 +1,138 @@
+"""A part of a description: its keys, and what must hold between them.
+
+What holds between keys is said of the mapping as the file writes it, key by key, and not of a finished model: so it
+is looked at beside faults in other keys, and a file shows all its faults in one run.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+from pydantic import BaseModel, ConfigDict, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
+
+from ptmcalc.base.span import KeyPath
+from ptmcalc.spec.fields import problem
+from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """Keys of a block that do not go together: the key at fault, from the block on, why, and what to do.
+
+    The empty path stands for the block, which lacks a key.
+    """
+
+    path: KeyPath
+    reason: str
+    hint: str
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What the file writes in a block. A misspelt key counts as the one it means: that it is misspelt is said once."""
+
+    model: Model
+    raw: dict[str, Any]
+    _written: dict[str, Any] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        known = keys_of(self.model)
+        written = {key: value for key, value in self.raw.items() if value is not None}
+        for slip in [key for key in written if key not in known]:
+            written.setdefault(meant(slip, tuple(known)), written[slip])
+        object.__setattr__(self, "_written", written)
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._written
+
+    def number(self, key: str) -> float | None:
+        """The SI value of a number or its default; None where there is none, or only a faulty one."""
+        about = keys_of(self.model)[key]
+        measure = measure_of(about)
+        if key not in self or measure is None:
+            return about.default if isinstance(about.default, float) else None
+        try:
+            return measure.read(self._written[key])
+        except PydanticCustomError:
+            return None
+
+    def word(self, key: str) -> str | None:
+        """One of the words a key takes, or its default; None where there is none, or only an unknown one."""
+        about = keys_of(self.model)[key]
+        word = self._written.get(key, about.default)
+        return word if word in words_of(about.annotation) else None
+
+    def block(self, key: str) -> "Given | None":
+        """What the file writes in a block of this one, nothing where it leaves it out; None where it is no block."""
+        return _given(keys_of(self.model)[key].annotation, self._written.get(key, {}))
+
+    def blocks(self, key: str) -> "list[Given | None]":
+        """What the file writes in each block of a list, as `block` says it."""
+        about, raw = keys_of(self.model).get(key), self._written.get(key)
+        if about is None or not isinstance(raw, list):
+            return []
+        return [_given(inner(about.annotation, index, raw), item) for index, item in enumerate(raw)]
+
+    def missing(self, key: str, reason: str) -> Conflict:
+        """The conflict of a block that lacks a key."""
+        return Conflict((), reason, f"add `{key}: {example_of(keys_of(self.model)[key])}`")
+
+
+def _given(annotation: Any, raw: object) -> Given | None:
+    model = model_of(annotation, raw)
+    return Given(model, raw) if model and isinstance(raw, dict) else None
+
+
+def exactly_one(given: Given, *keys: str) -> Iterator[Conflict]:
+    """Of keys that say the same thing one is needed and one is enough."""
+    if not any(key in given for key in keys):
+        yield given.missing(keys[0], f"give {' or '.join(f'`{key}`' for key in keys)}")
+    yield from at_most_one(given, *keys)
+
+
+def at_most_one(given: Given, *keys: str) -> Iterator[Conflict]:
+    """Of keys that say the same thing one is enough."""
+    written = [key for key in keys if key in given]
+    for key in written[1:]:
+        yield Conflict((key,), f"give it or `{written[0]}`, not both: they say the same thing", f"delete `{key}`")
+
+
+def together(given: Given, key: str, other: str, reason: str) -> Iterator[Conflict]:
+    """A key that needs another."""
+    if key in given and other not in given:
+        yield given.missing(other, f"{reason}: `{other}` is missing")
+
+
+class Fragment(BaseModel):
+    """A part of a description: immutable, and nothing in it is read without being known."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """What does not go together in this block."""
+        yield from ()
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _with_conflicts(cls, raw: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """The faults of the keys and of what holds between them, all at once."""
+        conflicts = list(cls.conflicts(Given(cls, raw))) if isinstance(raw, dict) else []
+        faults = [
+            InitErrorDetails(type=problem("SPC113", one.reason, one.hint), loc=one.path, input=raw) for one in conflicts
+        ]
+        try:
+            read = handler(raw)
+        except ValidationError as error:
+            faults += [_again(fault) for fault in error.errors(include_url=False)]
+        if faults:
+            raise ValidationError.from_exception_data(cls.__name__, faults)
+        return read
+
+
+def _again(fault: ErrorDetails) -> InitErrorDetails:
+    """A fault in the form in which pydantic takes it back."""
+    context = fault.get("ctx", {})
+    kind = problem(**context) if fault["type"] == "ptmcalc" else fault["type"]
+    return InitErrorDetails(type=kind, loc=fault["loc"], input=fault["input"], ctx=context)

@@ -1,0 +1,146 @@
+"""What validation finds wrong, as diagnostics: each fault once, at its place, in the words of the file."""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.base.span import KeyPath, dotted
+from ptmcalc.base.words import quote
+from ptmcalc.spec.fields import describe, out_of_range, problem
+from ptmcalc.spec.shape import (
+    Model,
+    annotation_at,
+    did_you_mean,
+    example_like,
+    example_of,
+    inner,
+    keys_at,
+    meant,
+    model_of,
+    models_of,
+    value_at,
+)
+from ptmcalc.text.document import Document, Unread
+
+_LIMITS = {
+    "greater_than": "greater than {gt}",
+    "greater_than_equal": "at least {ge}",
+    "less_than": "less than {lt}",
+    "less_than_equal": "at most {le}",
+}
+_LENGTHS = {
+    "string_too_short": "at least {min_length} characters",
+    "string_too_long": "at most {max_length} characters",
+    "too_short": "at least {min_length} items",
+    "too_long": "at most {max_length} items",
+}
+_FORMS = {
+    "model_type": "a mapping",
+    "model_attributes_type": "a mapping",
+    "dict_type": "a mapping",
+    "tuple_type": "a list",
+    "list_type": "a list",
+    "string_type": "text",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_pattern_mismatch": "a word of letters, digits, `_`, `.` and `-`",
+}
+
+
+def problems_of(error: ValidationError, model: Model, document: Document) -> Iterator[Diagnostic]:
+    """One diagnostic per fault, without those that only follow from another one."""
+    faults = error.errors(include_url=False)
+    for fault in faults:
+        path = path_of(fault["loc"], model)
+        only_empty_now = fault["type"] == "too_short" and any(
+            other["loc"][: len(fault["loc"])] == fault["loc"] != other["loc"] for other in faults
+        )
+        if not only_empty_now and value_at(document.data, path) is not Unread.VALUE:
+            yield from _problem(fault, path, model, document)
+
+
+def path_of(location: tuple[int | str, ...], model: Model) -> KeyPath:
+    """A location of pydantic without the tags of unions, which are no keys of the file."""
+    path: KeyPath = ()
+    annotation: Any = model
+    for step in location:
+        if len(models_of(annotation)) > 1:
+            annotation = model_of(annotation, {"type": step})
+        else:
+            path, annotation = (*path, step), inner(annotation, step, None)
+    return path
+
+
+def _problem(fault: ErrorDetails, path: KeyPath, model: Model, document: Document) -> Iterator[Diagnostic]:
+    kind, given, context = fault["type"], fault["input"], fault.get("ctx", {})
+    if kind == "missing":
+        yield _missing(path, model, document)
+    elif kind == "union_tag_not_found":
+        yield _missing((*path, _discriminator(fault)), model, document)
+    elif kind == "extra_forbidden":
+        yield _unknown(path, model, document)
+    elif kind == "literal_error":
+        yield from _choice(path, given, context["expected"], document)
+    elif kind == "union_tag_invalid":
+        path = (*path, _discriminator(fault))
+        yield from _choice(path, value_at(document.data, path), context["expected_tags"], document)
+    elif kind == "ptmcalc":
+        yield _said(problem(**context), path, document)
+    elif kind in _LIMITS:
+        yield _said(out_of_range(given, _LIMITS[kind].format(**context)), path, document)
+    elif kind in _LENGTHS:
+        limit = _LENGTHS[kind].format(**context)
+        yield _said(problem("SPC110", f"it must have {limit}, not {len(given)}", f"write {limit}"), path, document)
+    else:
+        yield _wrong_form(path, given, _FORMS.get(kind, "another form"), model, document)
+
+
+def _discriminator(fault: ErrorDetails) -> str:
+    return str(fault["ctx"]["discriminator"]).strip("'")
+
+
+def _said(error: PydanticCustomError, path: KeyPath, document: Document) -> Diagnostic:
+    """A fault that knows its code, reason and hint. Keys that do not go together are blamed, else the value is."""
+    context = error.context or {}
+    span = document.key_span(path) if context["code"] == "SPC113" else document.value_span(path)
+    about = f"{quote(dotted(path))}: " if path else ""
+    return Diagnostic(context["code"], about + context["reason"], span, path, context["hint"])
+
+
+def _missing(path: KeyPath, model: Model, document: Document) -> Diagnostic:
+    """A missing key, or the misspelt one that it is missing for."""
+    parent, key = path[:-1], str(path[-1])
+    known, block = keys_at(model, parent, document.data), value_at(document.data, parent)
+    for slip in block if isinstance(block, dict) else ():
+        if slip not in known and meant(slip, tuple(known)) == key:
+            return _unknown((*parent, slip), model, document)
+    where = f" under {quote(dotted(parent))}" if parent else ""
+    hint = f"add `{key}: {example_of(known.get(key))}`"
+    return Diagnostic("SPC103", f"`{key}` is missing{where}", document.key_span(parent), path, hint)
+
+
+def _unknown(path: KeyPath, model: Model, document: Document) -> Diagnostic:
+    known = keys_at(model, path[:-1], document.data)
+    hint = did_you_mean(str(path[-1]), known, "keys here: ") if known else "delete it"
+    return Diagnostic("SPC104", f"unknown key {quote(dotted(path))}", document.key_span(path), path, hint)
+
+
+def _choice(path: KeyPath, given: object, expected: str, document: Document) -> Iterator[Diagnostic]:
+    if given is Unread.VALUE:
+        return
+    words = re.findall(r"'([^']*)'", expected)
+    reason = f"{quote(dotted(path))} is {describe(given)}, not one of {', '.join(f'`{word}`' for word in words)}"
+    hint = did_you_mean(given if isinstance(given, str) else "", words, "write one of ")
+    yield Diagnostic("SPC112", reason, document.value_span(path), path, hint)
+
+
+def _wrong_form(path: KeyPath, given: object, form: str, model: Model, document: Document) -> Diagnostic:
+    reason = f"{quote(dotted(path)) if path else 'the file'} takes {form}, found {describe(given)}"
+    field = keys_at(model, path[:-1], document.data).get(str(path[-1])) if path else None
+    example = example_of(field) if field else example_like(annotation_at(model, path, document.data), given)
+    key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
+    return Diagnostic("SPC111", reason, document.value_span(path), path, f"write `{key}{example}`")

@@ -1,0 +1,152 @@
+"""What the models of a description are made of: the keys of each, what stands behind a key, and an example of it."""
+
+import difflib
+import inspect
+from collections.abc import Iterable, Mapping
+from functools import cache, lru_cache
+from types import MappingProxyType, UnionType
+from typing import Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from ptmcalc.base.span import KeyPath
+from ptmcalc.spec.fields import Measure
+
+Model = type[BaseModel]
+
+
+@cache
+def keys_of(model: Model) -> Mapping[str, FieldInfo]:
+    """The fields of a model by their keys in the file."""
+    return MappingProxyType({field.alias or name: field for name, field in model.model_fields.items()})
+
+
+def keys_at(model: Model, path: KeyPath, data: object) -> Mapping[str, FieldInfo]:
+    """The fields, by their keys in the file, of the model that describes the mapping at `path`."""
+    annotation = annotation_at(model, path, data)
+    found = model_of(annotation, value_at(data, path))
+    return keys_of(found) if found else {}
+
+
+def annotation_at(model: Model, path: KeyPath, data: object) -> Any:
+    """What a model says of the value at `path`; `data` tells which of several models is meant on the way."""
+    annotation: Any = model
+    for index, step in enumerate(path):
+        annotation = inner(annotation, step, value_at(data, path[:index]))
+    return annotation
+
+
+def value_at(data: object, path: KeyPath) -> object:
+    """The value at `path` in plain data, None where there is none."""
+    for step in path:
+        if isinstance(data, dict):
+            data = data.get(step)
+        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+            data = data[step]
+        else:
+            return None
+    return data
+
+
+def inner(annotation: Any, step: str | int, node: object) -> Any:
+    """What stands behind a key or at an index of a value of which `annotation` speaks and `node` is the data."""
+    model = model_of(annotation, node)
+    if model is not None:
+        field = keys_of(model).get(str(step))
+        return field.annotation if field else _extra(model)
+    for option in _options(annotation):
+        if get_origin(option) in (tuple, list):
+            return get_args(option)[0]
+        if get_origin(option) is dict:
+            return get_args(option)[1]
+    return None
+
+
+def _extra(model: Model) -> Any:
+    """What stands behind the open keys of a model."""
+    for base in model.__mro__:
+        if found := inspect.get_annotations(base).get("__pydantic_extra__"):
+            return inner(found, "", None)
+    return None
+
+
+def models_of(annotation: Any) -> list[Model]:
+    """The models among the options of an annotation; more than one are told apart by their `type`."""
+    return [option for option in _options(annotation) if isinstance(option, type) and issubclass(option, BaseModel)]
+
+
+def model_of(annotation: Any, node: object) -> Model | None:
+    """The model among the options of an annotation; of several, the one whose `type` the data names."""
+    models = models_of(annotation)
+    named = node.get("type") if isinstance(node, dict) else None
+    return next((model for model in models if named in _types(model)), models[0] if models else None)
+
+
+def _types(model: Model) -> tuple[object, ...]:
+    field = model.model_fields.get("type")
+    return get_args(field.annotation) if field else ()
+
+
+def _options(annotation: Any) -> list[Any]:
+    """The members of a union, through Annotated."""
+    origin = get_origin(annotation)
+    if hasattr(annotation, "__metadata__"):
+        return _options(get_args(annotation)[0])
+    if origin in (Union, UnionType):
+        return [option for part in get_args(annotation) for option in _options(part)]
+    return [annotation]
+
+
+def measure_of(field: FieldInfo) -> Measure | None:
+    """Quantity and range of a field, or None when it is no number with a quantity."""
+    return next((part for part in (*field.metadata, *_metadata(field.annotation)) if isinstance(part, Measure)), None)
+
+
+def _metadata(annotation: Any) -> list[Any]:
+    found = list(getattr(annotation, "__metadata__", ()))
+    if get_origin(annotation) in (Union, UnionType):
+        found += [part for option in get_args(annotation) for part in _metadata(option)]
+    return found
+
+
+def words_of(annotation: Any) -> list[str]:
+    """The words of which one is to be written."""
+    return [value for option in _options(annotation) for value in get_args(option) if isinstance(value, str)]
+
+
+def example_of(field: FieldInfo | None) -> str:
+    """A value that can be copied behind a key."""
+    measure = measure_of(field) if field else None
+    return measure.quantity.example if measure else example_like(field.annotation if field else None)
+
+
+def example_like(annotation: Any, word: object = None) -> str:
+    """A value of the form an annotation asks for; `word` is what the file has instead, perhaps the `type` meant."""
+    if int in _options(annotation):
+        return "1"
+    if words := words_of(annotation):
+        return words[0]
+    models = models_of(annotation)
+    if not models:
+        return "..."
+    model = next((model for model in models if word in _types(model)), models[0])
+    told_apart = [f"type: {_types(model)[0]}"] if len(models) > 1 else []
+    entries = [(f"{key}: {example_of(field)}", field.is_required()) for key, field in keys_of(model).items()]
+    shown = told_apart + [entry for entry, needed in entries if needed] or [entry for entry, _ in entries[:1]]
+    return "{" + ", ".join(shown) + "}"
+
+
+@lru_cache(maxsize=1024)
+def meant(word: str, known: tuple[str, ...]) -> str:
+    """The known word that a misspelt one is likely to mean, or an empty text."""
+    folded = {name.lower(): name for name in known}
+    return next((folded[name] for name in difflib.get_close_matches(word.lower(), folded, 1, 0.55)), "")
+
+
+def did_you_mean(word: object, known: Iterable[str], otherwise: str = "") -> str:
+    """A hint for a word that is not known: the one that is meant, else `otherwise` with the list of them."""
+    choice = tuple(known)
+    if close := meant(str(word), choice):
+        return f"did you mean `{close}`?"
+    return f"{otherwise}{', '.join(choice)}"
