@@ -214,6 +214,11 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "The simulation met a state that its model treats only roughly; the numbers stand, with that remark.",
             "See the message.",
         ),
+        "NUM105": CodeText(
+            "an accuracy that is not reached",
+            "The file or the command asks for governing loads more accurate than the finest solver knows them.",
+            "Ask for less, or read the bars: verdicts already account for them.",
+        ),
     }
 )
 """Every code that is not a check of a machine. Codes are never reused."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import NOTHING, Estimate
+from ptmcalc.base.units import SHARE, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import Finding, Found, Result
@@ -94,7 +95,10 @@ def settle(
             settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check is only)
         following = _next(settled, waiting, _wanted(kind, spec, settled))
         settled.next_rung = following
-        if following is None or not until(following):
+        if following is None:
+            settled.findings += _unreached(kind, spec, settled) if only is None else ()
+            return settled
+        if not until(following):
             return settled
         if spent + following.seconds > budget:
             settled.findings.append(
@@ -170,15 +174,23 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled) -> set[str]:
             known = settled.loads.get(name)
             if ruling.verdict is Verdict.UNDECIDED or known is None or not _accurate(known.estimate, spec.accuracy):
                 wanted.add(name)
-    if spec.accuracy is not None:
-        wanted |= {
-            info.name
-            for info in kind.loads
-            if info.headline
-            and info.name in settled.loads
-            and not _accurate(settled.loads[info.name].estimate, spec.accuracy)
-        }
-    return wanted
+    return wanted.union(_inaccurate(kind, spec, settled))
+
+
+def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]:
+    """Governing loads whose bars are wider than the accuracy asked for."""
+    known = [info.name for info in kind.loads if info.headline and info.name in settled.loads]
+    return [name for name in known if not _accurate(settled.loads[name].estimate, spec.accuracy)]
+
+
+def _unreached(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[Finding]:
+    """What to say where nothing is left to run and a governing load is still not as accurate as asked."""
+    names = ", ".join(f"`{name}`" for name in _inaccurate(kind, spec, settled))
+    if not names or spec.accuracy is None:
+        return []
+    asked = show(spec.accuracy, SHARE)
+    label = settled.plan.scene.label
+    return [Finding("NUM105", f"scene `{label}`: nothing that is left to run brings {names} to {asked}", ("accuracy",))]
 
 
 def _accurate(estimate: Estimate, asked: float | None) -> bool:

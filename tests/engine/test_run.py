@@ -131,6 +131,13 @@ def test_accuracy_is_bought_where_it_is_asked_for(accuracy: str | None, levels: 
     assert len(log.runs) == levels
 
 
+@pytest.mark.parametrize(("accuracy", "said"), [("10 %", []), ("0.001 %", ["NUM105"])])
+def test_an_accuracy_that_is_not_reached_is_said(accuracy: str, said: list[str]) -> None:
+    found = report(kind_of(solver("only", Estimate.within(5 * KN, 0.1 * KN))), accuracy=accuracy)
+    assert codes(found) == said
+    assert judgement(found).verdict is Verdict.PASS
+
+
 @pytest.mark.parametrize(("headline", "runs"), [(True, 2), (False, 1)])
 def test_accuracy_is_of_the_headline_loads(headline: bool, runs: int) -> None:
     log = Log()
@@ -474,7 +481,7 @@ def test_a_breakdown_does_not_take_back_what_is_known() -> None:
         return pull(7, 9)
 
     found = report(kind_of(solver("fine", fragile, levels=2)), accuracy="1 %")
-    assert codes(found) == ["NUM101"]
+    assert codes(found) == ["NUM101", "NUM105"]
     assert load_of(found).estimate == pull(7, 9)
     assert judgement(found).verdict is Verdict.PASS
 
