@@ -151,11 +151,11 @@ POWER = _quantity("power", "W", "W", "kW", example="250 kW")
 STRESS = _quantity("stress", "Pa", "MPa", example="210 MPa")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_VALUE = re.compile(rf"\s*((?>{_NUMBER}))\s*((?:[^\W\d_]|[°%]|1(?![0-9])).*?|)\s*", re.DOTALL)
-_NOT_FINITE = re.compile(r"\s*[-+]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
-_COMMA = re.compile(r"\s*([-+]?[0-9]+),((?>[0-9]+))(?!\s?[0-9]|[.,'_][0-9])(.*)", re.DOTALL)
+_VALUE = re.compile(rf"((?>{_NUMBER}))\s*((?:[^\W\d_]|[°%]|1(?![0-9])).*|)", re.DOTALL)
+_NOT_FINITE = re.compile(r"[-+]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
+_COMMA = re.compile(r"([-+]?[0-9]+),((?>[0-9]+))(?!\s?[0-9]|[.,'_][0-9])(.*)", re.DOTALL)
 _GROUPS = re.compile(
-    r"\s*([-+]?[0-9]{1,3}(?:([\s'_.,])[0-9]{3})(?:\2[0-9]{3})*)(?:(?!\2)[.,]([0-9]+))?(?![0-9])(.*)", re.DOTALL
+    r"([-+]?[0-9]{1,3}([\s'_.,])[0-9]{3}(?:\2[0-9]{3})*)(?:(?!\2)[.,]([0-9]+))?(?![0-9])(.*)", re.DOTALL
 )
 _FACTOR = re.compile(r"([A-Za-z°%]+)(?:\^?([-+]?[0-9]))?|(1)(?:\^([-+]?[0-9]))?")
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "⁴": "^4", "·": "*", "×": "*", "−": "-"})
@@ -169,18 +169,24 @@ def unit_of(text: str) -> tuple[float, Dimension]:
     known = UNITS.get(text)
     if known:
         return known
-    plain = text.translate(_SUPERSCRIPT)
-    if " " in plain:
-        plain = re.sub(r" *([*/]) *", r"\1", plain)
+    plain = _plain(text)
     numerator, slash, denominator = plain.partition("/")
     if "/" in denominator:
         raise UnitError("unit", f"the unit {quote(text)} has more than one slash", "write it with one: `N*s/m`")
     factor, dimension = _product(text, numerator)
     if slash:
         below, of_below = _product(text, denominator)
-        factor /= below
+        factor = factor / below if below else math.inf
         dimension = _combine(dimension, of_below, -1)
     return factor, dimension
+
+
+def _plain(text: str) -> str:
+    """A unit in ASCII, without blanks round its signs."""
+    plain = text.translate(_SUPERSCRIPT)
+    for sign in "*/" if " " in plain else "":
+        plain = sign.join(part.strip() for part in plain.split(sign))
+    return plain
 
 
 def _product(text: str, factors: str) -> tuple[float, Dimension]:
@@ -189,7 +195,7 @@ def _product(text: str, factors: str) -> tuple[float, Dimension]:
         match = _FACTOR.fullmatch(part)
         known = UNITS.get(match[1] or match[3]) if match else None
         if match is None or known is None:
-            raise UnitError("unit", f"{quote(text)} is not a unit ptmcalc knows", _suggest(text, part))
+            raise UnitError("unit", f"{quote(text)} is not a unit ptmcalc knows", _suggest(_plain(text), part))
         power = int(match[2] or match[4] or 1)
         factor *= known[0] ** power
         dimension = _combine(dimension, known[1], power)
@@ -217,7 +223,7 @@ def _suggest(text: str, part: str) -> str:
 
 
 def _is_unit(text: str) -> bool:
-    factors = [_FACTOR.fullmatch(part) for part in re.split(r"[*/]", text.translate(_SUPERSCRIPT))]
+    factors = [_FACTOR.fullmatch(part) for part in re.split(r"[*/]", text)]
     return all(match and (match[1] or match[3]) in UNITS for match in factors)
 
 
@@ -227,12 +233,13 @@ def read(text: str, quantity: Quantity) -> float:
     Raises UnitError with a code: `comma` (decimal comma), `number` (no number in front), `bare` (unit missing),
     `unit` (unknown unit), `dimension` (unit of something else), `finite` (NaN or infinite).
     """
+    text = text.strip()
     match = _VALUE.fullmatch(text)
     if match is None:
         raise _not_a_number(text, quantity)
     number, unit = float(match[1]), match[2]
     if not math.isfinite(number):
-        raise not_finite(text.strip(), quantity)
+        raise not_finite(text, quantity)
     if not unit:
         if quantity.dimension == _PURE:
             return number
@@ -242,11 +249,11 @@ def read(text: str, quantity: Quantity) -> float:
         wanted = with_article(quantity.name)
         raise UnitError(
             "dimension",
-            f"{quote(text.strip())} is {with_article(_name_of(dimension))}, not {wanted}",
+            f"{quote(text)} is {with_article(_name_of(dimension))}, not {wanted}",
             f"write {wanted}, e.g. `{quantity.example}`",
         )
     if not math.isfinite(number * factor):
-        raise not_finite(text.strip(), quantity)
+        raise not_finite(text, quantity)
     return number * factor
 
 
@@ -263,16 +270,15 @@ def not_finite(text: str, quantity: Quantity) -> UnitError:
 
 
 def _not_a_number(text: str, quantity: Quantity) -> UnitError:
-    stripped = text.strip()
     if _NOT_FINITE.fullmatch(text):
-        return not_finite(stripped, quantity)
+        return not_finite(text, quantity)
     if plain := without_commas(text):
         if _COMMA.fullmatch(text):
-            return UnitError("comma", f"{quote(stripped)} has a decimal comma", f"write a decimal point: {plain}")
-        return UnitError("number", f"{quote(stripped)} groups its digits", f"write them together: {plain}")
+            return UnitError("comma", f"{quote(text)} has a decimal comma", f"write a decimal point: {plain}")
+        return UnitError("number", f"{quote(text)} groups its digits", f"write them together: {plain}")
     return UnitError(
         "number",
-        f"{quote(stripped)} is not {with_article(quantity.name)}",
+        f"{quote(text)} is not {with_article(quantity.name)}",
         f"write a number with a unit, e.g. `{quantity.example}`",
     )
 
@@ -283,9 +289,9 @@ def without_commas(text: str) -> str:
     One comma in front of three digits may be either: both readings are shown, a factor of 1000 is not guessed.
     """
     if match := _COMMA.fullmatch(text):
-        plain = quote(f"{match[1]}.{match[2]}{match[3]}".strip())
+        plain = quote(f"{match[1]}.{match[2]}{match[3]}")
         if len(match[2]) == 3 and match[1].lstrip("+-") in map(str, range(1, 1000)):
-            return f"{plain}, or {quote(f'{match[1]}{match[2]}{match[3]}'.strip())} if the comma groups digits"
+            return f"{plain}, or {quote(f'{match[1]}{match[2]}{match[3]}')} if the comma groups digits"
         return plain
     if match := _GROUPS.fullmatch(text):
         number = re.sub(r"[\s'_.,]", "", match[1]) + (f".{match[3]}" if match[3] else "")

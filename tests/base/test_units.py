@@ -6,6 +6,7 @@ a dimension there too and revolutions per minute and hertz differ in both.
 
 import math
 import re
+import time
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -363,6 +364,28 @@ def test_groups_and_commas_together_get_a_hint_that_can_be_copied(text: str, qua
     assert all(math.isfinite(read(fixed, quantity)) for fixed in shown)
 
 
+@pytest.mark.parametrize(
+    ("text", "quantity", "readings"),
+    [
+        ("30,000 N", FORCE, [30.0, 30_000.0]),
+        ("-1,200 m", SPAN, [-1.2, -1200.0]),
+        ("0,022", RATIO, [0.022]),
+        ("1200,125 m", SPAN, [1200.125]),
+    ],
+)
+def test_a_comma_before_three_digits_is_not_guessed_to_be_either(
+    text: str, quantity: Quantity, readings: list[float]
+) -> None:
+    error = error_of(text, quantity)
+    assert error.code == "comma"
+    assert [read(shown, quantity) for shown in copyable(error.hint)] == [pytest.approx(value) for value in readings]
+
+
+@pytest.mark.parametrize("text", ["1\u00a0200 mm", "1\u202f200 mm", "1\u2009200 mm"])
+def test_a_blank_that_does_not_break_groups_digits_too(text: str) -> None:
+    assert copyable(error_of(text, LENGTH).hint) == ["1200 mm"]
+
+
 @pytest.mark.parametrize("text", ["nan", ".nan", "NaN", "inf", "-inf", ".inf", "+.INF", "infinity", "1e400", "-1e400"])
 @pytest.mark.parametrize("unit", ["", " m"])
 def test_nan_and_infinity_are_refused(text: str, unit: str) -> None:
@@ -393,6 +416,8 @@ def test_what_is_no_number_is_refused(text: str) -> None:
         ("5 m m", LENGTH),  # a product in SI notation, not millimetres
         ("5 m s", TIME),
         ("12 k N", FORCE),
+        ("5 11", RATIO),
+        ("5 1x", RATIO),
     ],
 )
 def test_a_blank_inside_a_unit_is_not_guessed_away(text: str, quantity: Quantity) -> None:
@@ -433,6 +458,14 @@ def test_a_blank_inside_a_unit_is_not_guessed_away(text: str, quantity: Quantity
         ("fpm", SPEED, "m/s"),
         ("Mpa", STRESS, "MPa"),
         ("kN*sec/m", IMPEDANCE, "s"),
+        ("mN", FORCE, "N"),
+        ("mPa", STRESS, "Pa"),
+        ("mW", POWER, "W"),
+        ("lb/m", LINE_MASS, "kg/m"),
+        ("lb/ft", LINE_MASS, "kg/m"),
+        ("°C", ANGLE, "deg"),
+        ("k N", FORCE, "kN"),
+        ("kN s / m", IMPEDANCE, "kN*s/m"),
     ],
 )
 def test_a_foreign_unit_gets_the_one_to_write_instead(wrong: str, quantity: Quantity, right: str) -> None:
@@ -440,6 +473,15 @@ def test_a_foreign_unit_gets_the_one_to_write_instead(wrong: str, quantity: Quan
     assert error.code == "unit"
     assert wrong in error.reason
     assert copyable(error.hint)[0] == right
+
+
+def test_a_milli_unit_is_not_taken_for_a_mega_unit() -> None:
+    assert "MN" not in error_of("5 mN", FORCE).hint
+    assert "0.001 N" in error_of("5 mN", FORCE).hint
+
+
+def test_two_readings_of_a_blank_are_both_shown() -> None:
+    assert copyable(error_of("5 m m", LENGTH).hint) == ["m*m", "mm"]
 
 
 def test_a_ton_is_not_taken_for_a_tonne() -> None:
@@ -459,6 +501,8 @@ CONVERTED = {
     "in": ("inch", LENGTH),
     "lb": ("pound", MASS),
     "lbf": ("pound_force", FORCE),
+    "lb/m": ("pound/meter", LINE_MASS),
+    "lb/ft": ("pound/foot", LINE_MASS),
     "fpm": ("foot/minute", SPEED),
 }
 
@@ -482,6 +526,25 @@ def test_an_article_fits_its_noun(quantity: Quantity) -> None:
     if quantity.dimension != RATIO.dimension:
         texts.append(error_of("5", quantity).reason)
     assert not [text for text in texts if re.search(r"\ba [aeio]", text)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1 m" + " " * 500_000 + "x",
+        "1" + " " * 500_000 + "x",
+        " " * 500_000,
+        "9" * 500_000 + ",",
+        "1" + ",000" * 200_000 + "x",
+        "1 " + "m*" * 250_000,
+        "1 " + "q" * 500_000,
+        "1 m/" + "mm^9*" * 50 + "mm^9",  # below the slash a factor of 0
+    ],
+)
+def test_a_long_value_is_refused_at_once(text: str) -> None:
+    start = time.perf_counter()
+    assert len(error_of(text, SPAN).reason) < 200
+    assert time.perf_counter() - start < 1
 
 
 @settings(max_examples=300)

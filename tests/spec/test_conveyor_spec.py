@@ -322,6 +322,59 @@ def test_faults_of_the_text_and_an_unknown_kind_come_in_the_order_of_the_file() 
     assert [(d.code, place(d)[0]) for d in read(text).diagnostics] == [("SPC102", 1), ("TXT106", 6)]
 
 
+def test_every_sort_of_conflict_is_shown_beside_a_wrong_value_elsewhere() -> None:
+    """One fault hid all that held between keys, and between blocks."""
+    text = edited(
+        ("length: 240 m", "length: 60 m"),
+        ("lift: 18 m", "lift: 70 m"),
+        ("width: 1000 mm", "width: 1000"),
+        ("secondary: 1.4", "# none"),
+        ("mean_starting_torque: 900 N*m", "largest_starting_torque: 8 N*m\nsmallest_starting_torque: 9 N*m"),
+        ("shape: ramp", "shape: step"),
+    )
+    found = [(d.code, dotted(d.path)) for d in read(text).diagnostics]
+    assert found == [
+        ("SPC113", "route.lift"),
+        ("SPC106", "belt.width"),
+        ("SPC113", "resistance"),
+        ("SPC113", "drive.motor.smallest_starting_torque"),
+        ("SPC113", "scenes[0].profile.time"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("edits", "code"),
+    [
+        ((("modulus: 7000 N/mm", "modullus: 7000 N/mm"),), "SPC104"),  # neither stiffness nor modulus
+        ((("width: 1000 mm", "widht: 1000 mm"),), "SPC104"),  # a modulus without its width
+        ((("capacity: 900 t/h", "capacty: 900 t/h"),), "SPC104"),
+        ((("length: 240 m", "length: 60 m"), ("resistance:", "resistanse:")), "SPC104"),
+        ((("length: 240 m", "length: 60 m"), ("secondary: 1.4", "secondry: 1.4")), "SPC104"),
+        ((("shape: ramp", "shape: ramb"), ("time: 12 s", "# none")), "SPC112"),
+        ((("type: start", "tpye: start"),), "SPC104"),
+        ((("type: gravity", "tpye: gravity"),), "SPC104"),
+        ((("length: 240 m", "length: *x"),), "TXT110"),
+        ((("modulus: 7000 N/mm", "modulus: *x"),), "TXT110"),
+        ((("width: 1000 mm", "<<: *x"),), "TXT110"),
+        ((("type: start", "type: *x"),), "TXT110"),
+        ((("kind: conveyor", "kind: *x"),), "TXT110"),
+        ((("count: 1", "count: *x"),), "TXT110"),
+        ((("resistance:", "resistance: 5\ndescription:"), ("length: 240 m", "length: 60 m")), "SPC111"),
+    ],
+)
+def test_what_follows_from_a_fault_is_not_said_as_well(edits: tuple[tuple[str, str], ...], code: str) -> None:
+    found = [d for d in read(edited(*edits)).diagnostics if d.path[:1] != ("description",)]
+    assert [d.code for d in found] == [code]
+
+
+def test_scenes_of_one_name_are_found_beside_faults_in_them() -> None:
+    text = edited(("- name: soft", "- {type: run, name: soft}\n- name: soft"), ("time: 12 s", "time: 12 kg"))
+    assert [(d.code, dotted(d.path)) for d in read(text).diagnostics] == [
+        ("SPC113", "scenes[1]"),
+        ("SPC105", "scenes[1].profile.time"),
+    ]
+
+
 # --- words that are not known ----------------------------------------------------------------------------------------
 
 
@@ -491,6 +544,11 @@ def test_every_other_block_may_be_left_out() -> None:
         ("lift: 18 m", "lift: [18 m]", "SPC111"),
         ("lift: 18 m", "lift: {high: 18 m}", "SPC111"),
         ("takeup:", "takeup: gravity\nx:", "SPC111"),
+        ("lift: 18 m", "lift: 1e16 m", "SPC110"),
+        ("lift: 18 m", "lift: -1e13 km", "SPC110"),
+        ("lift: 18 m", "lift: 1e-10 mm", "SPC110"),
+        ("mass: 15 kg/m", "mass: 1e-13 kg/m", "SPC110"),
+        ("ratio: 24.8", "ratio: 1e300", "SPC110"),
         ("lift: 18 m", "lift: high", "SPC114"),
         ("lift: 18 m", "lift: 1 200 mm", "SPC114"),
         ("lift: 18 m", "lift: ''", "SPC114"),
@@ -524,6 +582,8 @@ def test_a_wrong_value_is_blamed_itself(old: str, new: str, code: str) -> None:
         ("drive__motor__count", 0, "SPC110"),
         ("drive__motor__count", 65, "SPC110"),
         ("drive__motor__count", 1.5, "SPC111"),
+        ("takeup", "gravity", "SPC111"),
+        ("resistance", 0.02, "SPC111"),
     ],
 )
 def test_a_value_of_the_wrong_form_or_size_gets_a_hint(key: str, value: Any, code: str) -> None:
@@ -567,6 +627,32 @@ def test_a_decimal_comma_in_a_flow_mapping_is_one_fault(line: str, value: str) -
     assert value in problem.hint
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "hint"),
+    [
+        ("scenes", ["start"], "write `{type: start}`"),
+        ("scenes", [5], "write `{type: run}`"),
+        ("resistance", 0.02, "write `resistance: {coefficient: 0.94}`"),
+        ("checks", {"slip": 1.2}, "write `slip: {reserve: 1.2}`"),
+        ("checks", {"CNV101": "off"}, "write `CNV101: {off: ...}`"),
+        ("drive__motor__count", 0, "write a value at least 1"),
+        ("drive__motor__count", 65, "write a value at most 64"),
+        ("name", "x" * 201, "write at most 200 characters"),
+        ("scenes", [], "write at least 1 item"),
+    ],
+)
+def test_a_hint_says_what_to_write(key: str, value: Any, hint: str) -> None:
+    (problem,) = problems_of(changed(template(), **{key: value}))
+    assert problem.hint == hint
+
+
+def test_a_long_value_does_not_bury_the_message() -> None:
+    for line in (f"lift: {'x' * 5000}", f"lift: {'9' * 290}", f"lift: 5 {'q' * 5000}", f"{'k' * 900}: 5"):
+        problem = problem_in(edited(("lift: 18 m", line)))
+        assert len(problem.message) < 250
+        assert len(problem.hint) < 250
+
+
 def fields(model: type[BaseModel]) -> Iterator[tuple[str, Measure]]:
     """Every number with a quantity in a model and the models inside it."""
     for name, field in model.model_fields.items():
@@ -603,6 +689,19 @@ def test_the_example_a_message_shows_is_in_range(name: str) -> None:
     assert measure.broken_by(measure.read(measure.quantity.example)) == ""
 
 
+@pytest.mark.parametrize("value", ["0 m", "1e-12 m", "-1e-12 m", "1e15 m", "-1e15 m"])
+def test_the_ends_of_what_any_machine_has_are_allowed(value: str) -> None:
+    assert MEASURES["Route.lift"].read(value) == float(value.removesuffix(" m"))
+
+
+@pytest.mark.parametrize("name", MEASURES)
+def test_no_number_is_beyond_what_any_machine_has(name: str) -> None:
+    measure = MEASURES[name]
+    assert measure.broken_by(1.001e15)
+    assert measure.broken_by(-1.001e15)
+    assert measure.broken_by(0.999e-12)
+
+
 @pytest.mark.parametrize("path", ["route.length", "drive.drum.friction", "checks.slip.reserve", "resistance.secondary"])
 def test_the_range_of_a_number_is_found_by_its_key(path: str) -> None:
     key = key_path(path)[-1]
@@ -612,7 +711,7 @@ def test_the_range_of_a_number_is_found_by_its_key(path: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "path", ["name", "route", "nowhere", "drive.drum.nowhere", "scenes[0].profile.time", "takeup.type"]
+    "path", ["", "name", "route", "nowhere", "drive.drum.nowhere", "scenes[0].profile.time", "takeup.type"]
 )
 def test_no_number_is_found_where_there_is_none(path: str) -> None:
     assert measure_at(spec_of(template()), key_path(path)) is None

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from ptmcalc.base.diagnostic import CODES, Diagnostic
 from ptmcalc.base.span import KeyPath, Span
-from ptmcalc.text.document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, parse, resolve
+from ptmcalc.text.document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, Unread, parse, resolve
 
 
 def read(text: str) -> Document:
@@ -400,6 +400,11 @@ def test_an_explicit_tag_is_refused_at_its_place(text: str, line: int, column: i
     assert places(text) == [("TXT107", line, column)]
 
 
+def test_long_words_of_the_file_are_cut_in_messages() -> None:
+    text = f"a: !{'t' * 5000} 1\nb: *{'x' * 5000}\n{'k' * 900}: 1\n{'k' * 900}: 2\n"
+    assert [len(problem.message) < 200 and len(problem.hint) < 200 for problem in read(text).problems] == [True] * 3
+
+
 def test_a_tag_is_named_in_the_message_and_constructs_nothing() -> None:
     document = read("a: !!python/object/apply:math.sqrt [4]\n")
     assert "math.sqrt" in document.problems[0].message
@@ -463,6 +468,40 @@ def test_the_byte_named_is_the_wrong_one_also_behind_a_byte_order_mark() -> None
 def test_a_control_character_is_refused_at_its_place(text: str, line: int, column: int) -> None:
     assert places(text) == [("TXT105", line, column)]
     assert f"U+{ord(text.splitlines()[line - 1][column - 1]):04X}" in problem_of(text).message
+
+
+@pytest.mark.parametrize(("char", "escape"), [("\x85", "\\x85"), ("\u2028", "\\u2028"), ("\u2029", "\\u2029")])
+@pytest.mark.parametrize("text", ["a: 1\nb: x{}\nc: [\n", "a: 1\nb: 'x{}'\nc: [\n", "a: 1\n# # {}\nc: [\n"])
+def test_a_line_break_that_no_editor_counts_is_refused(text: str, char: str, escape: str) -> None:
+    """YAML 1.1 breaks the line there, and every place below would be one line off."""
+    problem = problem_of(text.format(char))
+    assert (problem.code, problem.span) == ("TXT105", Span(2, text.splitlines()[1].index("{") + 1))
+    assert f"`{escape}`" in problem.hint
+    assert data_of(f'a: "x{escape}y"\n') == {"a": f"x{char}y"}
+
+
+def test_lines_end_as_the_parser_ends_them() -> None:
+    assert places("a: 1\rb: x\x01\r") == [("TXT105", 2, 5)]
+    assert places("a: 1\rb: [}\r") == [("TXT105", 2, 5)]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: 'open\n", "close the quote"),
+        ("a: [1, 2\nb: 3\n", "close the bracket"),
+        ("a: {b: 1\n", "close the bracket"),
+        ("a:\n  lift:18 m\n  b: 1\n", "space behind each colon"),
+        (json.dumps({"a": "\U0001f600"}), "ensure_ascii=False"),
+    ],
+)
+def test_a_syntax_error_comes_with_its_usual_cause(text: str, words: str) -> None:
+    assert words in problem_of(text).hint
+
+
+@pytest.mark.parametrize("text", ["a: [1\n\n", "a: [1\n# end\n", "a: {b: 1, c: [2]\n"])
+def test_a_bracket_that_is_never_closed_is_blamed_itself(text: str) -> None:
+    assert places(text) == [("TXT105", 1, 4)]
 
 
 @pytest.mark.parametrize(
@@ -614,6 +653,51 @@ def test_merging_what_pyyaml_merges_gives_the_same() -> None:
     assert data_of(text) == yaml.safe_load(text)
 
 
+def test_a_mapping_that_is_merged_keeps_its_own_keys_before_those_it_merges() -> None:
+    assert data_of("x: &x {k: 1}\ny: &y {<<: *x, k: 2}\nz: {<<: *y}\n")["z"] == {"k": 2}
+
+
+# --- values that could not be read: said once, and marked ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("text", ["a: {b: *x}\n", "a: {b: {<<: *x, c: 1}}\n", "a: {b: {<<: 5}}\n", "a: {b: 1,5 m}\n"])
+def test_a_value_that_could_not_be_read_is_marked(text: str) -> None:
+    document = read(text)
+    assert len(document.problems) == 1
+    assert document.data == {"a": {"b": Unread.VALUE}}
+    sound(document)
+
+
+def test_a_document_that_merges_nothing_is_said_once() -> None:
+    document = read("<<: *x\nk: 1\n")
+    assert [problem.code for problem in document.problems] == ["TXT110"]
+    assert document.data is None
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "fixed"),
+    [
+        ("a: {b: 18,5 m}\n", 8, "`18.5 m`"),
+        ("a: {b: 18,5}\n", 8, "`18.5`"),
+        ("a: {b:  -18,5 m, c: 1}\n", 9, "`-18.5 m`"),
+        ("a: {b: 1,200,000 N, c: 1}\n", 8, "`1200000 N`"),
+        ("a: {b: 30,000 N}\n", 8, "`30000 N`"),
+        ("a: {b: about 2,5 m}\n", 8, "quotes"),
+    ],
+)
+def test_a_comma_between_braces_that_cuts_a_value_is_said_at_the_value(text: str, column: int, fixed: str) -> None:
+    problem = problem_of(text)
+    assert (problem.code, problem.span, problem.path) == ("SPC107", Span(1, column), ("a", "b"))
+    assert fixed in problem.hint
+
+
+@pytest.mark.parametrize(
+    "text", ["{a: 1, 5: }", "{a: 1, 5: 2}", "{a: x,b}", "{a: '1',5}", "{a: 1,'5'}", "[1,5]", "{a: [1,5]}"]
+)
+def test_a_comma_between_two_values_is_none_in_a_number(text: str) -> None:
+    assert "SPC107" not in [problem.code for problem in read(text).problems]
+
+
 # --- budgets ---------------------------------------------------------------------------------------------------------
 
 
@@ -663,6 +747,11 @@ def test_a_bomb_of_merges_is_refused_at_once() -> None:
     seconds, codes = seconds_to_read(f"z: {inner}\n")
     assert set(codes) <= {"TXT108"}
     assert seconds < 2
+
+
+def test_merges_within_the_budget_are_allowed() -> None:
+    lines = ["a0: &a0 {x: 1}"] + [f"a{i}: &a{i} {{<<: *a{i - 1}, k{i}: {i}}}" for i in range(1, 60)]
+    assert len(data_of("\n".join(lines))["a59"]) == 60
 
 
 def test_a_long_chain_of_merges_is_no_recursion_without_end() -> None:
