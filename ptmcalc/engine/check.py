@@ -64,12 +64,13 @@ def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...
 
 
 def design_files(folder: Path) -> list[Path]:
-    """All design files in a folder and below it, sorted; hidden folders are left out."""
+    """All design files in a folder and below it, sorted; hidden folders are left out. A link that leads nowhere is
+    among them: it is reported as unreadable, not passed over."""
     return sorted(
         file
         for file in folder.rglob("*")
-        if file.suffix in SUFFIXES
-        and file.is_file()
+        if file.suffix.lower() in SUFFIXES
+        and (file.is_file() or (file.is_symlink() and not file.exists()))
         and not any(part.startswith(".") for part in file.relative_to(folder).parts)
     )
 

@@ -327,9 +327,11 @@ class _Delays:
                 tension = static[j] + (p[(j + 1) // 2 :][:length] + n[cells - j // 2 :][:length]) / 2
                 if not middle:
                     tension[-1] = at_end(tension, self.last_share)
+                if not len(tension):  # a window of less than half a step never comes to the middle of a cell
+                    return -math.inf, 0
                 top, bottom = int(tension.argmax()), int(tension.argmin())
                 seen[j] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
-                self.cell_updates += length
+                self.cell_updates += len(tension)
             return seen[j][side]
 
         found = []

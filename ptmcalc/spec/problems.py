@@ -33,10 +33,10 @@ _LIMITS = {
     "less_than_equal": "at most {le}",
 }
 _LENGTHS = {
-    "string_too_short": ("at least {min_length} character", "min_length"),
-    "string_too_long": ("at most {max_length} character", "max_length"),
-    "too_short": ("at least {min_length} item", "min_length"),
-    "too_long": ("at most {max_length} item", "max_length"),
+    "string_too_short": ("at least", "min_length", "character"),
+    "string_too_long": ("at most", "max_length", "character"),
+    "too_short": ("at least", "min_length", "item"),
+    "too_long": ("at most", "max_length", "item"),
 }
 _FORMS = {
     "model_type": "a mapping",
@@ -93,8 +93,8 @@ def _problem(fault: ErrorDetails, path: KeyPath, model: Model, document: Documen
     elif kind in _LIMITS:
         yield _said(out_of_range(given, _LIMITS[kind].format(**context)), path, document)
     elif kind in _LENGTHS:
-        words, bound = _LENGTHS[kind]
-        limit = words.format(**context) + "s" * (context[bound] != 1)
+        side, bound, unit = _LENGTHS[kind]
+        limit = f"{side} {context[bound]} {unit}{'s' * (context[bound] != 1)}"
         yield _said(problem("SPC110", f"it must have {limit}, not {len(given)}", f"write {limit}"), path, document)
     else:
         yield _wrong_form(path, given, _FORMS.get(kind, "another form"), model, document)

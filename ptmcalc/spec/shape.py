@@ -137,16 +137,16 @@ def example_like(annotation: Any, word: object = None) -> str:
     return "{" + ", ".join(shown) + "}"
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=1 << 15)  # every key of a file of the largest size
 def meant(word: str, known: tuple[str, ...]) -> str:
     """The known word that a misspelt one is likely to mean, or an empty text."""
     folded = {name.lower(): name for name in known}
     return next((folded[name] for name in difflib.get_close_matches(word.lower(), folded, 1, 0.55)), "")
 
 
-def did_you_mean(word: object, known: Iterable[str], otherwise: str = "") -> str:
+def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     """A hint for a word that is not known: the one that is meant, else `otherwise` with the list of them."""
     choice = tuple(known)
-    if close := meant(str(word), choice):
+    if close := meant(word, choice):
         return f"did you mean `{close}`?"
     return f"{otherwise}{', '.join(choice)}"

@@ -5,13 +5,15 @@ The table says what a person sees: the line, and the words in it that are wrong.
 
 import json
 import math
+import subprocess
+import sys
 import warnings
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
-from support.command import ROOT, Done, ptmcalc, python
+from support.command import ROOT, Done, environment, ptmcalc, python
 from support.machines import template
 
 from ptmcalc.base.diagnostic import CODES
@@ -293,6 +295,63 @@ def test_a_key_of_the_file_cannot_steer_the_terminal(key: str, form: Format) -> 
         assert len(printed.splitlines()) == 2
 
 
+@pytest.mark.parametrize("form", [Format.PLAIN, Format.TABLE])
+def test_no_text_of_the_file_or_of_its_path_can_steer_the_terminal(form: Format) -> None:
+    hostile = "\x1b[2J\n\u202eevil"
+    machine = template() | {"name": hostile, "scenes": [{"type": "run"}], "checks": {"CNV103": {"off": hostile}}}
+    printed = render(form, [check(load_text(json.dumps(machine).encode(), f"{hostile}.yaml"), Options())])
+    assert not [char for char in printed if not char.isprintable() and char != "\n"]
+    assert "\\x1b[2J\\n\\u202eevil" in printed
+
+
+def test_json_keeps_the_text_of_the_file() -> None:
+    hostile = "\x1b[2J\n\u202eevil"
+    loaded = load_text(json.dumps(template() | {"name": hostile, hostile: 1}).encode(), "hostile.yaml")
+    (file,) = json.loads(render(Format.JSON, [check(loaded, Options())]))["files"]
+    assert (file["name"], file["diagnostics"][0]["path"]) == (hostile, [hostile])
+
+
+@pytest.mark.parametrize("form", ["table", "plain", "json"])
+@pytest.mark.parametrize("encoding", ["cp1252", "cp437", "utf-16"])
+def test_what_a_stream_cannot_encode_is_no_bug_of_ours(form: str, encoding: str, tmp_path: Path) -> None:
+    machine = template() | {"name": "Förderband 重 😀", "scenes": [{"type": "run"}], "x😀": 1}
+    file = tmp_path / "name.yaml"
+    file.write_text(json.dumps(machine, ensure_ascii=False), "utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "ptmcalc", "check", file, "--format", form],
+        env=environment(ROOT, PYTHONIOENCODING=encoding),
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (2, b"")
+    assert "SPC104" in done.stdout.decode(encoding)
+
+
+def test_a_pipe_gets_utf8_where_nobody_chose_an_encoding(tmp_path: Path) -> None:
+    file = tmp_path / "size.yaml"
+    file.write_text("kind: größe\n", "utf-8")
+    plain = environment(ROOT, LC_ALL="C", PYTHONUTF8="0", PYTHONCOERCECLOCALE="0")
+    done = python("-m", "ptmcalc", "check", file, env={k: v for k, v in plain.items() if k != "PYTHONIOENCODING"})
+    assert done.status == 2
+    assert "`größe`" in done.out
+
+
+def test_a_key_to_vary_that_is_empty_is_wrong_usage(tmp_path: Path) -> None:
+    file = written(tmp_path / "conveyor.yaml", template())
+    done = ptmcalc("solve", file, "--check", "CNV101", "--vary", "")
+    assert (done.status, done.out) == (2, "")
+    assert "internal error" not in done.err
+
+
+def test_a_file_without_end_is_not_read_to_its_end() -> None:
+    endless = Path("/dev/zero")
+    if not endless.is_char_device():
+        pytest.skip("a system without /dev/zero")
+    done = ptmcalc("check", endless, "--format", "plain")
+    assert done.status == 2
+    assert "TXT108" in done.out
+
+
 ABSURD = [
     ("route", "length", "1e300 m"),
     ("belt", "mass", "1e300 kg/m"),
@@ -309,6 +368,20 @@ ABSURD = [
     ("resistance", "coefficient", 1e300),
     ("", "speed", "1e300 m/s"),
     ("", "speed", "1e-300 m/s"),
+    # large and small beyond all machines, but allowed
+    ("route", "length", "1e15 m"),
+    ("belt", "mass", "1e14 kg/m"),
+    ("belt", "mass", "1e-12 kg/m"),
+    ("load", "capacity", "1e12 kg/s"),
+    ("takeup", "tension", "1e-12 N"),
+    ("takeup", "tension", "1e15 N"),
+    ("drive.gear", "ratio", 1e15),
+    ("drive.gear", "ratio", 1e-12),
+    ("drive.drum", "diameter", "1e15 m"),
+    ("drive.drum", "wrap", "1e15 rad"),
+    ("drive.motor", "inertia", "1e15 kg*m^2"),
+    ("resistance", "coefficient", 1e15),
+    ("", "speed", "1e15 m/s"),
 ]
 
 
@@ -328,3 +401,12 @@ def test_a_number_a_float_holds_but_no_machine_has_is_no_bug_of_ours(
     for file in json.loads(done.out)["files"]:
         for scene in file["scenes"]:
             assert all(load["value"] is None or math.isfinite(load["value"]) for load in scene["loads"])
+
+
+def test_a_folder_takes_upper_case_endings_and_names_links_that_lead_nowhere(tmp_path: Path) -> None:
+    (tmp_path / "C.YAML").write_text("kind: conveyor\n", encoding="utf-8")
+    (tmp_path / "gone.yaml").symlink_to(tmp_path / "nowhere")
+    done = ptmcalc("check", tmp_path)
+    assert done.status == 2
+    assert "C.YAML:1:1: error SPC103" in done.out
+    assert "gone.yaml: error TXT101" in done.out

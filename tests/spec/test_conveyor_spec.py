@@ -158,6 +158,11 @@ MISSING: dict[str, tuple[str, tuple[tuple[str, str], ...], str]] = {
         (("width: 1000 mm", "strength: 800 N/mm"), ("modulus: 7000 N/mm", "stiffness: 7 MN")),
         "belt:",
     ),
+    "two values per width without it": (
+        "belt",
+        (("width: 1000 mm", "strength: 800 N/mm"),),
+        "belt:",
+    ),
     "neither mass nor capacity": ("load", (("load:", "load: {}"), ("capacity: 900 t/h", "# none")), "load: {}"),
     "neither set mass nor line mass": ("idlers.carry", (("set_mass: 22 kg", "# none"),), "carry:"),
     "set mass without pitch": ("idlers.carry", (("pitch: 1.2 m", "# none"),), "carry:"),

@@ -130,7 +130,7 @@ def tail_mass_criterion(spec: Conveyor, scene: Start) -> Criterion:
     **Source** the threshold of 1 % is an engineering choice.
     """
     masses = start_case(spec, scene).masses
-    value = masses.tail_mass / (masses.belt_mass - masses.tail_mass)
+    value = masses.tail_mass / (masses.return_mass + masses.carry_mass)
     return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail drum over belt and load", "Newton's law")
 
 

@@ -78,8 +78,9 @@ class Belt(Fragment):
         """Stiffness and strength are of the whole belt, or per width with the width."""
         yield from exactly_one(given, "stiffness", "modulus")
         yield from at_most_one(given, "breaking_force", "strength")
-        for key in ("modulus", "strength"):
-            yield from together(given, key, "width", f"`{key}` is per width")
+        per_width = " and ".join(f"`{key}`" for key in ("modulus", "strength") if key in given)
+        if per_width and "width" not in given:
+            yield given.missing("width", f"{per_width} per width: `width` is missing")
 
 
 class IdlerRow(Fragment):
