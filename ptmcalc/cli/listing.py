@@ -162,7 +162,8 @@ def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
     return (
         f"{effect.name}: {effect.title}   ({kind.name}){inside}\n\n"
         f"When it matters\n{textwrap.indent(_doc(effect.criterion), '    ')}\n\n"
-        f"What leaving it out can change\n{textwrap.indent(_doc(effect.bound), '    ')}"
+        f"What leaving it out can change{' (calibrated)' * effect.calibrated}\n"
+        f"{textwrap.indent(_doc(effect.bound), '    ')}"
     )
 
 

@@ -50,6 +50,7 @@ class Effect(Generic[S, C]):
     `bound` is the most that leaving it out can have changed each load of a run that found `loads`: an offset to
     the value, nothing for a load it does not name. It sees the run's own bars and those of the effects before it.
     `part_of` names the effect it lives inside: a run without that one needs only that one's bound.
+    `calibrated` says that the bound rests on a seeded sample, not on a derivation alone.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Effect(Generic[S, C]):
     criterion: Callable[[S, C], Criterion | None]
     bound: Callable[[S, C, Mapping[str, Estimate]], Mapping[str, Interval]]
     part_of: str = ""
+    calibrated: bool = False
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether a scene of this type can call for the effect at all."""

@@ -180,7 +180,7 @@ class _Assembly:
                 state=self._state(planned),
                 forced=planned.forced,
                 criterion=planned.criterion,
-                note=_note(planned),
+                note=self._note(planned),
                 change=self._change(name) if name in near else None,
             )
 
@@ -188,6 +188,18 @@ class _Assembly:
         if planned.effect.name in self.settled.carried:
             return EffectState.SIMULATED
         return EffectState.BOUNDED if planned.active else EffectState.SKIPPED
+
+    def _note(self, planned: PlannedEffect) -> str:
+        """What the number does not say: who decided, what is missing, what the bound of an effect left out rests on."""
+        if planned.forced_off:
+            return "forced off by the file"
+        if planned.criterion is None:
+            return "an input it needs is not given: loads are those without it"
+        notes = ["forced on by the file"] if planned.forced else []
+        rests = planned.effect.calibrated and planned.effect.part_of in self.settled.carried
+        if rests and planned.effect.name not in self.settled.carried:
+            notes.append("its bound is calibrated")
+        return "; ".join(notes)
 
     def _change(self, name: str) -> Change | None:
         """The load of a check that leaving the effect out changes most."""
@@ -303,14 +315,6 @@ def _solver(run: Run, decides: bool, following: NextSolver | None) -> SolverRepo
         decides=decides,
         next=following,
     )
-
-
-def _note(planned: PlannedEffect) -> str:
-    if planned.forced_off:
-        return "forced off by the file"
-    if planned.criterion is None:
-        return "an input it needs is not given: loads are those without it"
-    return "forced on by the file" if planned.forced else ""
 
 
 def _span(document: Document, path: tuple[str | int, ...]) -> Span:

@@ -184,7 +184,7 @@ def _effects(console: Console, scenes: Iterable[SceneReport]) -> None:
             effect.name,
             f"{effect.state.value}{' (forced)' if effect.forced else ''}",
             words.compared(number) if number else "",
-            number.meaning if number else effect.note,
+            "; ".join(filter(None, (number.meaning if number else "", effect.note))),
             _change(effect),
         )
     console.print(table)

@@ -312,6 +312,13 @@ def test_a_verdict_says_without_only_of_what_the_file_forced_off() -> None:
     assert "an input it needs is not given" in effect_of(found, "sag").note
 
 
+@pytest.mark.parametrize(("carries", "note"), [(("waves",), "its bound is calibrated"), (("waves", "echo"), "")])
+def test_a_bar_that_rests_on_a_calibrated_bound_says_so(carries: tuple[str, ...], note: str) -> None:
+    effects = [effect("waves"), replace(effect("echo", bound=NARROW, part_of="waves"), calibrated=True)]
+    found = report(kind_of(solver("rich", pull(9), carries=carries), effects=effects))
+    assert effect_of(found, "echo").note == note
+
+
 def test_what_is_not_checked_says_without_nothing() -> None:
     kind = kind_of(solver("rigid", pull(9)), effects=[effect("waves")])
     assert judgement(report(kind, effects={"waves": "off"}, strength=None)).without == ()

@@ -99,7 +99,7 @@ def test_the_ledger_shows_every_effect_with_the_number_that_decided() -> None:
     assert ledger["sag"] == ["simulated", "x = 0.15 ≥ 0.1", "a number", "pull -2.2 %"]
     assert ledger["wind"] == ["skipped", "x = 0.01 < 0.1", "a number"]
     assert ledger["frost"] == ["bounded", "x = 5 ≥ 0.1", "a number"]
-    assert ledger["rain"] == ["skipped (forced)", "x = 5 ≥ 0.1", "a number"]
+    assert ledger["rain"] == ["skipped (forced)", "x = 5 ≥ 0.1", "a number; forced off by the file"]
     assert ledger["fog"][0] == "skipped"
     assert "an input it needs is not given" in " ".join(ledger["fog"])
 

@@ -240,7 +240,15 @@ _START = frozenset({Start})
 
 EFFECTS = (
     Effect("belt_wave", "belt elasticity: waves", _START, wave_criterion, wave_bound),
-    Effect("tail_jump", "impedance jump at the tail", _START, jump_criterion, jump_bound, part_of="belt_wave"),
+    Effect(
+        "tail_jump",
+        "impedance jump at the tail",
+        _START,
+        jump_criterion,
+        jump_bound,
+        part_of="belt_wave",
+        calibrated=True,
+    ),
     Effect(
         "tail_mass",
         "mass of the tail drum",
@@ -248,7 +256,16 @@ EFFECTS = (
         tail_mass_criterion,
         tail_mass_bound,
         part_of="belt_wave",
+        calibrated=True,
     ),
-    Effect("sag", "sag of the belt between idlers", _START, sag_criterion, sag_bound, part_of="belt_wave"),
+    Effect(
+        "sag",
+        "sag of the belt between idlers",
+        _START,
+        sag_criterion,
+        sag_bound,
+        part_of="belt_wave",
+        calibrated=True,
+    ),
     Effect("slip", "slip at the drive drum", _START, slip_criterion, slip_bound),
 )
