@@ -18,7 +18,28 @@ import pytest
 from numpy.typing import ArrayLike
 
 import ptmcalc.laws
-from ptmcalc.laws import capstan, inertia, loop_bounds, motor, resistance, sag, start_profile, wave
+from ptmcalc.laws import (
+    backlash,
+    bodies,
+    brake,
+    buffer,
+    capstan,
+    coulomb,
+    duty,
+    gearing,
+    inertia,
+    loop_bounds,
+    motor,
+    resistance,
+    response,
+    sag,
+    shock,
+    similarity,
+    start_profile,
+    two_mass,
+    vibration,
+    wave,
+)
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 
 SEEDS = range(5)
@@ -34,6 +55,8 @@ BASE: dict[str, Dimension] = {
     "s": (0, 0, 1),
     "Hz": (0, 0, -1),
     "N": (1, 1, -2),
+    "J": (1, 2, -2),
+    "W": (1, 2, -3),
 }
 
 
@@ -79,6 +102,12 @@ FIXED_LOOP = LoopMasses(3e3, 9e3, 400.0, 5e3, 1e-5, 3e-5, fixed_length=True, imp
 GRAVITY_LOOP = replace(FIXED_LOOP, fixed_length=False)
 LOOPS = [replace(loop, imposed_speed=speed) for loop in (FIXED_LOOP, GRAVITY_LOOP) for speed in (False, True)]
 SECTIONS = [(loop, strand, 0.3) for loop in LOOPS for strand in (RETURN, CARRY)]
+RISES = ("linear", "exponential")
+DAMPINGS = (0.0, 0.02, 1.0, 1.7)
+FLOWS = ("drive", "brake", "energy")
+READINGS = ("tip_stopped", "whole")
+HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
+MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     capstan.slip_utilisation: [(9e3, 3e3, 400.0, 1.3), (9e3, 300.0, 400.0, 1.3)],
@@ -86,6 +115,103 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     capstan.slip_reserve_ratio: [(0.7, 1.3), (0.1, 1.3)],
     capstan.slip_ratio: [(1.4, 1.3), (0.0, 1.3)],
     inertia.reduced_drive_mass: [(3.0, 20.0, 0.94, 60.0, 0.4)],
+    inertia.inertia_on_motor_shaft: [(90.0, 20.0, 0.9, flow) for flow in FLOWS],
+    inertia.inertia_on_slow_shaft: [(0.9, 20.0, 0.9, flow) for flow in FLOWS],
+    inertia.mass_on_motor_shaft: [(8e3, 0.2, 2.0, 40.0, 0.9, "drive")],
+    inertia.slewing_inertia: [(5e4, 8.0, 8e4, 2.5, 6e4, 3.0, 9.81)],
+    inertia.rotating_parts_coefficient: [
+        (0.4, np.array([1.5, 20.0]), np.array([4.0, 5.0]), np.array([0.97, 0.96]), flow) for flow in FLOWS
+    ],
+    backlash.new_clearance: [(0.25, 2), (0.25, 3), (0.25, 4)],
+    backlash.wear_share: [(0.002, 0.008)],
+    backlash.worn_clearance: [(4e-4, 0.2, 0.008, False), (4e-4, 0.2, 0.008, True)],
+    backlash.clearance_angle: [(4e-4, 0.14, 0.35)],
+    backlash.clearance_on_motor_shaft: [(np.array([0.002, 0.003]), np.array([1.0, 4.0]))],
+    backlash.gap_closing: [(120.0, 0.02, 1.0, np.inf), (120.0, 0.02, 1.0, 1.0)],
+    backlash.backlash_number: [(120.0, 0.02, 5e3, 1.0, 7.0)],
+    backlash.backlash_peak_ratio: [(0.7,)],
+    backlash.backlash_peak_torque: [(120.0, 0.02, 5e3, 1.0, 7.0, *more) for more in ((40.0, np.inf), (900.0, 1.0))],
+    backlash.impact_loss: [(1.0, 7.0, 9.0, 0.4)],
+    bodies.solid_cylinder: [(120.0, 0.5)],
+    bodies.hollow_cylinder: [(120.0, 0.5, 0.3)],
+    bodies.thin_ring: [(120.0, 0.5)],
+    bodies.point_mass: [(120.0, 3.0)],
+    bodies.parallel_axis: [(9.0, 120.0, 3.0)],
+    bodies.rings: [(7850.0, np.array([0.25, 0.2]), np.array([0.2, 0.05]), np.array([0.06, 0.01]))],
+    bodies.drum: [(7850.0, 0.52, 0.48, 1.2, 0.02, 0.1)],
+    bodies.estimated_body: [(120.0, 0.26, 0.7)],
+    bodies.rod_about_end: [(60.0, 3.0)],
+    bodies.rod_about_centre: [(60.0, 3.0)],
+    bodies.rod_radial: [(60.0, 3.0, 0.5)],
+    bodies.rod_parallel: [(60.0, 0.5, 0.1)],
+    bodies.rod_inclined: [(60.0, 3.0, 0.6)],
+    bodies.inertia_of_gd2: [(15.0, "gyration"), (15.0, "outer_diameter")],
+    brake.braking_torque: [(t, 700.0, 0.15, r, shape) for t in (0.1, 0.3, 0.9) for r in (0.0, 0.3) for shape in RISES],
+    brake.brake_stop: [
+        (3.2, w, 700.0, other, 0.15, r, shape)
+        for w in (0.5, 104.0) for other in (-3e3, -300.0, 0.0, 250.0, 900.0) for r in (0.0, 0.3) for shape in RISES
+    ],
+    brake.brake_torque_for_time: [(3.2, 104.0, t, 250.0, 0.15, 0.3, shape) for t in (0.1, 0.3, 0.9) for shape in RISES],
+    brake.uniform_stop_time: [(0.26, 0.16)],
+    brake.brake_reserve: [(700.0, 400.0), (700.0, 0.0)],
+    brake.stop_heat: [(3.2, 104.0, 250.0, 40.0)],
+    buffer.collision_force: [(5e3, 2e3, 6e5, 0.8, w, reading) for w in (4e3, -9e3) for reading in READINGS],
+    buffer.collision_force_bound: [(5e3, 2e3, 6e5, 0.8, 4e3)],
+    buffer.series_stiffness: [(6e5, 3e5)],
+    buffer.linear_buffer: [(5e3, 6e5, 0.8)],
+    buffer.constant_force_buffer: [(5e3, 0.15, 0.8)],
+    buffer.driven_buffer: [(4e3, 5e3, 6e5, 0.8), (-4e3, 5e3, 6e5, 0.8)],
+    buffer.orifice_buffer_speed: [(0.2, 5e3, 9e3, 0.8)],
+    buffer.orifice_buffer_force: [(0.2, 5e3, 9e3, 0.8)],
+    buffer.orifice_buffer_path: [(0.7, 5e3, 9e3, 0.8)],
+    buffer.buffer_factor: [(0.3,), (0.8,)],
+    coulomb.coulomb_slide: [
+        (100.0, 50.0, p, v, t) for p in (-20.0, 120.0) for v in (-1.0, 0.0, 1.0) for t in (0.7, 9.0)
+    ],
+    coulomb.coulomb_decay: [(0.0177, 20.0, 31.0, 1e4, 4.0), (-0.3, 20.0, 20.0, 1e4, 4.0)],
+    gearing.reverse_efficiency: [(0.85,), (0.4,)],
+    gearing.input_torque: [(900.0, w, 40.0, 0.85, 0.8) for w in (-2.0, 0.0, 2.0)],
+    gearing.motor_torque: [(a, w, *HOIST, 0.85, 0.8) for a in (-60.0, 60.0) for w in (-1.0, 1.0)],
+    gearing.motor_torque_seed_rule: [(a, w, *HOIST, 0.85, 0.8) for a in (-60.0, 60.0) for w in (-1.0, 1.0)],
+    gearing.motor_acceleration: [
+        (m, w, *HOIST, eta, 2 - 1 / eta) for m in (-900.0, 900.0) for w in (-1.0, 1.0) for eta in (0.4, 0.85)
+    ],
+    gearing.jams: [(0.9, 4e3, 40.0, -0.5), (0.9, 400.0, 40.0, 0.8)],
+    response.free_response: [(5.0, zeta, 0.02, -0.3, 1.7) for zeta in DAMPINGS],
+    response.free_speed: [(5.0, zeta, 0.02, -0.3, 1.7) for zeta in DAMPINGS],
+    response.decay_envelope: [(5.0, 0.02, 0.3, 1.7)],
+    response.sine_response: [(5.0, w, 3.0, t) for w in (0.2, 5.0, 5.001, 9.0) for t in (0.02, 1.7)],
+    response.decay_response: [(5.0, zeta, 3.0, 2.0, 1.7) for zeta in DAMPINGS],
+    response.pulse_response: [(5.0, zeta, 3.0, 96.0, 2.0, t) for zeta in DAMPINGS for t in (1e-3, 1.7)],
+    shock.step_factor: [(0.04,), (1.5,)],
+    shock.ramp_factor: [(0.7,)],
+    shock.rectangular_pulse_factor: [(0.2,), (0.8,)],
+    shock.half_sine_pulse_factor: [(0.2,), (0.8,), (3.3,)],
+    shock.impulse_displacement: [(0.7, 2e4, 50.0)],
+    shock.impact_force_unloaded: [(500.0, 2e4, 50.0, 0.8)],
+    shock.impact_force_preloaded: [(500.0, 2e4, 50.0, 0.8)],
+    similarity.scales: MODELS,
+    similarity.distortions: MODELS,
+    similarity.section_scales: [(0.1, 1.0, 0.02, 2e-4, 1e-3, 0.01, 2e-3)],
+    similarity.self_weight_strain: [(7850.0, 9.81, 20.0, 2.1e11, 1.0)],
+    two_mass.two_mass_frequency: [(1.2e6, 18e3, 5e3)],
+    two_mass.takeup: [(18e3, 5e3, 1.2e6, p, 5e4, 0.25) for p in (2e4, 5e4, 8e4)] + [(18e3, 5e3, 1.2e6, 2e4, 5e4, 0.01)],
+    two_mass.hanging_start_force: [(8e4, 5e4, 18e3, 5e3)],
+    two_mass.speed_step_force: [(0.25, 1.2e6, 5e3, 5e4)],
+    two_mass.lowering_brake_force: [(8e4, 5e4, 0.18, 18e3, 5e3, 1.2e6)],
+    two_mass.hoisting_stop_force: [(0.25, 8e4, 5e4, 18e3, 5e3, 1.2e6), (9.0, 8e4, 5e4, 18e3, 5e3, 1.2e6)],
+    vibration.natural_frequency: [(8e5, 2e3)],
+    vibration.damping_ratio: [(3e3, 8e5, 2e3)],
+    vibration.damping_ratio_of_decrement: [(0.25,)],
+    vibration.decrement_of_damping_ratio: [(0.04,), (1.5,)],
+    vibration.damping_of_decrement: [(0.25, 2e3, 0.31)],
+    vibration.damped_frequency: [(20.0, 0.04), (20.0, 1.5)],
+    vibration.amplification: [(0.8, 0.04), (1.3, 0.0)],
+    vibration.phase_lag: [(0.8, 0.04), (1.3, 0.0)],
+    vibration.resonance_ratio: [(0.04,), (0.9,)],
+    vibration.peak_amplification: [(0.04,), (0.9,)],
+    vibration.transmissibility: [(0.8, 0.04), (1.3, 0.0)],
+    vibration.unbalance_amplification: [(0.8, 0.04), (1.3, 0.0)],
     loop_bounds.mass_behind: SECTIONS,
     loop_bounds.quasi_static: SECTIONS,
     loop_bounds.tension_green: SECTIONS,
@@ -94,6 +220,29 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
     motor.mean_starting_torque: [(900.0, 500.0)],
     motor.rim_force: [(700.0, 20.0, 0.94, 0.4)],
+    motor.rated_torque: [(22e3, 150.0)],
+    motor.linear_torque: [(90.0, 400.0, 150.0)],
+    motor.slip: [(90.0, 157.0), (200.0, 157.0)],
+    motor.breakdown_slip: [(0.04, 2.3, 0.0), (0.04, 2.3, 1.5)],
+    motor.largest_stator_ratio: [(0.04, 2.3)],
+    motor.kloss: [(0.1, 400.0, 0.17, 0.0), (-0.3, 400.0, 0.17, 1.5), (2.0, 400.0, 0.17, 1.5)],
+    motor.kloss_slope: [(0.1, 400.0, 0.17, 0.0), (-0.3, 400.0, 0.17, 1.5), (2.0, 400.0, 0.17, 1.5)],
+    motor.kloss_slip: [(200.0, 400.0, 0.17, 0.0), (-200.0, 400.0, 0.17, 1.5)],
+    motor.mean_kloss_torque: [(1.0, 0.03, 400.0, 0.17, 1.5), (0.3, 0.3, 400.0, 0.17, 0.0)],
+    motor.stage_breakdown_slip: [(0.17, 4.0)],
+    motor.switching_speed: [(4.0, 0.05, 157.0)],
+    motor.rheostat_factors: [(0.1, 0.04)],
+    motor.converter_reference: [(1.3, 120.0, 4.0), (5.0, 120.0, 4.0), (1.3, 120.0, 0.0)],
+    motor.converter_torque: [(90.0, 100.0, 30.0, 400.0), (10.0, 100.0, 30.0, 400.0)],
+    duty.rms_torque: [(np.array([400.0, 150.0, 0.0]), np.array([2.0, 9.0, 30.0]), np.array([0.7, 1.0, 0.33]))],
+    duty.equivalent_torque: [
+        (np.array([400.0, 150.0]), np.array([300.0, -90.0]), np.array([2.0, 9.0]), 1.0),
+        (np.array([0.0]), np.array([0.0]), np.array([9.0]), 1.0),
+    ],
+    duty.duty_factor: [(4.0, 6.0)],
+    duty.permissible_torque: [(400.0, 0.4, 0.25, 0.0, 1.0), (400.0, 1.0, 0.25, 0.5, 0.33)],
+    duty.switching_heat: [(1.3, 157.0, 1.0, 0.0, 1.2, 0.4)],
+    duty.permissible_switching_rate: [(900.0, 500.0, 0.25, 0.33, 2e4), (900.0, 2500.0, 0.9, 0.33, 2e4)],
     resistance.main_resistance_per_length: [(0.022, 9.81, 180.0, 15.0, 0.97)],
     resistance.length_factor: [(430.0,)],
     sag.sag_ratio: [(900.0, 5e4), (900.0, -1.0)],
@@ -121,10 +270,29 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
 
 ONE_CALL_EACH = [pytest.param(law, call, id=f"{law.__name__}-{k}") for law, calls in CALLS.items()
                  for k, call in enumerate(calls)]  # fmt: skip
-TABLES_IN_METRES = {resistance.length_factor}
+TABLES_IN_METRES = {backlash.new_clearance, resistance.length_factor}
 """Laws that are read from a table and know no other unit than its own."""
 
 REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
+    backlash.new_clearance: [(ValueError, (0.25, 7))],
+    bodies.inertia_of_gd2: [(ValueError, (15.0, "radius"))],
+    brake.brake_stop: [(ValueError, (3.2, 104.0, 700.0, 0.0, 0.1, 0.3, "sudden"))],
+    brake.brake_torque_for_time: [(ValueError, (3.2, 104.0, 0.9, 0.0, 0.1, 0.3, "sudden"))],
+    brake.braking_torque: [(ValueError, (0.9, 700.0, 0.1, 0.3, "sudden"))],
+    buffer.buffer_factor: [(ValueError, (1.1,)), (ValueError, (-0.1,)), (ValueError, (np.nan,))],
+    buffer.collision_force: [(ValueError, (5e3, 2e3, 6e5, 0.8, 4e3, "all"))],
+    coulomb.coulomb_decay: [(ValueError, (0.1, 0.0, 20.0, 1e4, 4.0))],
+    inertia.inertia_on_motor_shaft: [(ValueError, (90.0, 20.0, 0.9, "coast"))],
+    inertia.inertia_on_slow_shaft: [(ValueError, (0.9, 20.0, 0.9, "coast"))],
+    inertia.mass_on_motor_shaft: [(ValueError, (8e3, 0.2, 2.0, 40.0, 0.9, "coast"))],
+    inertia.rotating_parts_coefficient: [(ValueError, (0.4, [1.5], [4.0], [0.97], "coast"))],
+    similarity.distortions: [(ValueError, ("full", 0.1))],
+    similarity.scales: [(ValueError, ("full", 0.1)), (ValueError, ("half", 0.1)), (ValueError, ("ballast", 3.0))],
+    duty.rms_torque: [(ValueError, ([9.0], [0.0])), (ValueError, ([9.0], [1.0], 0.0)), (ValueError, ([], []))],
+    duty.equivalent_torque: [(ValueError, ([9.0], [9.0], [0.0]))],
+    duty.permissible_torque: [(ValueError, (400.0, 0.25, 1.0, 2.0, 0.33))],
+    motor.breakdown_slip: [(ValueError, (0.04, 2.3, 9.0))],
+    motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
     start_profile.phases: [(ValueError, ("step", True, 4.0, 3.0))],
 }
@@ -156,6 +324,8 @@ def numbers_of(result: Any) -> Iterator[float]:
     elif isinstance(result, tuple):
         for part in result:
             yield from numbers_of(part)
+    elif isinstance(result, str):
+        yield from map(float, re.findall(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", result))
     else:
         yield from np.ravel(np.asarray(result, float)).tolist()
 

@@ -5,6 +5,7 @@ rational and decimal arithmetic of the standard library (60 digits), written fro
 """
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import astuple, replace
 from decimal import Decimal, getcontext, localcontext
@@ -14,7 +15,28 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ptmcalc.laws import capstan, inertia, loop_bounds, motor, resistance, sag, start_profile, wave
+from ptmcalc.laws import (
+    backlash,
+    bodies,
+    brake,
+    buffer,
+    capstan,
+    coulomb,
+    duty,
+    gearing,
+    inertia,
+    loop_bounds,
+    motor,
+    resistance,
+    response,
+    sag,
+    shock,
+    similarity,
+    start_profile,
+    two_mass,
+    vibration,
+    wave,
+)
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 
 DIGITS = 60
@@ -89,10 +111,231 @@ def phase_numbers(shape: str, imposed_speed: bool, rise_time: float, frequency: 
     return [astuple(phase) for phase in start_profile.phases(shape, imposed_speed, rise_time, frequency)]
 
 
+def rating(draw: Draw) -> tuple[float, float, float]:
+    """Rated slip, overload and a stator ratio a motor of this rating may have."""
+    slip, more = draw.positive(2)
+    return slip, 1 + more, 0.999 * draw.share() * motor.largest_stator_ratio(slip, 1 + more)
+
+
+def kloss_curve(draw: Draw) -> tuple[float, float, float]:
+    """Breakdown torque, breakdown slip, stator ratio."""
+    torque, slip = draw.positive(2)
+    return torque, slip, 0.999 * draw.share() / slip
+
+
+def on_kloss_curve(draw: Draw) -> tuple[float, float, float, float]:
+    return float(draw.rng.choice([-1, 1])) * draw.positive(1)[0], *kloss_curve(draw)
+
+
+def stable_on_kloss_curve(draw: Draw) -> tuple[float, float, float, float]:
+    curve = kloss_curve(draw)
+    return (2 * draw.share() - 1) * curve[0], *curve
+
+
+def range_of_kloss_curve(draw: Draw) -> tuple[float, ...]:
+    return *draw.positive(2), *kloss_curve(draw)
+
+
+def two_slips(draw: Draw) -> tuple[float, float]:
+    low = 10 ** draw.rng.uniform(-12.0, -1e-9)
+    return low ** draw.rng.uniform(1e-3, 0.9), low
+
+
+def cycle(draw: Draw, numbers: int) -> tuple[Any, ...]:
+    """So many lists, a number for each of 1 to 9 pieces."""
+    pieces = int(draw.rng.integers(1, 10))
+    return tuple(np.array(draw.positive(pieces)) for _ in range(numbers))
+
+
+def duties(draw: Draw) -> tuple[float, ...]:
+    """Torque, two duty factors of which the second is not above the first, loss ratio and cooling at rest."""
+    torque, ratio = draw.positive(2)
+    shares = 10 ** draw.rng.uniform(-12.0, 0.0, 2)
+    return torque, float(max(shares)), float(min(shares)), ratio, draw.share()
+
+
+def efficiency(draw: Draw) -> float:
+    return float(10 ** draw.rng.uniform(DECADES[0], 0.0))
+
+
+def geared(draw: Draw) -> tuple[float, ...]:
+    """Two torques or an acceleration and a torque of any sign, a direction, and a train that does not jam."""
+    first, load, rotor, slow, ratio = draw.positive(5)
+    signs = draw.rng.choice([-1.0, 1.0], 3)
+    return signs[0] * first, signs[1], signs[2] * load, rotor, slow, ratio, efficiency(draw), efficiency(draw)
+
+
+def nested(draw: Draw, count: int) -> list[float]:
+    """Sizes from large to small."""
+    return sorted(draw.positive(count), reverse=True)
+
+
+def braked(draw: Draw) -> tuple[Any, ...]:
+    """A body and a brake that is stronger than what drives it."""
+    inertia_, speed, torque, delay, rise, load = draw.positive(6)
+    other = draw.rng.choice([-load, torque * (1 - draw.share()) * 0.999, -torque * draw.share()])
+    return inertia_, speed, torque, float(other), delay, rise, draw.shape("linear", "exponential")
+
+
+def to_be_braked(draw: Draw) -> tuple[Any, ...]:
+    inertia_, speed, _, other, delay, rise, shape = braked(draw)
+    return inertia_, speed, delay * (1.001 + draw.positive(1)[0]), other, delay, rise, shape
+
+
+def modelled(draw: Draw) -> tuple[Any, ...]:
+    """A law of similarity and scales that fit it."""
+    law = draw.shape("full", "geometric", "ballast")
+    length, density, gravity, more = draw.positive(4)
+    modulus = density * length**3 * gravity / length**2
+    return law, length, modulus * (1 + more if law == "ballast" else 1), density, gravity
+
+
+def distortion_numbers(*given: Any) -> list[float]:
+    return [float(x) for x in re.findall(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", " ".join(similarity.distortions(*given)))]
+
+
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
     "reduced_drive_mass": (inertia.reduced_drive_mass, lambda d: tuple(d.positive(5))),
+    "inertia_on_motor_shaft": (
+        inertia.inertia_on_motor_shaft,
+        lambda d: (*d.positive(2), efficiency(d), d.shape("drive", "brake", "energy")),
+    ),
+    "inertia_on_slow_shaft": (
+        inertia.inertia_on_slow_shaft,
+        lambda d: (*d.positive(2), efficiency(d), d.shape("drive", "brake", "energy")),
+    ),
+    "mass_on_motor_shaft": (
+        inertia.mass_on_motor_shaft,
+        lambda d: (*d.positive(4), efficiency(d), d.shape("drive", "brake", "energy")),
+    ),
+    "slewing_inertia": (inertia.slewing_inertia, lambda d: tuple(d.positive(7))),
+    "rotating_parts": (
+        inertia.rotating_parts_coefficient,
+        lambda d: (d.positive(1)[0], *(np.array(d.positive(3)) for _ in range(2)), np.full(3, efficiency(d)), "drive"),
+    ),
+    "new_clearance": (backlash.new_clearance, lambda d: (*d.positive(1), 3)),
+    "wear_share": (backlash.wear_share, lambda d: tuple(d.positive(2))),
+    "worn_clearance": (backlash.worn_clearance, lambda d: (*d.positive(3), True)),
+    "clearance_angle": (backlash.clearance_angle, lambda d: (*d.positive(2), 1.5 * d.share())),
+    "clearance_on_motor_shaft": (
+        backlash.clearance_on_motor_shaft,
+        lambda d: (np.array(d.positive(3)), np.array(d.positive(3))),
+    ),
+    "gap_closing": (backlash.gap_closing, lambda d: tuple(d.positive(4))),
+    "backlash_number": (backlash.backlash_number, lambda d: tuple(d.positive(5))),
+    "backlash_peak_ratio": (backlash.backlash_peak_ratio, lambda d: tuple(d.positive(1))),
+    "backlash_peak_torque": (backlash.backlash_peak_torque, lambda d: tuple(d.positive(7))),
+    "impact_loss": (backlash.impact_loss, lambda d: (*d.positive(3), d.share())),
+    "solid_cylinder": (bodies.solid_cylinder, lambda d: tuple(d.positive(2))),
+    "hollow_cylinder": (bodies.hollow_cylinder, lambda d: tuple(d.positive(3))),
+    "thin_ring": (bodies.thin_ring, lambda d: tuple(d.positive(2))),
+    "point_mass": (bodies.point_mass, lambda d: tuple(d.positive(2))),
+    "parallel_axis": (bodies.parallel_axis, lambda d: tuple(d.positive(3))),
+    "rings": (
+        bodies.rings,
+        lambda d: (*d.positive(1), *np.array([nested(d, 2) for _ in range(3)]).T, np.array(d.positive(3))),
+    ),
+    "drum": (bodies.drum, lambda d: (*d.positive(1), *(sizes := nested(d, 3))[:2], *d.positive(2), sizes[2])),
+    "estimated_body": (bodies.estimated_body, lambda d: tuple(d.positive(3))),
+    "rod_about_end": (bodies.rod_about_end, lambda d: tuple(d.positive(2))),
+    "rod_about_centre": (bodies.rod_about_centre, lambda d: tuple(d.positive(2))),
+    "rod_radial": (bodies.rod_radial, lambda d: tuple(d.positive(3))),
+    "rod_parallel": (bodies.rod_parallel, lambda d: tuple(d.positive(3))),
+    "rod_inclined": (bodies.rod_inclined, lambda d: tuple(d.positive(3))),
+    "inertia_of_gd2": (bodies.inertia_of_gd2, lambda d: (*d.positive(1), d.shape("gyration", "outer_diameter"))),
+    "braking_torque": (brake.braking_torque, lambda d: (*d.positive(4), d.shape("linear", "exponential"))),
+    "brake_stop": (brake.brake_stop, braked),
+    "brake_torque_for_time": (brake.brake_torque_for_time, to_be_braked),
+    "uniform_stop_time": (brake.uniform_stop_time, lambda d: tuple(d.positive(2))),
+    "brake_reserve": (brake.brake_reserve, lambda d: tuple(d.positive(2))),
+    "stop_heat": (brake.stop_heat, lambda d: tuple(d.positive(4))),
+    "collision_force": (
+        buffer.collision_force,
+        lambda d: (*d.positive(4), d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], d.shape("tip_stopped", "whole")),
+    ),
+    "collision_force_bound": (buffer.collision_force_bound, lambda d: tuple(d.positive(5))),
+    "series_stiffness": (buffer.series_stiffness, lambda d: tuple(d.positive(2))),
+    "linear_buffer": (buffer.linear_buffer, lambda d: tuple(d.positive(3))),
+    "constant_force_buffer": (buffer.constant_force_buffer, lambda d: tuple(d.positive(3))),
+    "driven_buffer": (buffer.driven_buffer, lambda d: (d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], *d.positive(3))),
+    "orifice_buffer_speed": (buffer.orifice_buffer_speed, lambda d: tuple(d.positive(4))),
+    "orifice_buffer_force": (buffer.orifice_buffer_force, lambda d: tuple(d.positive(4))),
+    "orifice_buffer_path": (buffer.orifice_buffer_path, lambda d: tuple(d.positive(4))),
+    "buffer_factor": (buffer.buffer_factor, lambda d: (d.share(),)),
+    "coulomb_slide": (
+        coulomb.coulomb_slide,
+        lambda d: (*d.positive(2), *(d.rng.choice([-1, 0, 1], 2) * d.positive(2)), *d.positive(1)),
+    ),
+    "coulomb_decay": (coulomb.coulomb_decay, lambda d: (*d.positive(1), *nested(d, 2)[::-1], *d.positive(2))),
+    "reverse_efficiency": (gearing.reverse_efficiency, lambda d: (efficiency(d),)),
+    "input_torque": (gearing.input_torque, lambda d: (*geared(d)[:2], *d.positive(1), efficiency(d), efficiency(d))),
+    "motor_torque": (gearing.motor_torque, geared),
+    "motor_torque_seed_rule": (gearing.motor_torque_seed_rule, geared),
+    "motor_acceleration": (gearing.motor_acceleration, geared),
+    "jams": (gearing.jams, lambda d: tuple(d.positive(4))),
+    "free_response": (response.free_response, lambda d: tuple(d.positive(5))),
+    "free_speed": (response.free_speed, lambda d: tuple(d.positive(5))),
+    "decay_envelope": (response.decay_envelope, lambda d: tuple(d.positive(4))),
+    "sine_response": (response.sine_response, lambda d: tuple(d.positive(4))),
+    "decay_response": (response.decay_response, lambda d: tuple(d.positive(5))),
+    "pulse_response": (response.pulse_response, lambda d: tuple(d.positive(6))),
+    "step_factor": (shock.step_factor, lambda d: tuple(d.positive(1))),
+    "ramp_factor": (shock.ramp_factor, lambda d: tuple(d.positive(1))),
+    "rectangular_pulse_factor": (shock.rectangular_pulse_factor, lambda d: tuple(d.positive(1))),
+    "half_sine_pulse_factor": (shock.half_sine_pulse_factor, lambda d: tuple(d.positive(1))),
+    "impulse_displacement": (shock.impulse_displacement, lambda d: tuple(d.positive(3))),
+    "impact_force_unloaded": (shock.impact_force_unloaded, lambda d: tuple(d.positive(4))),
+    "impact_force_preloaded": (shock.impact_force_preloaded, lambda d: tuple(d.positive(4))),
+    "scales": (lambda *given: astuple(similarity.scales(*given)), modelled),
+    "distortions": (distortion_numbers, modelled),
+    "section_scales": (lambda *given: astuple(similarity.section_scales(*given)), lambda d: tuple(d.positive(7))),
+    "self_weight_strain": (similarity.self_weight_strain, lambda d: tuple(d.positive(5))),
+    "two_mass_frequency": (two_mass.two_mass_frequency, lambda d: tuple(d.positive(3))),
+    "takeup": (lambda *given: astuple(two_mass.takeup(*given)), lambda d: tuple(d.positive(6))),
+    "hanging_start_force": (two_mass.hanging_start_force, lambda d: tuple(d.positive(4))),
+    "speed_step_force": (two_mass.speed_step_force, lambda d: tuple(d.positive(4))),
+    "lowering_brake_force": (two_mass.lowering_brake_force, lambda d: tuple(d.positive(6))),
+    "hoisting_stop_force": (two_mass.hoisting_stop_force, lambda d: tuple(d.positive(6))),
+    "natural_frequency": (vibration.natural_frequency, lambda d: tuple(d.positive(2))),
+    "damping_ratio": (vibration.damping_ratio, lambda d: tuple(d.positive(3))),
+    "damping_ratio_of_decrement": (vibration.damping_ratio_of_decrement, lambda d: tuple(d.positive(1))),
+    "decrement_of_damping_ratio": (vibration.decrement_of_damping_ratio, lambda d: (1 - efficiency(d),)),
+    "damping_of_decrement": (vibration.damping_of_decrement, lambda d: tuple(d.positive(3))),
+    "damped_frequency": (vibration.damped_frequency, lambda d: tuple(d.positive(2))),
+    "amplification": (vibration.amplification, lambda d: tuple(d.positive(2))),
+    "phase_lag": (vibration.phase_lag, lambda d: tuple(d.positive(2))),
+    "resonance_ratio": (vibration.resonance_ratio, lambda d: tuple(d.positive(1))),
+    "peak_amplification": (vibration.peak_amplification, lambda d: tuple(d.positive(1))),
+    "transmissibility": (vibration.transmissibility, lambda d: tuple(d.positive(2))),
+    "unbalance_amplification": (vibration.unbalance_amplification, lambda d: tuple(d.positive(2))),
     "mean_starting_torque": (motor.mean_starting_torque, lambda d: tuple(d.positive(2))),
     "rim_force": (motor.rim_force, lambda d: tuple(d.positive(4))),
+    "rated_torque": (motor.rated_torque, lambda d: tuple(d.positive(2))),
+    "linear_torque": (motor.linear_torque, lambda d: tuple(d.positive(3))),
+    "slip": (motor.slip, lambda d: tuple(d.positive(2))),
+    "breakdown_slip": (motor.breakdown_slip, rating),
+    "largest_stator_ratio": (motor.largest_stator_ratio, lambda d: rating(d)[:2]),
+    "kloss": (motor.kloss, on_kloss_curve),
+    "kloss_slope": (motor.kloss_slope, on_kloss_curve),
+    "kloss_slip": (motor.kloss_slip, stable_on_kloss_curve),
+    "mean_kloss_torque": (motor.mean_kloss_torque, range_of_kloss_curve),
+    "stage_breakdown_slip": (motor.stage_breakdown_slip, lambda d: tuple(d.positive(2))),
+    "switching_speed": (motor.switching_speed, lambda d: tuple(d.positive(3))),
+    "rheostat_factors": (motor.rheostat_factors, two_slips),
+    "converter_reference": (motor.converter_reference, lambda d: tuple(d.positive(3))),
+    "converter_torque": (motor.converter_torque, lambda d: tuple(d.positive(4))),
+    "rms_torque": (duty.rms_torque, lambda d: cycle(d, 3)),
+    "equivalent_torque": (duty.equivalent_torque, lambda d: cycle(d, 4)),
+    "duty_factor": (duty.duty_factor, lambda d: tuple(d.positive(2))),
+    "permissible_torque": (duty.permissible_torque, duties),
+    "switching_heat": (
+        duty.switching_heat,
+        lambda d: (*d.positive(2), 1.0, d.share(), *d.positive(1), d.share() * 0.9),
+    ),
+    "permissible_switching_rate": (
+        duty.permissible_switching_rate,
+        lambda d: (*d.positive(2), d.share(), d.share(), *d.positive(1)),
+    ),
     "main_resistance": (resistance.main_resistance_per_length, lambda d: tuple(d.positive(5))),
     "length_factor": (resistance.length_factor, lambda d: (80 * max(d.positive(1)[0], 1.0),)),
     "sag_ratio": (sag.sag_ratio, lambda d: tuple(d.positive(2))),
@@ -124,7 +367,31 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "lowest_frequency_gravity": (loop_bounds.lowest_frequency_bound, whole_loop(False)),
     "lowest_frequency_fixed": (loop_bounds.lowest_frequency_bound, whole_loop(True)),
 }
-SIGNED = {"quasi_static_fixed", "reflection"}
+SIGNED = {
+    "converter_torque",
+    "coulomb_decay",
+    "coulomb_slide",
+    "decay_response",
+    "free_response",
+    "free_speed",
+    "hanging_start_force",
+    "hoisting_stop_force",
+    "input_torque",
+    "kloss",
+    "kloss_slip",
+    "kloss_slope",
+    "linear_torque",
+    "motor_acceleration",
+    "motor_torque",
+    "motor_torque_seed_rule",
+    "pulse_response",
+    "quasi_static_fixed",
+    "reflection",
+    "reverse_efficiency",
+    "sine_response",
+    "slip",
+    "switching_speed",
+}
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}
 """Laws with a difference whose rounding may take it below 0; their digits are checked further down."""
@@ -255,6 +522,71 @@ class TestTwoIntervalsKeepTheirDigits:
         assert peak == pytest.approx(-math.expm1(-ratio), rel=1e-14)
         beside = wave.two_interval_force(1.0, ratio, 1.0, np.nextafter(ratio, 100))
         assert beside == pytest.approx(peak, rel=1e-12)
+
+
+# --- digits: motors ---------------------------------------------------------------------------------------------
+
+
+def kloss_exactly(slip: float, most: float, s_k: float, ratio: float) -> Fraction:
+    s, m, k, a = map(Fraction, (slip, most, s_k, ratio))
+    return 2 * m * (1 + a * k) * s * k / (s * s + k * k + 2 * a * k * k * s)
+
+
+class TestKlossKeepsItsDigits:
+    RATIOS = [0.0, 1e-9, 1.0, 4.0, 8 * (1 - 2**-20)]
+    """Of which 8 would be a pole at s = -s_k = -1/8."""
+    SLIPS = [1e-300, 1e-12, 0.01, 0.124999, 0.125, 0.125001, 1.0, 2.0, 1e12, 1e300]
+
+    @pytest.mark.parametrize("ratio", RATIOS)
+    @pytest.mark.parametrize("slip", [0.0, *SLIPS, *(-s for s in SLIPS)])
+    def test_torque(self, ratio: float, slip: float) -> None:
+        exact = float(kloss_exactly(slip, 700.0, 0.125, ratio))
+        tolerance = 1e-9 if ratio > 7 and -0.13 < slip < -0.12 else 1e-14  # at the pole the rounded input decides
+        assert motor.kloss(slip, 700.0, 0.125, ratio) == pytest.approx(exact, rel=tolerance, abs=0)
+
+    @pytest.mark.parametrize("ratio", RATIOS)
+    @pytest.mark.parametrize("share", [-1.0, -0.5, -1e-12, 0.0, 1e-300, 1e-9, 0.6, 1 - 1e-9, 1.0])
+    def test_torque_and_back(self, ratio: float, share: float) -> None:
+        def exactly() -> Decimal:
+            q, m = Decimal(ratio) / 8, Decimal(share)
+            n = 1 + q - q * m
+            return m / 8 / (n + (n * n - m * m).sqrt())
+
+        found = motor.kloss_slip(share * 512.0, 512.0, 0.125, ratio)
+        assert found == pytest.approx(precise(exactly), rel=1e-14, abs=0)
+
+    @pytest.mark.parametrize("overload", [1.0, 1 + 2**-40, 1.5, 3.0, 1e6])
+    @pytest.mark.parametrize("share", [0.0, 1e-9, 0.5, 1 - 1e-12])
+    def test_breakdown_slip(self, overload: float, share: float) -> None:
+        rated_slip = 0.03
+        ratio = share * motor.largest_stator_ratio(rated_slip, overload)
+
+        def exactly() -> Decimal:
+            """The larger root of the quadratic of the rated point."""
+            s, most, a = map(Decimal, (rated_slip, overload, ratio))
+            leading = 1 - 2 * a * s * (most - 1)
+            return s * (most + (most * most - leading).sqrt()) / leading
+
+        assert motor.breakdown_slip(rated_slip, overload, ratio) == pytest.approx(precise(exactly), rel=1e-14, abs=0)
+
+
+class TestHeatingKeepsItsDigits:
+    @pytest.mark.parametrize("size", [1e-300, 1e-12, 1.0, 1e12, 1e300])
+    def test_of_torques_of_any_size(self, size: float) -> None:
+        """The squares alone would overflow, or vanish."""
+        torques = [3 * size, -4 * size]
+        assert duty.rms_torque(torques, [1.0, 1.0]) == pytest.approx(math.sqrt(12.5) * size, rel=1e-14, abs=0)
+
+    def test_of_a_torque_that_turns_round(self) -> None:
+        """M_1^2 + M_1 M_2 + M_2^2 with M_2 next to -M_1 is M^2 all the same."""
+        turned = -7.0 * (1 + 2**-30)
+        exact = precise(lambda: ((49 + 7 * Decimal(turned) + Decimal(turned) ** 2) / 3).sqrt())
+        assert duty.equivalent_torque([7.0], [turned], [3.0]) == pytest.approx(exact, rel=1e-15)
+
+    @pytest.mark.parametrize("nearly", [1.0, 1 - 2**-50])
+    def test_of_a_motor_that_never_or_hardly_ever_rests(self, nearly: float) -> None:
+        assert duty.permissible_torque(400.0, 1.0, nearly, 3.0, 0.0) == pytest.approx(400.0, rel=1e-13)
+        assert duty.permissible_switching_rate(900.0, 900.0, 1.0, 0.3, 1e4) == 0.0
 
 
 # --- digits: start profiles -------------------------------------------------------------------------------------
