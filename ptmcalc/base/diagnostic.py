@@ -219,6 +219,12 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "The file or the command asks for governing loads more accurate than the finest solver knows them.",
             "Ask for less, or read the bars: verdicts already account for them.",
         ),
+        "NUM106": CodeText(
+            "a contact that keeps chattering",
+            "A link or a brake changes its state over and over to the end of the scene; its loads hold for the window"
+            " computed, not beyond it.",
+            "Give the link damping, or the load that keeps it closed; look at the events.",
+        ),
     }
 )
 """Every code that is not a check of a machine. Codes are never reused."""

@@ -116,6 +116,8 @@ class Quantity:
     si: str
     display: tuple[str, ...]
     example: str
+    aside: tuple[str, float] | None = None
+    """a second unit to show in brackets, and what the SI value is multiplied with for it"""
 
     @property
     def dimension(self) -> Dimension:
@@ -146,6 +148,15 @@ LINE_FORCE = _quantity("force per length", "N/m", "N/mm", example="1600 N/mm")
 LINE_STIFFNESS = _quantity("stiffness per width", "N/m", "N/mm", example="72000 N/mm")
 FLOW = _quantity("mass flow", "kg/s", "t/h", example="1500 t/h")
 TORQUE = _quantity("torque", "N*m", "N*m", "kN*m", example="3000 N*m")
+ANGULAR_FREQUENCY = Quantity("angular frequency", "rad/s", ("rad/s",), "15 rad/s", ("Hz", 1 / (2 * math.pi)))
+ANGULAR_ACCELERATION = _quantity("angular acceleration", "rad/s^2", example="40 rad/s^2")
+TORSIONAL_STIFFNESS = _quantity("torsional stiffness", "N*m/rad", "N*m/rad", "kN*m/rad", example="20 kN*m/rad")
+STIFFNESS = _quantity("stiffness", "N/m", "N/m", "kN/m", "MN/m", example="2 MN/m")
+TORSIONAL_DAMPING = _quantity("torsional damping", "N*m*s/rad", example="15 N*m*s/rad")
+DAMPING = _quantity("damping", "N*s/m", "N*s/m", "kN*s/m", example="6 kN*s/m")
+ANGULAR_IMPULSE = _quantity("angular impulse", "N*m*s", example="12 N*m*s")
+IMPULSE = _quantity("impulse", "N*s", "N*s", "kN*s", example="2 kN*s")
+DENSITY = _quantity("density", "kg/m^3", example="7850 kg/m^3")
 TORQUE_SLOPE = _quantity("torque per rotational speed", "N*m*s/rad", example="40 N*m*s/rad")
 INERTIA = _quantity("moment of inertia", "kg*m^2", example="4.2 kg*m^2")
 IMPEDANCE = _quantity("mechanical impedance", "N*s/m", "N*s/m", "kN*s/m", example="180 kN*s/m")
@@ -258,6 +269,15 @@ def read(text: str, quantity: Quantity) -> float:
     if not math.isfinite(number * factor):
         raise not_finite(text, quantity)
     return number * factor
+
+
+def is_of(text: str, quantity: Quantity) -> bool:
+    """Whether a text is a number of this quantity."""
+    try:
+        read(text, quantity)
+    except UnitError:
+        return False
+    return True
 
 
 def bare_number(number: object, quantity: Quantity) -> UnitError:

@@ -1,13 +1,14 @@
 """A check: a load against a limit, and what to say when it does not hold."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any, Generic
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.effect import C, S
+from ptmcalc.contract.result import of
 from ptmcalc.spec.scene import Scene
 
 
@@ -26,6 +27,8 @@ class Check(Generic[S, C]):
     is what that is held against; `needs` are the optional keys without which it
     is not checked. `blame` names the key that governs a bad verdict, from the loads found; `repair` the key a
     bracketing solve may move, or an empty path.
+    A check of every part of a machine gives with `each` the checks of the parts, made by `of`; its own `loads` are then
+    families.
     """
 
     code: str
@@ -42,10 +45,40 @@ class Check(Generic[S, C]):
     formula: str
     source: str
     value: Callable[[S, C, Mapping[str, Estimate]], Estimate] | None = None
+    each: "Callable[[S, C], Iterable[Check[S, C]]] | None" = None
+    element: str = ""
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether this type of scene is held against the check."""
         return type(scene) in self.scenes
+
+    def on(self, spec: S, scene: C) -> "Iterable[Check[S, C]]":
+        """The checks to be made of a machine: itself, or one for each part."""
+        return (self,) if self.each is None else self.each(spec, scene)
+
+    def of(
+        self,
+        element: str,
+        limit: Callable[[S, C], Estimate],
+        blame: KeyPath,
+        needs: tuple[KeyPath, ...] = (),
+        repair: KeyPath = (),
+    ) -> "Check[S, C]":
+        """The check of one part."""
+        return replace(
+            self,
+            element=element,
+            loads=tuple(of(family, element) for family in self.loads),
+            limit=limit,
+            needs=lambda spec, scene: needs,
+            blame=lambda spec, scene, loads: blame,
+            repair=lambda spec, scene: repair,
+            each=None,
+        )
+
+    def is_of(self, other: "Check[S, C]") -> bool:
+        """Whether it is the other check, or that of a part of the machine."""
+        return self.code == other.code and other.element in ("", self.element)
 
     def read(self, spec: S, scene: C, loads: Mapping[str, Estimate]) -> Estimate:
         """What is held against the limit."""

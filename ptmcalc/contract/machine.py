@@ -50,10 +50,16 @@ class MachineKind(Generic[S]):
     template: str
     assumptions: tuple[Assumption[S], ...] = ()
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
+    parts: Callable[[S], Iterable[LoadInfo]] | None = None
+    """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
 
-    def load_info(self, name: str) -> LoadInfo:
-        """What is known of a load by its name."""
-        return next(info for info in self.loads if info.name == name)
+    def loads_of(self, spec: S) -> tuple[LoadInfo, ...]:
+        """The loads of a machine."""
+        return tuple(self.parts(spec)) if self.parts else self.loads
+
+    def load_info(self, spec: S, name: str) -> LoadInfo:
+        """What is known of a load of a machine by its name."""
+        return next(info for info in self.loads_of(spec) if info.name == name)
 
 
 AnyKind = MachineKind[Any]

@@ -9,7 +9,7 @@ from ptmcalc.base.span import KeyPath, Span
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion, EffectState
-from ptmcalc.contract.result import LoadInfo
+from ptmcalc.contract.result import Event, History, LoadInfo
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +40,7 @@ class LoadReport:
     at: Mapping[str, float] = field(default_factory=dict)
     window: tuple[float, float] | None = None
     formula: FormulaValue | None = None
+    history: History | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +107,7 @@ class Judgement:
     quantity: Quantity
     margin: float | None
     blame: Place
+    element: str = ""
     reason: str = ""
     without: tuple[str, ...] = ()
     repair: Repair | None = None
@@ -122,6 +124,7 @@ class SceneReport:
     loads: tuple[LoadReport, ...]
     checks: tuple[Judgement, ...]
     health: Mapping[str, float]
+    events: tuple[Event, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """What a solver hands back."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ptmcalc.base.estimate import Estimate
@@ -9,13 +9,30 @@ from ptmcalc.base.units import Quantity
 
 @dataclass(frozen=True, slots=True)
 class LoadInfo:
-    """A load a kind can report: its name in JSON, its title in a table, its quantity."""
+    """A load a kind can report: its name in JSON, its title in a table, its quantity.
+
+    A load that a machine has once for each of its parts is a family: `torque_peak` stands for `torque_peak[shaft]`.
+    """
 
     name: str
     title: str
     quantity: Quantity
     headline: bool = True
     """whether the summary table shows it; the JSON always does"""
+
+    def of(self, element: str, quantity: Quantity | None = None) -> "LoadInfo":
+        """The load of one part."""
+        return LoadInfo(of(self.name, element), f"{self.title}, {element}", quantity or self.quantity, self.headline)
+
+
+def of(family: str, element: str) -> str:
+    """Name of the load of one part: `torque_peak[shaft]`."""
+    return f"{family}[{element}]"
+
+
+def family(name: str) -> str:
+    """The family of a load, which is its own name for a load that a machine has once."""
+    return name.partition("[")[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +54,36 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True)
+class Event:
+    """A change of state of a part at a time, in s."""
+
+    time: float
+    element: str
+    before: str
+    after: str
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """A quantity over time: shape (n,) each, SI."""
+
+    quantity: Quantity
+    times: Sequence[float]
+    values: Sequence[float]
+
+
+@dataclass(frozen=True, slots=True)
 class Result:
-    """Loads of one solver run. `work` counts what the run evaluated; `window` is the time it covers, in s."""
+    """Loads of one solver run. `work` counts what the run evaluated; `window` is the time it covers, in s.
+
+    `histories` gives, by the name of a load, the quantity it is the extreme or end of, over time; it is only called
+    where someone asks for it.
+    """
 
     loads: Mapping[str, Found]
     work: int = 0
     window: tuple[float, float] | None = None
     health: Mapping[str, float] = field(default_factory=dict)
     findings: tuple[Finding, ...] = ()
+    events: tuple[Event, ...] = ()
+    histories: Callable[[], Mapping[str, History]] = dict

@@ -1,5 +1,6 @@
 """One design file from its bytes to its report."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,6 +25,7 @@ from ptmcalc.contract.report import (
     SceneReport,
     SolverReport,
 )
+from ptmcalc.contract.result import History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
@@ -43,6 +45,7 @@ class Options:
     scenes: tuple[str, ...] = ()
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
+    histories: bool = False
 
 
 def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
@@ -95,7 +98,7 @@ def check(loaded: Loaded, options: Options) -> FileReport:
         Diagnostic(f.code, f.message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
         for f in dict.fromkeys(findings)
     )
-    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips).scene() for scene in settled)
+    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options.histories).scene() for scene in settled)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
 
 
@@ -120,8 +123,10 @@ def chosen_scenes(spec: MachineSpec, names: tuple[str, ...]) -> list[Scene] | No
     return [scenes[name] for name in names]
 
 
-Flips = Mapping[tuple[str, str], tuple[AssumedReport, float, Verdict]]
-"""For a (scene, check code): the assumed value that changes its verdict, at which end, and to what."""
+Key = tuple[str, str, str]
+"""Scene, code of a check, part of the machine."""
+Flips = Mapping[Key, tuple[AssumedReport, float, Verdict]]
+"""For a check: the assumed value that changes its verdict, at which end, and to what."""
 
 
 def _flips(
@@ -132,7 +137,7 @@ def _flips(
     A check that fails as it stands fails whatever is assumed only if both ends say so too.
     """
     base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
-    found: dict[tuple[str, str], tuple[AssumedReport, float, Verdict]] = {}
+    found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
     chosen = [scene.scene.label for scene in made.scenes]
     for value, end, changed in variants(spec, assumed):
         again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
@@ -142,10 +147,10 @@ def _flips(
     return found
 
 
-def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[tuple[str, str], Ruling]]:
+def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[Key, Ruling]]:
     for scene, result in zip(made.scenes, settled, strict=True):
         for ruling in result.rulings:
-            yield (scene.scene.label, ruling.check.code), ruling
+            yield (scene.scene.label, ruling.check.code, ruling.check.element), ruling
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +162,7 @@ class _Assembly:
     spec: MachineSpec
     settled: Settled
     flips: Flips
+    histories: bool
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
@@ -168,6 +174,7 @@ class _Assembly:
             loads=tuple(self._loads()),
             checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
             health=self._health(),
+            events=next((run.result.events for run in reversed(self.settled.runs) if run.result.events), ()),
         )
 
     def _effects(self) -> Iterator[EffectReport]:
@@ -235,7 +242,8 @@ class _Assembly:
         return None
 
     def _loads(self) -> Iterator[LoadReport]:
-        for info in self.kind.loads:
+        histories = self._histories()
+        for info in self.kind.loads_of(self.spec):
             best = self.settled.loads.get(info.name)
             if best is None:
                 continue
@@ -247,19 +255,27 @@ class _Assembly:
                 at=best.found.at,
                 window=best.result.window,
                 formula=self._formula(info.name, best.estimate.value),
+                history=histories.get(info.name),
             )
+
+    def _histories(self) -> Mapping[str, History]:
+        """Courses of loads over time, each from the richest run that knows it."""
+        found: dict[str, History] = {}
+        for run in self.settled.runs if self.histories else ():
+            found |= run.result.histories()
+        return found
 
     def _formula(self, load: str, value: float) -> FormulaValue | None:
         if load not in self.settled.formulas:
             return None
         name, textbook = self.settled.formulas[load]
-        return FormulaValue(name, textbook, value / textbook if textbook else None)
+        return FormulaValue(name, textbook, value / textbook if textbook and math.isfinite(textbook) else None)
 
     def _judgement(self, ruling: Ruling) -> Judgement:
         check, scene = ruling.check, self.settled.plan.scene
         verdict, reason = ruling.verdict, ruling.reason
         blame = ruling.blame
-        flip = self.flips.get((scene.label, check.code))
+        flip = self.flips.get((scene.label, check.code, check.element))
         if flip and verdict in (Verdict.PASS, Verdict.FAIL):
             assumed, end, other = flip
             verdict, blame = Verdict.UNDECIDED, assumed.path
@@ -272,9 +288,10 @@ class _Assembly:
             value=ruling.value,
             limit=ruling.limit,
             sense=check.sense,
-            quantity=self.kind.load_info(check.loads[0]).quantity,
+            quantity=self.kind.load_info(self.spec, check.loads[0]).quantity,
             margin=ruling.margin,
             blame=Place(blame, _span(document, blame)),
+            element=check.element,
             reason=reason,
             without=tuple(
                 planned.effect.name

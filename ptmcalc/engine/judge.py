@@ -35,9 +35,10 @@ class Ruling:
 def judge(kind: AnyKind, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> tuple[Ruling, ...]:
     """The rulings of every check that applies to this scene and is not switched off by the file."""
     return tuple(
-        rule(check, spec, scene, loads)
+        rule(one, spec, scene, loads)
         for check in kind.checks
         if check.applies_to(scene) and not spec.settings.switched_off(check.code)
+        for one in check.on(spec, scene)
     )
 
 

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -159,4 +159,7 @@ def measure_at(spec: MachineSpec, path: KeyPath) -> Measure | None:
     """Quantity and range of the number at `path`, or None when no number with a quantity stands there."""
     node = spec.value_at(path[:-1])
     field = keys_of(type(node)).get(str(path[-1])) if path and isinstance(node, BaseModel) else None
-    return measure_of(field) if field else None
+    measure = measure_of(field) if field else None
+    if measure is None or measure.or_else is None:
+        return measure
+    return replace(measure, quantity=spec.quantity_at(path, measure), or_else=None)

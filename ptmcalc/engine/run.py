@@ -1,7 +1,7 @@
 """Plan -> results: climb the ladder of a scene only while something is undecided."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.diagnostic import Verdict
@@ -10,7 +10,7 @@ from ptmcalc.base.estimate import NOTHING, Estimate
 from ptmcalc.base.units import SHARE, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Finding, Found, Result, family
 from ptmcalc.engine.judge import Ruling, judge
 from ptmcalc.engine.plan import PlannedEffect, Rung, ScenePlan
 from ptmcalc.spec.machine import MachineSpec
@@ -92,8 +92,8 @@ def settle(
     while True:
         settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
         if only is not None:
-            settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check is only)
-        following = _next(settled, waiting, _wanted(kind, spec, settled))
+            settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
+        following = _next(settled, waiting, _wanted(kind, spec, settled, whole=only is None))
         settled.next_rung = following
         if following is None:
             settled.findings += _unreached(kind, spec, settled) if only is None else ()
@@ -164,9 +164,10 @@ def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dic
     return estimates
 
 
-def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled) -> set[str]:
-    """Loads whose bars are still too wide: behind an undecided verdict, or wider than the accuracy asked for."""
-    wanted = set()
+def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled, *, whole: bool) -> set[str]:
+    """Loads that are not known yet or whose bars are still too wide: behind an undecided verdict, wider than the
+    accuracy asked for, or, in a `whole` report, without any bound."""
+    wanted = set(_unknown(kind, spec, settled)) if whole else set()
     for ruling in settled.rulings:
         if ruling.verdict is Verdict.NOT_CHECKED:
             continue
@@ -177,9 +178,19 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled) -> set[str]:
     return wanted.union(_inaccurate(kind, spec, settled))
 
 
+def _unknown(kind: AnyKind, spec: MachineSpec, settled: Settled) -> Iterator[str]:
+    """Governing loads that no run has looked for, or that none has bounded."""
+    looked_for = {one for run in settled.runs for one in run.rung.solver.gives}
+    for info in kind.loads_of(spec):
+        known = settled.loads.get(info.name)
+        endless = known is not None and math.isfinite(known.estimate.value) and not known.estimate.bounded
+        if info.headline and (endless or (known is None and family(info.name) not in looked_for)):
+            yield info.name
+
+
 def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]:
     """Governing loads whose bars are wider than the accuracy asked for."""
-    known = [info.name for info in kind.loads if info.headline and info.name in settled.loads]
+    known = [info.name for info in kind.loads_of(spec) if info.headline and info.name in settled.loads]
     return [name for name in known if not _accurate(settled.loads[name].estimate, spec.accuracy)]
 
 
@@ -216,7 +227,7 @@ def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung |
 def _helps(settled: Settled, rung: Rung, name: str, share: float) -> bool:
     """Whether a rung can narrow the bar of a load: by an effect no run has carried for it, where the model makes up
     so much of the bar, or by a finer setting of a run where the grid does."""
-    if name not in rung.solver.gives:
+    if family(name) not in rung.solver.gives:
         return False
     same = [run for run in settled.runs if run.rung.solver is rung.solver and run.rung.carried == rung.carried]
     best = settled.loads.get(name)

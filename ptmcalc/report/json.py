@@ -93,6 +93,10 @@ def _scene(scene: SceneReport) -> dict[str, Any]:
         "solvers": [_solver(solver) for solver in scene.solvers],
         "loads": [_load(load) for load in scene.loads],
         "checks": [_check(judgement) for judgement in scene.checks],
+        "events": [
+            {"time": event.time, "element": event.element, "from": event.before, "to": event.after}
+            for event in scene.events
+        ],
         "health": {name: finite(value) for name, value in scene.health.items()},
     }
 
@@ -162,6 +166,9 @@ def _load(load: LoadReport) -> dict[str, Any]:
     }
     if load.window:
         entry["window"] = list(load.window)
+    if load.history:
+        history = load.history
+        entry["history"] = {"t": list(history.times), "value": list(history.values), "unit": history.quantity.si}
     if formula:
         entry["formula"] = {
             "name": formula.name,
@@ -192,6 +199,8 @@ def _check(judgement: Judgement) -> dict[str, Any]:
     }
     if value and not math.isfinite(value.value):
         entry["unbounded"] = True
+    if judgement.element:
+        entry["element"] = judgement.element
     if judgement.reason:
         entry["reason"] = judgement.reason
     if judgement.without:

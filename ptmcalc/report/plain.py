@@ -21,9 +21,8 @@ def _lines(report: FileReport) -> list[str]:
         lines.append(f"{where}: {diagnostic.severity.value} {diagnostic.code} {diagnostic.message}{hint}")
     for scene, judgement in words.worst_first(report):
         where = f"{report.path}:{words.place(judgement.blame.span)}"
-        lines.append(
-            f"{where}: {judgement.verdict.value} {judgement.code} {judgement.title} [{scene}]{_said(judgement)}"
-        )
+        about = f"{judgement.code} {words.subject(judgement)} [{scene}]"
+        lines.append(f"{where}: {judgement.verdict.value} {about}{_said(judgement)}")
     return lines
 
 

@@ -11,7 +11,7 @@ from rich.text import Text
 from ptmcalc.base.diagnostic import Severity, Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
-from ptmcalc.base.units import TIME, show
+from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import EffectReport, FileReport, LoadReport, SceneReport, SolverReport, count
 from ptmcalc.report import words
@@ -29,6 +29,7 @@ _STYLE = {
 }
 _INVISIBLE = 1e-6
 _GAP = 3
+_MOST_EVENTS = 30
 _SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
@@ -89,6 +90,7 @@ def _file(console: Console, report: FileReport) -> None:
         _loads(console, report.scenes)
         _checks(console, report)
         _effects(console, report.scenes)
+        _events(console, report.scenes)
         _solvers(console, report.scenes)
     _assumed(console, report)
     _health(console, report.scenes)
@@ -156,15 +158,16 @@ def _checks(console: Console, report: FileReport) -> None:
         limit = (
             f"{_SIGN[judgement.sense]} {words.amount(judgement.limit, judgement.quantity)}" if judgement.limit else ""
         )
-        title = f"{judgement.code} {judgement.title}"
+        title = f"{judgement.code} {words.subject(judgement)}"
         table.add_row(verdict, title, scene, value, limit, words.margin(judgement))
         remark = words.remark(judgement)
+        name = " ".join(filter(None, (judgement.code, judgement.element, scene)))
         if judgement.verdict is not Verdict.PASS:
             place = f"{report.path}:{words.place(judgement.blame.span)}"
             governed = f" governed by {dotted(judgement.blame.path)} ({place})"
-            lines.append(Text.assemble(verdict, f" {judgement.code} {scene}:{governed}{'; ' * bool(remark)}{remark}"))
+            lines.append(Text.assemble(verdict, f" {name}:{governed}{'; ' * bool(remark)}{remark}"))
         elif remark:
-            lines.append(Text.assemble(verdict, f" {judgement.code} {scene}: {remark}"))
+            lines.append(Text.assemble(verdict, f" {name}: {remark}"))
     console.print(table)
     for line in lines:
         console.print(line)
@@ -196,6 +199,20 @@ def _change(effect: EffectReport) -> str:
     if abs(effect.change.relative) < _INVISIBLE:
         return "no change"
     return f"{effect.change.load} {100 * effect.change.relative:+.2g} %"
+
+
+def _events(console: Console, scenes: tuple[SceneReport, ...]) -> None:
+    """What changed its state and when, the first of each scene; the JSON has all."""
+    if not any(scene.events for scene in scenes):
+        return
+    table = _table("Events", "scene", "time", "element", "from", "to")
+    for scene in scenes:
+        for event in scene.events[:_MOST_EVENTS]:
+            table.add_row(scene.name, f"{digits(event.time, 5)} s", event.element, event.before, event.after)
+        left = len(scene.events) - _MOST_EVENTS
+        if left > 0:
+            table.add_row(scene.name, f"... and {left} more")
+    console.print(table)
 
 
 def _solvers(console: Console, scenes: Iterable[SceneReport]) -> None:

@@ -50,6 +50,9 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
     if not (math.isfinite(low) and math.isfinite(high)):
         return f"{digits(middle)}{suffix} (no bound)"
     bar = max(high - middle, middle - low)
+    if quantity.aside:
+        other, share = quantity.aside
+        suffix += f" ({digits(value * share)} {other})"
     if bar <= 5e-5 * abs(middle):
         return f"{digits(middle)}{suffix}"
     if min(high - middle, middle - low) < 0.5 * bar:
@@ -85,6 +88,11 @@ def relative_margin(judgement: Judgement) -> float:
         return math.inf
     scale = abs(judgement.limit.value) or abs(judgement.value.value) or 1.0
     return judgement.margin / scale
+
+
+def subject(judgement: Judgement) -> str:
+    """What a check is about, with the part of the machine it looked at."""
+    return f"{judgement.title}: {judgement.element}" if judgement.element else judgement.title
 
 
 def remark(judgement: Judgement) -> str:

@@ -35,6 +35,8 @@ class Measure:
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
+    or_else: Quantity | None = None
+    """the quantity it may be instead, where the machine decides: a torque or a force"""
 
     def read(self, value: object) -> float:
         """The SI value of what the file says, or a pydantic error with our code, reason and hint."""
@@ -60,9 +62,19 @@ class Measure:
             return f"at least {units.show(_LEAST, self.quantity)} in size"
         return ""
 
+    def quantity_of(self, value: object) -> Quantity:
+        """The one of its quantities that a text is of; the first where it is of neither."""
+        if self.or_else is not None and isinstance(value, str):
+            try:
+                units.read(value, self.quantity)
+            except UnitError as error:
+                if error.code == "dimension" and units.is_of(value, self.or_else):
+                    return self.or_else
+        return self.quantity
+
     def _number(self, value: object) -> float:
         if isinstance(value, str):
-            return units.read(value, self.quantity)
+            return units.read(value, self.quantity_of(value))
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise problem(
                 "SPC111",
@@ -85,10 +97,14 @@ class Measure:
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         form: dict[str, Any] = {"type": "string", "examples": [self.quantity.example]}
         if self.quantity.dimension == units.RATIO.dimension:
-            example = float(self.quantity.example)
+            example = units.read(self.quantity.example, self.quantity)
             form = {"type": ["number", "string"], "examples": [example, f"{100 * example:g} %"]}
         form["x-quantity"] = self.quantity.name
         form["x-units"] = list(self.quantity.display)
+        if self.or_else is not None:
+            form["examples"].append(self.or_else.example)
+            form["x-quantity"] += f" or {self.or_else.name}"
+            form["x-units"] += list(self.or_else.display)
         for key, limit in (
             ("x-above", self.above),
             ("x-at-least", self.at_least),
@@ -138,12 +154,15 @@ PositiveSpan = Annotated[float, Measure(units.SPAN, above=0)]
 Height = Annotated[float, Measure(units.SPAN)]
 Time = Annotated[float, Measure(units.TIME, at_least=0)]
 PositiveTime = Annotated[float, Measure(units.TIME, above=0)]
+Angle = Annotated[float, Measure(units.ANGLE)]
 PositiveAngle = Annotated[float, Measure(units.ANGLE, above=0)]
 PositiveSpeed = Annotated[float, Measure(units.SPEED, above=0)]
 PositiveAngularSpeed = Annotated[float, Measure(units.ANGULAR_SPEED, above=0)]
 PositiveAcceleration = Annotated[float, Measure(units.ACCELERATION, above=0)]
 Force = Annotated[float, Measure(units.FORCE, at_least=0)]
 PositiveForce = Annotated[float, Measure(units.FORCE, above=0)]
+SignedForce = Annotated[float, Measure(units.FORCE)]
+SignedSpeed = Annotated[float, Measure(units.SPEED)]
 LineMass = Annotated[float, Measure(units.LINE_MASS, at_least=0)]
 PositiveLineMass = Annotated[float, Measure(units.LINE_MASS, above=0)]
 PositiveLineForce = Annotated[float, Measure(units.LINE_FORCE, above=0)]

@@ -6,8 +6,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ptmcalc.base.span import KeyPath
+from ptmcalc.base.units import Quantity
 from ptmcalc.base.words import quote
-from ptmcalc.spec.fields import Efficiency, PositiveAcceleration
+from ptmcalc.spec.fields import Efficiency, Measure, PositiveAcceleration
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.scene import Scene
 
@@ -73,6 +74,10 @@ class MachineSpec(Fragment):
     def settings(self) -> CheckSettings:
         """The limits and switches of the file's `checks:` block."""
         return CheckSettings()
+
+    def quantity_at(self, path: KeyPath, measure: Measure) -> Quantity:
+        """The quantity of the number at `path`, where its field leaves a choice."""
+        return measure.quantity
 
     def with_value(self, path: KeyPath, value: object) -> Self:
         """A copy in which the value at `path` (SI, already valid) is replaced."""

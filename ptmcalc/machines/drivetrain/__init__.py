@@ -1,0 +1,38 @@
+"""Drive train: inertias, elastic links with play, gears with losses, motors, brakes."""
+
+from collections.abc import Iterator
+from importlib import resources
+
+from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.result import Finding
+from ptmcalc.machines.drivetrain.checks import CHECKS
+from ptmcalc.machines.drivetrain.effects import EFFECTS
+from ptmcalc.machines.drivetrain.loads import LOADS, parts
+from ptmcalc.machines.drivetrain.solvers import SOLVERS
+from ptmcalc.machines.drivetrain.spec import Drivetrain
+
+
+def inspect(spec: Drivetrain) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    for name, gear in spec.gears.items():
+        if gear.reverse_efficiency is not None and gear.reverse_efficiency > gear.efficiency:
+            yield Finding(
+                "SPC201",
+                f"`{name}` loses less when it is driven back than forward",
+                ("gears", name, "reverse_efficiency"),
+                "check both efficiencies; 2 - 1/efficiency is usual",
+            )
+
+
+KIND = MachineKind(
+    name="drivetrain",
+    title="drive train: link torques, start, stop, play, resonance",
+    spec=Drivetrain,
+    loads=LOADS,
+    effects=EFFECTS,
+    solvers=SOLVERS,
+    checks=CHECKS,
+    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    inspect=inspect,
+    parts=parts,
+)

@@ -1,0 +1,172 @@
+"""Bodies whose inertia is computed from their dimensions."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.laws import bodies
+from ptmcalc.spec.fields import Measure, PositiveLength, PositiveMass
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
+
+Density = Annotated[float, Measure(units.DENSITY, above=0)]
+Length = Annotated[float, Measure(units.LENGTH, at_least=0)]
+Shape = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
+STEEL = 7850.0
+
+
+class Solid(Fragment):
+    """A solid cylinder about its axis."""
+
+    type: Literal["solid"]
+    mass: PositiveMass
+    diameter: PositiveLength
+
+    @property
+    def inertia(self) -> float:
+        return bodies.solid_cylinder(self.mass, self.diameter)
+
+
+class Hollow(Fragment):
+    """A hollow cylinder about its axis."""
+
+    type: Literal["hollow"]
+    mass: PositiveMass
+    outer_diameter: PositiveLength
+    inner_diameter: PositiveLength
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The hole is smaller than the cylinder."""
+        outer, inner = given.number("outer_diameter"), given.number("inner_diameter")
+        if outer is not None and inner is not None and inner >= outer:
+            yield Conflict(("inner_diameter",), "it is not below the outer diameter", "check both diameters")
+
+    @property
+    def inertia(self) -> float:
+        return bodies.hollow_cylinder(self.mass, self.outer_diameter, self.inner_diameter)
+
+
+class Ring(Fragment):
+    """A thin ring about its axis."""
+
+    type: Literal["ring"]
+    mass: PositiveMass
+    mean_diameter: PositiveLength
+
+    @property
+    def inertia(self) -> float:
+        return bodies.thin_ring(self.mass, self.mean_diameter)
+
+
+class Drum(Fragment):
+    """A drum: shell, two end discs and a shaft through them."""
+
+    type: Literal["drum"]
+    outer_diameter: PositiveLength
+    inner_diameter: PositiveLength
+    length: PositiveLength
+    disc_thickness: Length
+    shaft_diameter: Length
+    density: Density = STEEL
+    """7850 kg/m^3 when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Shell and shaft fit into each other."""
+        outer, inner, shaft = (given.number(f"{part}_diameter") for part in ("outer", "inner", "shaft"))
+        if outer is not None and inner is not None and inner >= outer:
+            yield Conflict(("inner_diameter",), "it is not below the outer diameter", "check both diameters")
+        if inner is not None and shaft is not None and shaft >= inner:
+            yield Conflict(("shaft_diameter",), "the shaft does not fit into the drum", "check both diameters")
+
+    @property
+    def inertia(self) -> float:
+        _, inertia = bodies.drum(
+            self.density,
+            self.outer_diameter,
+            self.inner_diameter,
+            self.length,
+            self.disc_thickness,
+            self.shaft_diameter,
+        )
+        return inertia
+
+
+class RingPart(Fragment):
+    """One ring of a sheave: rim, web or hub."""
+
+    outer_radius: PositiveLength
+    inner_radius: Length
+    width: PositiveLength
+
+
+class Sheave(Fragment):
+    """A sheave, pulley or gear wheel made of rings."""
+
+    type: Literal["sheave"]
+    rings: Annotated[tuple[RingPart, ...], Field(min_length=1, max_length=20)]
+    density: Density = STEEL
+    """7850 kg/m^3 when left out"""
+
+    @property
+    def inertia(self) -> float:
+        parts = [(ring.outer_radius, ring.inner_radius, ring.width) for ring in self.rings]
+        outer, inner, widths = np.array(parts).T
+        return bodies.rings(self.density, outer, inner, widths)[1]
+
+
+class Coupling(Fragment):
+    """A coupling, estimated from mass and outer diameter."""
+
+    type: Literal["coupling"]
+    mass: PositiveMass
+    diameter: PositiveLength
+    shape: Shape = 0.5
+    """k in k m R^2: 0.4 to 0.6, a ring is 1"""
+
+    @property
+    def inertia(self) -> float:
+        return bodies.estimated_body(self.mass, self.diameter / 2, self.shape)
+
+
+class Rod(Fragment):
+    """A straight rod about an axis."""
+
+    type: Literal["rod"]
+    mass: PositiveMass
+    length: PositiveLength
+    position: Literal["end", "centre", "radial", "parallel", "inclined"]
+    """axis across through its end or centre; radial with its near end at `distance`; parallel to it at `distance`;
+    inclined at `angle` to the axis with its end on it"""
+    distance: Length = 0.0
+    radius: Length = 0.0
+    """of the rod itself (`parallel`)"""
+    angle: Annotated[float, Measure(units.ANGLE)] | None = None
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """An inclined rod has an angle."""
+        if given.word("position") == "inclined" and "angle" not in given:
+            yield given.missing("angle", "an inclined rod needs its `angle` to the axis")
+
+    @property
+    def inertia(self) -> float:
+        if self.position == "end":
+            return bodies.rod_about_end(self.mass, self.length)
+        if self.position == "centre":
+            return bodies.rod_about_centre(self.mass, self.length)
+        if self.position == "radial":
+            return bodies.rod_radial(self.mass, self.length, self.distance)
+        if self.position == "parallel":
+            return bodies.rod_parallel(self.mass, self.distance, self.radius)
+        assert self.angle is not None
+        return bodies.rod_inclined(self.mass, self.length, self.angle)
+
+
+AnyBody = Annotated[
+    Solid | Hollow | Ring | Drum | Sheave | Coupling | Rod,
+    Field(discriminator="type"),
+]

@@ -1,0 +1,345 @@
+"""The checks of a drive train: DRV101 to DRV108."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import Check, Sense
+from ptmcalc.machines.drivetrain import motion
+from ptmcalc.machines.drivetrain.model import case_of
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
+from ptmcalc.spec.scene import Scene
+
+WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
+"""Largest worn part of a tooth: in gearboxes and gear couplings, and in open gears (lecture notes Kramatorsk 2007)."""
+
+ALL: frozenset[type[Scene]] = frozenset({Run, Start, Stop})
+RUNNING: frozenset[type[Scene]] = frozenset({Run})
+DRIVEN: frozenset[type[Scene]] = frozenset({Run, Start})
+AnyCheck = Check[Drivetrain, TrainScene]
+
+
+def _nothing_needed(spec: Drivetrain, scene: TrainScene) -> tuple[KeyPath, ...]:
+    return ()
+
+
+def _no_repair(spec: Drivetrain, scene: TrainScene) -> KeyPath:
+    return ()
+
+
+def _exactly(value: float) -> Callable[[Drivetrain, TrainScene], Estimate]:
+    """A limit that is the same in every scene."""
+    return lambda spec, scene: Estimate.exact(value)
+
+
+_NO_LIMIT = _exactly(math.inf)
+
+
+# -- torque ---------------------------------------------------------------------------------------------------------
+
+
+def torque_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """The largest torque a link may carry, from the file.
+
+    **Range** each link that has a `limit`.
+    **Error** none.
+    **Source** the maker's data.
+    """
+    return Estimate.exact(math.inf)
+
+
+def _torque_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    """One for each link with a limit; where none has one, the first says so."""
+    limited = {name: link.limit for name, link in spec.links.items() if link.limit is not None}
+    if not limited and spec.links:
+        first = next(iter(spec.links))
+        yield TORQUE.of(first, _NO_LIMIT, ("links", first, "limit"), needs=(("links", first, "limit"),))
+    for name, limit in limited.items():
+        path = ("links", name, "limit")
+        yield TORQUE.of(name, _exactly(limit), path, repair=path)
+
+
+TORQUE: AnyCheck = Check(
+    code="DRV101",
+    title="too much torque in a link",
+    scenes=ALL,
+    loads=("torque_peak",),
+    sense=Sense.AT_MOST,
+    limit=torque_limit,
+    needs=_nothing_needed,
+    blame=lambda spec, scene, loads: ("links",),
+    repair=_no_repair,
+    each=_torque_checks,
+    what="The largest torque (or force) of every link with a `limit` stays below it.",
+    why="A coupling, shaft or rope breaks at its peak load, not at the mean one.",
+    formula="max |T(t)| <= T_limit",
+    source="the maker's limit of the part",
+)
+
+
+# -- start and stop -------------------------------------------------------------------------------------------------
+
+
+def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
+    """The longest start: the file's, else the time the scene is looked at.
+
+    **Range** any start with a speed that ends it.
+    **Error** none.
+    **Source** a choice of the designer.
+    """
+    return Estimate.exact(spec.checks.start_time or motion.window(scene, case_of(spec, scene)))
+
+
+def _start_needs(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
+    if case_of(spec, scene).until is not None:
+        return ()
+    return (("scenes", list(spec.all_scenes).index(scene), "until"),)
+
+
+def _start_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
+    if spec.checks.start_time is not None:
+        return ("checks", "start_time")
+    return ("motors", next(iter(spec.motors))) if spec.motors else ("inertias",)
+
+
+START: Check[Drivetrain, Start] = Check(
+    code="DRV102",
+    title="a start that takes too long",
+    scenes=frozenset({Start}),
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=start_limit,
+    needs=_start_needs,
+    blame=_start_blame,
+    repair=lambda spec, scene: ("checks", "start_time") if spec.checks.start_time is not None else (),
+    what="The inertia the scene is about reaches its speed in time.",
+    why="A long start heats the motor; one that never ends is a drive too weak for its load.",
+    formula="t(w = w_end) <= t_limit",
+    source="a choice of the designer; without one, the window of the scene",
+)
+
+
+def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
+    """The longest stop: the file's, else the time the scene is looked at.
+
+    **Range** any stop.
+    **Error** none.
+    **Source** a choice of the designer or of a rule for the machine.
+    """
+    return Estimate.exact(spec.checks.stop_time or motion.window(scene, case_of(spec, scene)))
+
+
+def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
+    if spec.brakes:
+        return ("brakes", next(iter(spec.brakes)), "torque")
+    return ("checks", "stop_time") if spec.checks.stop_time is not None else ("inertias",)
+
+
+def _brake_torque(spec: Drivetrain, scene: TrainScene) -> KeyPath:
+    return ("brakes", next(iter(spec.brakes)), "torque") if spec.brakes else ()
+
+
+STOP: Check[Drivetrain, Stop] = Check(
+    code="DRV103",
+    title="a stop that takes too long",
+    scenes=frozenset({Stop}),
+    loads=("stop_time",),
+    sense=Sense.AT_MOST,
+    limit=stop_limit,
+    needs=_nothing_needed,
+    blame=_stop_blame,
+    repair=_brake_torque,
+    what="The inertia the scene is about comes to rest in time, and stays there.",
+    why="A brake that does not hold lets the load run away.",
+    formula="t(w = 0 for good) <= t_limit",
+    source="a choice of the designer; without one, the window of the scene",
+)
+
+
+def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
+    """The longest way of a stop, from the file.
+
+    **Range** a file that sets it.
+    **Error** none.
+    **Source** a choice of the designer or of a rule for the machine.
+    """
+    return Estimate.exact(spec.checks.stop_angle or math.inf)
+
+
+def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    if spec.checks.stop_angle is not None:
+        yield WAY
+
+
+WAY: Check[Drivetrain, Stop] = Check(
+    code="DRV104",
+    title="a stop that takes too much way",
+    scenes=frozenset({Stop}),
+    loads=("stop_angle",),
+    sense=Sense.AT_MOST,
+    limit=way_limit,
+    needs=_nothing_needed,
+    blame=_stop_blame,
+    repair=_brake_torque,
+    each=_way_checks,
+    what="The angle or way from the command to rest keeps the limit `checks.stop_angle`.",
+    why="What is behind the stop is in the way: an end stop, a person, the next machine.",
+    formula="|phi(rest) - phi(command)| <= limit",
+    source="a choice of the designer",
+)
+
+
+# -- motors ---------------------------------------------------------------------------------------------------------
+
+
+def heating_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Rated torque of all motors of a name.
+
+    **Range** motors whose rated torque is given or follows from power and speed.
+    **Error** none.
+    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors whose loss goes with the square
+    of the torque.
+    """
+    return Estimate.exact(math.inf)
+
+
+def _heating_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, one in spec.motors.items():
+        path = ("motors", name, "motor", "rated_torque")
+        if one.motor.rated is None:
+            yield HEATING.of(name, _NO_LIMIT, ("motors", name, "motor"), needs=(path,))
+        else:
+            rated = one.count * one.motor.rated
+            yield HEATING.of(name, _exactly(rated), ("motors", name, "motor"))
+
+
+HEATING: AnyCheck = Check(
+    code="DRV105",
+    title="a motor that gets too hot",
+    scenes=RUNNING,
+    loads=("motor_torque_rms",),
+    sense=Sense.AT_MOST,
+    limit=heating_limit,
+    needs=_nothing_needed,
+    blame=lambda spec, scene, loads: ("motors",),
+    repair=_no_repair,
+    each=_heating_checks,
+    what="The heating (rms) torque over the cycle stays below the rated torque.",
+    why="Losses go with the square of the torque; the winding's insulation ages with its temperature.",
+    formula="sqrt(int M^2 dt/T) <= M_N,   T = checks.cycle_time, else the scene",
+    source="IEC 60034-1; lecture notes Kramatorsk 2007",
+)
+
+
+def overload_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """The largest torque a motor may give for a short time, from the file.
+
+    **Range** motors with `largest_torque`.
+    **Error** none.
+    **Source** the maker's overload limit.
+    """
+    return Estimate.exact(math.inf)
+
+
+def _overload_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, one in spec.motors.items():
+        if one.motor.largest_torque is not None:
+            most = one.count * one.motor.largest_torque
+            path = ("motors", name, "motor", "largest_torque")
+            yield OVERLOAD.of(name, _exactly(most), path)
+
+
+OVERLOAD: AnyCheck = Check(
+    code="DRV106",
+    title="a motor beyond its overload limit",
+    scenes=DRIVEN,
+    loads=("motor_torque_peak",),
+    sense=Sense.AT_MOST,
+    limit=overload_limit,
+    needs=_nothing_needed,
+    blame=lambda spec, scene, loads: ("motors",),
+    repair=_no_repair,
+    each=_overload_checks,
+    what="The largest torque of every motor with `largest_torque` stays below it.",
+    why="Above it a motor stalls, or its inverter trips.",
+    formula="max |M(t)| <= M_max",
+    source="the maker's data",
+)
+
+
+# -- vibration and wear ---------------------------------------------------------------------------------------------
+
+
+def resonance_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Least distance of an exciting frequency from a natural one: 20 % of it unless the file says otherwise.
+
+    **Range** harmonic excitations.
+    **Error** none: an engineering choice.
+    **Source** usual practice; at 20 % an undamped amplitude is 2.3 to 2.8 times the static one.
+    """
+    return Estimate.exact(spec.checks.resonance_margin)
+
+
+def _resonance_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, torque in spec.torques.items():
+        if isinstance(torque, SineTorque):
+            key = "frequency" if torque.frequency is not None else "angular_frequency"
+            path = ("torques", name, key)
+            yield RESONANCE.of(name, resonance_limit, path, repair=path)
+
+
+RESONANCE: AnyCheck = Check(
+    code="DRV107",
+    title="an excitation near resonance",
+    scenes=RUNNING,
+    loads=("resonance_separation",),
+    sense=Sense.AT_LEAST,
+    limit=resonance_limit,
+    needs=_nothing_needed,
+    blame=lambda spec, scene, loads: ("torques",),
+    repair=_no_repair,
+    each=_resonance_checks,
+    what="No harmonic torque excites the train within the margin round a natural frequency.",
+    why="Near resonance only damping, which nobody knows well, limits the torque.",
+    formula="min_k |W/w_k - 1| >= margin",
+    source="usual practice",
+)
+
+
+def wear_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Largest worn part of a tooth: 25 % in gearboxes and couplings, 40 % in open gears.
+
+    **Range** links whose play comes from a `clearance` with a module.
+    **Error** none.
+    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth's thickness).
+    """
+    return Estimate.exact(WORN_OUT)
+
+
+def _wear_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, link in spec.links.items():
+        if link.clearance is not None and link.clearance.wear:
+            most = WORN_OUT_OPEN if link.clearance.kind == "open_gear" else WORN_OUT
+            path = ("links", name, "clearance", "wear")
+            yield WEAR.of(name, _exactly(most), path, repair=path)
+
+
+WEAR: AnyCheck = Check(
+    code="DRV108",
+    title="a gear worn out",
+    scenes=ALL,
+    loads=("wear_share",),
+    sense=Sense.AT_MOST,
+    limit=wear_limit,
+    needs=_nothing_needed,
+    blame=lambda spec, scene, loads: ("links",),
+    repair=_no_repair,
+    each=_wear_checks,
+    what="Teeth have lost no more than a quarter of their thickness, those of open gears no more than 40 %.",
+    why="A worn tooth is weak, and its play multiplies the blow of every start.",
+    formula="w/(pi m/2) <= 0.25 or 0.40",
+    source="lecture notes Kramatorsk 2007",
+)
+
+CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR)

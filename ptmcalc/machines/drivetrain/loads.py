@@ -1,0 +1,84 @@
+"""The loads a drive train can report: most of them once for each of its parts."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo
+from ptmcalc.machines.drivetrain.spec import Drivetrain
+
+TORQUE_PEAK = LoadInfo("torque_peak", "largest torque", units.TORQUE)
+TORQUE_STEADY = LoadInfo("torque_steady", "torque of the rigid train at the end", units.TORQUE)
+DYNAMIC_FACTOR = LoadInfo("dynamic_factor", "largest torque over that of the rigid train", units.RATIO)
+SPEED_MAX = LoadInfo("speed_max", "largest speed", units.ANGULAR_SPEED)
+SPEED_MIN = LoadInfo("speed_min", "smallest speed", units.ANGULAR_SPEED, headline=False)
+SPEED_END = LoadInfo("speed_end", "speed at the end", units.ANGULAR_SPEED)
+ANGLE_END = LoadInfo("angle_end", "angle at the end", units.ANGLE, headline=False)
+START_TIME = LoadInfo("start_time", "start time", units.TIME)
+STOP_TIME = LoadInfo("stop_time", "stop time", units.TIME)
+STOP_ANGLE = LoadInfo("stop_angle", "way of the stop", units.ANGLE)
+START_BY_TERMS = LoadInfo("start_time_by_terms", "start time, efficiency term by term", units.TIME)
+STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stop time, efficiency term by term", units.TIME)
+MOTOR_PEAK = LoadInfo("motor_torque_peak", "largest motor torque", units.TORQUE)
+MOTOR_RMS = LoadInfo("motor_torque_rms", "heating motor torque (rms)", units.TORQUE)
+FREQUENCY = LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY)
+SEPARATION = LoadInfo("resonance_separation", "distance of an excitation from resonance", units.SHARE)
+WEAR = LoadInfo("wear_share", "worn part of the tooth", units.SHARE)
+RESIDUAL = LoadInfo("energy_residual", "energy the ledger leaves over", units.RATIO, headline=False)
+
+LOADS = (
+    TORQUE_PEAK,
+    TORQUE_STEADY,
+    DYNAMIC_FACTOR,
+    START_TIME,
+    START_BY_TERMS,
+    STOP_TIME,
+    STOP_BY_TERMS,
+    STOP_ANGLE,
+    MOTOR_PEAK,
+    MOTOR_RMS,
+    SPEED_MAX,
+    SPEED_END,
+    SPEED_MIN,
+    ANGLE_END,
+    SEPARATION,
+    WEAR,
+    FREQUENCY,
+    RESIDUAL,
+)
+FAMILIES = frozenset(info.name for info in LOADS)
+MOVING = FAMILIES - {info.name for info in (FREQUENCY, SEPARATION, WEAR, DYNAMIC_FACTOR, START_BY_TERMS, STOP_BY_TERMS)}
+"""What a motion of the train gives, elastic or rigid."""
+
+
+def parts(spec: Drivetrain) -> Iterator[LoadInfo]:
+    """The loads of one train."""
+    ends = {name: link.body for name, link in spec.links.items()}
+    ends |= {name: gear.end for name, gear in spec.gears.items()}
+    for info in LOADS:
+        if info in (TORQUE_PEAK, TORQUE_STEADY, DYNAMIC_FACTOR):
+            for name, end in ends.items():
+                force = info.quantity is units.TORQUE and not spec.turns(end)
+                yield info.of(name, units.FORCE if force else None)
+        elif info in (SPEED_MAX, SPEED_END, SPEED_MIN, ANGLE_END):
+            other = units.LENGTH if info is ANGLE_END else units.SPEED
+            for name in spec.inertias:
+                yield info.of(name, None if spec.turns(name) else other)
+        elif info in (MOTOR_PEAK, MOTOR_RMS):
+            for name in spec.motors:
+                yield info.of(name)
+        elif info is WEAR:
+            for name, link in spec.links.items():
+                if link.clearance is not None:
+                    yield info.of(name)
+        elif info is FREQUENCY:
+            for number in range(1, len(spec.inertias) + len(spec.links) + 1):
+                yield info.of(str(number))
+        elif info is SEPARATION:
+            for name, torque in spec.torques.items():
+                if torque.type == "sine":
+                    yield info.of(name)
+        elif info is STOP_ANGLE:
+            turns = spec.turns(spec.stopped)
+            yield info if turns else LoadInfo(info.name, info.title, units.LENGTH)
+        else:
+            yield info

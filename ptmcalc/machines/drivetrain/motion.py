@@ -1,0 +1,295 @@
+"""A scene played through, and the loads read from it with their bars."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Event, Finding, Found, History, of
+from ptmcalc.machines.drivetrain.loads import parts
+from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
+from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+from ptmcalc.numerics.piecewise import JAMMED, Record, march
+from ptmcalc.numerics.train.ledger import Ledger, ledger
+from ptmcalc.numerics.train.modes import frequencies
+from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth
+from ptmcalc.numerics.train.system import TrainSystem
+
+COARSER = 16.0
+"""Tolerance of the first of two runs over that of the second."""
+_CLOSES = 1e-9
+_FLOOR = 1e-12
+_LONGEST, _FIRST = 4096.0, 0.25
+_CHATTER, _LAST_PART = 60, 0.05
+_PERIODS = 10
+_FADES = 25.0
+_DUST = 1e-11
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """One run of a case."""
+
+    case: Case
+    system: TrainSystem
+    record: Record
+    ledger: Ledger
+
+    @property
+    def smooth(self) -> bool:
+        """Whether a nonlinear torque took part."""
+        train = self.case.train
+        laws = (stage.law for drive in train.drives for stage in drive.stages)
+        return any(isinstance(law, Smooth) for law in laws) or any(one.law == HUNT_CROSSLEY for one in train.springs)
+
+    def index(self, what: str, name: str) -> int | None:
+        """Index of a watched signal of a body, link, gear, motor or brake."""
+        train = self.case.train
+        named: Mapping[str, Sequence[Any]] = {"link": train.springs, "mesh": train.meshes, "drive": train.drives}
+        names = [part.name for part in named.get(what, train.bodies)]
+        return self.system.watched[what, names.index(name)] if name in names else None
+
+    def torque(self, name: str) -> int | None:
+        """Index of the torque of a link, or of the gear a rigid train has in its place."""
+        found = self.index("link", name)
+        return found if found is not None else self.index("mesh", name)
+
+    def largest(self, index: int) -> tuple[float, float]:
+        """Largest magnitude of a signal and its time."""
+        top, bottom = self.record.top, self.record.bottom
+        high, low = float(top.values[index]), float(bottom.values[index])
+        if high >= -low:
+            return high, float(top.at[index])
+        return -low, float(bottom.at[index])
+
+
+def run(case: Case, end: float, tolerance: float, refined: float = 1.0, *, keep: bool = False) -> Course:
+    """One run of a case to a time."""
+    system = TrainSystem(case.train)
+    start = system.start()
+    record = march(system, *start, end, tolerance=tolerance, refined=refined, keep=keep)
+    return Course(case, system, record, ledger(system, start, record))
+
+
+# -- how long -------------------------------------------------------------------------------------------------------
+
+
+def window(scene: TrainScene, case: Case) -> float:
+    """How long a scene is looked at [s].
+
+    What the file says; else 1.2 times the rigid train's start or stop and ten periods of the lowest natural
+    frequency, so that the last oscillation has met its peak.
+    """
+    if scene.duration is not None:
+        return scene.duration
+    lowest = float(frequencies(case.train).min(initial=math.inf))
+    ringing = _PERIODS * 2 * math.pi / lowest if math.isfinite(lowest) else 0.0
+    return 1.2 * _rigid_time(rigid(case)) + ringing
+
+
+@lru_cache(maxsize=64)
+def _rigid_time_of(key: "_Identity") -> float:
+    case, end = key.case, _FIRST
+    while end <= _LONGEST:
+        course = run(case, end, 1e-6)
+        found = ended(course)
+        if math.isfinite(found):
+            return max(found, 1e-3)
+        end *= 4
+    return _LONGEST / 64
+
+
+@dataclass(frozen=True, slots=True)
+class _Identity:
+    case: Case
+
+    def __hash__(self) -> int:
+        return id(self.case.train)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Identity) and self.case is other.case
+
+
+def _rigid_time(case: Case) -> float:
+    return _rigid_time_of(_Identity(case))
+
+
+def ended(course: Course) -> float:
+    """When the start or stop was over [s]; infinite where it was not."""
+    return stopped(course) if course.case.stopping else reached(course)
+
+
+def reached(course: Course) -> float:
+    """When the main inertia first had the speed that ends a start."""
+    times = (event.time for event in course.record.events if event.element == REACHED and event.after == "started")
+    return float(next(times, math.inf))
+
+
+def stopped(course: Course) -> float:
+    """When the main inertia came to rest for good; 0 where it never moved, infinite where it still does."""
+    system, case = course.system, course.case
+    group = system.groups.of[case.main]
+    if course.record.mode.turning[group] != 0:
+        return math.inf
+    name = system.friction_name(group)
+    times = [event.time for event in course.record.events if event.element == name and event.after == "at rest"]
+    return float(times[-1]) if times else 0.0
+
+
+# -- what is read ---------------------------------------------------------------------------------------------------
+
+Readings = dict[str, tuple[float, float | None]]
+"""Value of each load, and the time at which it occurs where there is one."""
+
+
+def readings(spec: Drivetrain, course: Course) -> Readings:
+    """The loads of a run."""
+    record, case = course.record, course.case
+    found: Readings = {}
+    for name in (*spec.links, *spec.gears):
+        index = course.torque(name)
+        if index is not None:
+            found[of("torque_peak", name)] = course.largest(index)
+    for name in spec.inertias:
+        index, place = course.index("speed", name), course.index("position", name)
+        assert index is not None
+        assert place is not None
+        top, bottom = record.top, record.bottom
+        found[of("speed_max", name)] = float(top.values[index]), float(top.at[index])
+        found[of("speed_min", name)] = float(bottom.values[index]), float(bottom.at[index])
+        found[of("speed_end", name)] = float(record.last[index]), None
+        found[of("angle_end", name)] = float(record.last[place]), None
+    for name in spec.motors:
+        index = course.index("drive", name)
+        if index is not None:
+            found[of("motor_torque_peak", name)] = course.largest(index)
+            number = [drive.name for drive in case.train.drives].index(name)
+            square = record.integrals[list(course.system.works).index(("square", number))]
+            time = spec.checks.cycle_time or record.time
+            found[of("motor_torque_rms", name)] = math.sqrt(max(float(square), 0.0) / time), None
+    if case.stopping:
+        found["stop_time"] = stopped(course), None
+        place = course.index("position", case.bodies[case.main])
+        assert place is not None
+        moved = abs(float(record.last[place] - record.first[place]))
+        found["stop_angle"] = moved if math.isfinite(found["stop_time"][0]) else math.inf, None
+    elif case.until is not None:
+        found["start_time"] = reached(course), None
+    return {name: _without_dust(name, found) for name in found}
+
+
+def _without_dust(name: str, found: Readings) -> tuple[float, float | None]:
+    """A reading, 0 where it is no more than rounding beside the largest one of its kind."""
+    value, time = found[name]
+    if "[" not in name:
+        return value, time
+    alike = [abs(one) for other, (one, _) in found.items() if _kind(other) == _kind(name)]
+    return (0.0 if abs(value) <= _DUST * max(alike) else value), time
+
+
+def _kind(name: str) -> tuple[str, str]:
+    """What is read and of which part: the largest, smallest and last speed of a body are of one kind."""
+    family, _, part = name.partition("[")
+    return family.removesuffix("_max").removesuffix("_min").removesuffix("_end"), part
+
+
+def loads(spec: Drivetrain, coarse: Course, fine: Course) -> dict[str, Found]:
+    """The loads of the finer of two runs, with bars.
+
+        bar = |coarse - fine|/4 + 1e-12 of the value   with a nonlinear torque
+        bar = |coarse - fine| + 1e-12 of the value     without: both runs are exact, what differs is rounding
+
+    The first run has 16 times the tolerance of the second, so its error, which is nearly the difference, is about 16
+    times that of the second: a quarter of it leaves a factor 4. Two exact runs on unlike panels share no rounding.
+    """
+    share = 0.25 if fine.smooth else 1.0
+    one, two = readings(spec, coarse), readings(spec, fine)
+    found = {}
+    for name, (value, time) in two.items():
+        other = one[name][0]
+        at = {"time": time} if time is not None else {}
+        if not math.isfinite(value) or not math.isfinite(other):
+            found[name] = Found(Estimate.exact(value) if value == other else Estimate.unknown(value), at)
+            continue
+        found[name] = Found(Estimate.within(value, share * abs(value - other) + _FLOOR * abs(value)), at)
+    found["energy_residual"] = Found(Estimate.exact(fine.ledger.residual))
+    return found
+
+
+def untrusted(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float) -> Finding | None:
+    """What there is to say of a run whose energy ledger does not close."""
+    closes = 10 * tolerance if course.smooth else _CLOSES
+    if course.ledger.residual <= closes:
+        return None
+    return Finding(
+        "NUM101",
+        f"scene `{scene.label}`: the energy ledger leaves {course.ledger.residual:.1e} over, more than {closes:.0e};"
+        " the numbers are not trusted",
+    )
+
+
+def remarks(scene: TrainScene, course: Course) -> Iterator[Finding]:
+    """What happened on the way that a reader must know."""
+    for event in course.record.events:
+        if event.after == JAMMED:
+            yield Finding(
+                "NUM104",
+                f"scene `{scene.label}`: {event.element} jams at {event.time:.4g} s: a self-locking gear cannot be"
+                " braked from its motor's side against so much inertia; it is taken to stop at once",
+                ("gears", event.element),
+            )
+    late = (1 - _LAST_PART) * course.record.time
+    counted: dict[str, int] = {}
+    for event in course.record.events:
+        if event.time >= late:
+            counted[event.element] = counted.get(event.element, 0) + 1
+    for name, times in counted.items():
+        if times > _CHATTER:
+            yield Finding(
+                "NUM106",
+                f"scene `{scene.label}`: {name} changes its state {times} times in the last part of the scene",
+            )
+
+
+def events(course: Course) -> tuple[Event, ...]:
+    """The events of a run, for the report."""
+    main = course.case.bodies[course.case.main]
+    return tuple(
+        Event(float(one.time), main, "starting", "at speed")
+        if one.element == REACHED
+        else Event(float(one.time), one.element, one.before, one.after)
+        for one in course.record.events
+    )
+
+
+def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Mapping[str, History]:
+    """Torques, speeds and angles over time, from a run that keeps them."""
+    course = run(case, end, tolerance, keep=True)
+    samples = course.record.samples
+    assert samples is not None
+    times = np.concatenate(samples.times).tolist()
+    values = np.concatenate(samples.values)
+    quantities = {info.name: info.quantity for info in parts(spec)}
+    signals = {of("torque_peak", name): course.torque(name) for name in (*spec.links, *spec.gears)}
+    signals |= {of("speed_max", name): course.index("speed", name) for name in spec.inertias}
+    signals |= {of("angle_end", name): course.index("position", name) for name in spec.inertias}
+    signals |= {of("motor_torque_peak", name): course.index("drive", name) for name in spec.motors}
+    return {
+        name: History(quantities[name], times, values[:, index].tolist())
+        for name, index in signals.items()
+        if index is not None
+    }
+
+
+def radians_to_see(case: Case, end: float) -> float:
+    """Radians of the fastest component that a run must resolve: all of them, or until its damping has made it fade."""
+    values = frequencies(case.train)
+    if not len(values):
+        return 1.0
+    damped = min((one.damping / one.stiffness for one in case.train.springs if one.stiffness), default=0.0)
+    radians = values * np.minimum(end, _FADES / (values**2 * damped / 2) if damped else end)
+    return float(radians.max())

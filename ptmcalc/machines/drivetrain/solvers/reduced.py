@@ -1,0 +1,98 @@
+"""The whole train as one rigid shaft, losses by the sign of the torque through each gear."""
+
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.drivetrain import motion
+from ptmcalc.machines.drivetrain.effects import elasticity_criterion
+from ptmcalc.machines.drivetrain.loads import MOVING
+from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.solvers.elastic import TOLERANCES
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
+
+
+def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene with every link rigid and without play.
+
+        (sum J_i u_i^2, with efficiencies) e = sum of reduced torques
+
+    The efficiency of a gear goes by the direction of the power through it, of static and inertial torque together.
+    What is left of the freedom of the train, a clutch or a link to the ground, is kept.
+
+    **Range** any train.
+    **Error** bars from two runs; what the links' elasticity changes is in the bound of the effect `elasticity`.
+    **Source** lecture notes Kramatorsk 2007 (reduction of masses); efficiency by the total torque, derived in
+    `laws.gearing`.
+    """
+    case = rigid(case_of(spec, scene, backlash=False))
+    end = motion.window(scene, case_of(spec, scene))
+    coarse = motion.run(case, end, TOLERANCES[1] * motion.COARSER, refined=0.7)
+    fine = motion.run(case, end, TOLERANCES[1])
+    loads = motion.loads(spec, coarse, fine)
+    for name in (*spec.links, *spec.gears):
+        index = fine.torque(name)
+        if index is not None:
+            loads[of("torque_steady", name)] = Found(Estimate.exact(abs(float(fine.record.last[index]))))
+    broken = motion.untrusted(spec, scene, fine, TOLERANCES[1])
+    if broken is not None:
+        loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
+    return Result(
+        loads,
+        work=coarse.record.steps + fine.record.steps,
+        window=(0.0, fine.record.time),
+        health={"energy_residual": fine.ledger.residual, "steps": float(fine.record.steps)},
+        findings=(broken,) if broken else (),
+        events=motion.events(fine),
+        histories=lambda: motion.histories(spec, case, end, TOLERANCES[1]),
+    )
+
+
+def valid(spec: Drivetrain, scene: TrainScene) -> Criterion:
+    """Whether the links' elasticity is small enough to be left to its bound.
+
+        E < 0.05, the criterion of the effect `elasticity`
+
+    **Range** any train; one whose file leaves elasticity out is rigid whatever E.
+    **Error** none: the threshold of the effect.
+    **Source** `machines.drivetrain.bounds`.
+    """
+    number = elasticity_criterion(spec, scene)
+    return replace(number, value=0.0) if spec.effects.get("elasticity") == "off" else number
+
+
+REDUCED: Solver[Drivetrain, TrainScene] = Solver(
+    name="reduced",
+    title="one rigid shaft, with intervals that hold the links' swings",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Run, Start, Stop}),
+    represents=frozenset(),
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: 5e-3,
+    source="lecture notes Kramatorsk 2007; efficiency by the total torque, ptmcalc.laws.gearing",
+    valid=valid,
+)
+
+
+def _elastic(spec: Drivetrain, scene: TrainScene) -> Criterion:
+    """Whether a richer run decides, beside which the one shaft is shown.
+
+        E >= 0.05
+
+    **Range** any train.
+    **Error** none.
+    **Source** as `valid`.
+    """
+    return Criterion("-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one shaft decides itself", "")
+
+
+ONE_SHAFT: Solver[Drivetrain, TrainScene] = replace(
+    REDUCED,
+    name="one_shaft",
+    title="the whole train reduced to one shaft",
+    valid=_elastic,
+    decides=False,
+)

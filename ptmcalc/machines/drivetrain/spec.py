@@ -1,0 +1,584 @@
+"""How a designer writes a drive train: inertias, links, gears, brakes, what drives and what resists."""
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.base.span import KeyPath
+from ptmcalc.base.units import Quantity
+from ptmcalc.components.motor import AnyMotor
+from ptmcalc.machines.drivetrain.bodies import AnyBody
+from ptmcalc.machines.drivetrain.wiring import GROUND, wiring
+from ptmcalc.spec.fields import (
+    Efficiency,
+    Fraction,
+    Inertia,
+    Mass,
+    Measure,
+    PositiveLength,
+    PositiveTime,
+    Time,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.scene import Scene
+
+
+def either(rotation: Quantity, translation: Quantity, **limits: float) -> Measure:
+    """A quantity of a part that turns, or the like one of a part that travels."""
+    return Measure(rotation, or_else=translation, **limits)
+
+
+Turn = Annotated[float, either(units.ANGLE, units.LENGTH)]
+Play = Annotated[float, either(units.ANGLE, units.LENGTH, at_least=0)]
+AnySpeed = Annotated[float, either(units.ANGULAR_SPEED, units.SPEED)]
+Torque = Annotated[float, either(units.TORQUE, units.FORCE)]
+PositiveTorque = Annotated[float, either(units.TORQUE, units.FORCE, above=0)]
+TorqueOrNone = Annotated[float, either(units.TORQUE, units.FORCE, at_least=0)]
+Stiffness = Annotated[float, either(units.TORSIONAL_STIFFNESS, units.STIFFNESS, above=0)]
+Damping = Annotated[float, either(units.TORSIONAL_DAMPING, units.DAMPING, at_least=0)]
+AnyImpulse = Annotated[float, either(units.ANGULAR_IMPULSE, units.IMPULSE)]
+AngularFrequency = Annotated[float, Measure(units.ANGULAR_FREQUENCY, above=0)]
+Frequency = Annotated[float, Measure(units.FREQUENCY, above=0)]
+Exponent = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
+StaticRatio = Annotated[float, Measure(units.FACTOR, at_least=1)]
+ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
+GearRatio = Annotated[float, Measure(units.RATIO)]
+
+
+class Body(Fragment):
+    """An inertia of the train: it turns (`inertia` or `body`) or travels (`mass`)."""
+
+    inertia: Inertia | None = None
+    """moment of inertia; 0 is allowed only on a shaft that a gear ties to another inertia"""
+    mass: Mass | None = None
+    """mass of a part that travels"""
+    body: AnyBody | None = None
+    """a body whose inertia is computed from its dimensions"""
+    position: Turn = 0.0
+    """angle or position at the start"""
+    speed: AnySpeed | None = None
+    """speed at the start; that of the scene, or rest, when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The inertia is given in one way."""
+        yield from exactly_one(given, "inertia", "mass", "body")
+
+    @property
+    def turns(self) -> bool:
+        """Whether it turns."""
+        return self.mass is None
+
+    @property
+    def size(self) -> float:
+        """Moment of inertia or mass [kg*m^2 or kg]."""
+        if self.body is not None:
+            return self.body.inertia
+        size = self.inertia if self.mass is None else self.mass
+        assert size is not None
+        return size
+
+
+class Clearance(Fragment):
+    """The play of a gear or toothed coupling from its geometry."""
+
+    centre_distance: PositiveLength | None = None
+    """with `accuracy_class`: least clearance of new spur gears, a*cbrt(A) (a reading of a lost table)"""
+    accuracy_class: Literal[2, 3, 4] | None = None
+    """accuracy class of the old standard the table was made for"""
+    value: PositiveLength | None = None
+    """clearance of the new gear along the pitch circle, instead of the two"""
+    pitch_radius: PositiveLength
+    """of the wheel on the shaft of the link's first inertia"""
+    module: PositiveLength | None = None
+    """needed with `wear`"""
+    wear: Annotated[float, Measure(units.LENGTH, at_least=0)] = 0.0
+    """thickness lost by a tooth"""
+    both_worn: bool = True
+    """whether both gears have lost it"""
+    kind: Literal["gearbox", "coupling", "open_gear"] = "gearbox"
+    """what the wear is held against: 25 % of the tooth in gearboxes and couplings, 40 % in open gears"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The clearance is measured, or comes from the table."""
+        if "accuracy_class" not in given and "centre_distance" not in given:
+            yield from exactly_one(given, "value", "centre_distance")
+        else:
+            yield from at_most_one(given, "centre_distance", "value")
+            for one, other in (("centre_distance", "accuracy_class"), ("accuracy_class", "centre_distance")):
+                yield from together(given, one, other, "the table needs centre distance and accuracy class")
+        wear = given.number("wear")
+        if wear:
+            yield from together(given, "wear", "module", "wear is a share of the tooth")
+
+
+class Link(Fragment):
+    """An elastic link between two inertias, or between an inertia and the ground."""
+
+    between: Annotated[tuple[str, ...], Field(min_length=2, max_length=2)]
+    """names of two inertias, or of one and `ground`; a positive torque drives the second"""
+    stiffness: Stiffness | None = None
+    """of the whole link; a `rigid` contact has none"""
+    damping: Damping = 0.0
+    """viscous damping of the link"""
+    gap: Play | None = None
+    """the whole play, half of it to either side"""
+    clearance: Clearance | None = None
+    """the play from a gear's geometry, instead of `gap`"""
+    slack: Play | None = None
+    """a rope or chain: it pulls only, and only after so much travel"""
+    law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
+    """how contact is made and lost; `clamped` with a gap, `no_pull` with slack when left out"""
+    dissipation: Annotated[float, Measure(units.RATIO, at_least=0)] | None = None
+    """c in F = k d^n (1 + 1.5 c d'), in s/rad or s/m (`hunt_crossley`)"""
+    exponent: Exponent = 1.0
+    """n of `hunt_crossley`"""
+    restitution: Fraction = 0.0
+    """of a `rigid` contact"""
+    start: Literal["centred", "driving", "braking"] = "centred"
+    """where in its play the link stands at the start: `driving` touches on the side of a positive torque"""
+    preload: Torque = 0.0
+    """torque in the link at the start; with `slack` and `driving` the rope is taut"""
+    limit: PositiveTorque | None = None
+    """largest torque the link may carry"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """What a contact needs."""
+        yield from at_most_one(given, "gap", "clearance")
+        for key in ("gap", "clearance"):
+            yield from at_most_one(given, "slack", key)
+        law = given.word("law")
+        contact = any(key in given for key in ("gap", "clearance", "slack"))
+        if law is not None and not contact:
+            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no play", "add `gap: 0 deg`")
+        if law == "rigid":
+            for key in ("stiffness", "damping"):
+                if key in given:
+                    yield Conflict((key,), "a rigid contact has none", f"delete `{key}`, or write `law: clamped`")
+        elif "stiffness" not in given:
+            yield given.missing("stiffness", "an elastic link needs its `stiffness`")
+        for key, wanted in (("dissipation", "hunt_crossley"), ("exponent", "hunt_crossley"), ("restitution", "rigid")):
+            if key in given and law != wanted and (law is not None or "law" not in given):
+                yield Conflict((key,), f"it belongs to `law: {wanted}`", f"delete it, or write `law: {wanted}`")
+        if law == "hunt_crossley" and "damping" in given:
+            yield Conflict(("damping",), "`hunt_crossley` is damped by `dissipation`", "delete `damping`")
+
+    @property
+    def body(self) -> str:
+        """The first inertia it is tied to."""
+        return next(name for name in self.between if name != GROUND)
+
+    @property
+    def contact_law(self) -> str:
+        """The law of contact, or `linear` without play."""
+        if self.law is not None:
+            return self.law
+        if self.slack is not None:
+            return "no_pull"
+        return "linear" if self.gap is None and self.clearance is None else "clamped"
+
+
+class Gear(Fragment):
+    """A gear without elasticity, or a drum that makes travel out of rotation."""
+
+    start: str = Field(alias="from")
+    """the inertia on the motor's side"""
+    end: str = Field(alias="to")
+    """the inertia on the load's side"""
+    ratio: GearRatio | None = None
+    """speed of `from` over speed of `to`; negative where it reverses"""
+    radius: Annotated[float, Measure(units.LENGTH, above=0)] | None = None
+    """of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
+    efficiency: Efficiency = 1.0
+    """while power flows from `from` to `to`"""
+    reverse_efficiency: ReverseEfficiency | None = None
+    """while it flows back; 2 - 1/efficiency when left out, negative for a self-locking gear"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A ratio or a radius, and not the same inertia twice."""
+        yield from exactly_one(given, "ratio", "radius")
+        if given.number("ratio") == 0:
+            yield Conflict(("ratio",), "a gear of ratio 0 transmits nothing", "write the speed ratio")
+
+    @property
+    def speed_ratio(self) -> float:
+        """Speed of `from` over speed of `to` [1 or rad/m]."""
+        if self.ratio is not None:
+            return self.ratio
+        assert self.radius is not None
+        return 1 / self.radius
+
+    @property
+    def back(self) -> float:
+        """Efficiency of power that flows back."""
+        return self.reverse_efficiency if self.reverse_efficiency is not None else 2 - 1 / self.efficiency
+
+
+class Brake(Fragment):
+    """A brake against the ground, or a clutch between two inertias (Coulomb friction)."""
+
+    on: str
+    """the inertia it acts on"""
+    against: str = "ground"
+    """`ground`, or the inertia on the other side of a clutch"""
+    torque: PositiveTorque
+    """torque or force while it slips, fully applied"""
+    static_ratio: StaticRatio = 1.0
+    """torque that it holds at rest over that"""
+    delay: Time = 0.0
+    """from the command until it begins to act"""
+    rise_time: Time = 0.0
+    """from then until it acts fully; the time constant of an exponential rise"""
+    rise: Literal["linear", "exponential"] = "linear"
+    """how it comes up"""
+    applied: Literal["when_stopping", "always", "never"] = "when_stopping"
+    """in which scenes the command is given, at their start"""
+    below: AnySpeed | None = None
+    """the command is only given when the speed of `on` has fallen to this"""
+
+
+class Resistance(Fragment):
+    """Resistance to the motion of an inertia."""
+
+    on: str
+    """the inertia it acts on"""
+    coulomb: TorqueOrNone = 0.0
+    """dry friction, against the motion whatever the speed"""
+    static_ratio: StaticRatio = 1.0
+    """what must be overcome at rest over that"""
+    viscous: Damping = 0.0
+    """per speed"""
+
+
+class OnInertia(Fragment):
+    """What acts on one inertia."""
+
+    on: str
+    """the inertia it acts on"""
+    acts: Literal["always", "when_running"] = "always"
+    """`when_running`: not in scenes of the type `stop`"""
+
+
+class ConstantTorque(OnInertia):
+    """A torque or force that does not change: a weight, a hanging load."""
+
+    type: Literal["constant"]
+    torque: Torque
+    """positive in the direction of motion"""
+    delay: Time = 0.0
+    """when it sets in"""
+
+
+class RisingTorque(OnInertia):
+    """A torque that changes linearly with time."""
+
+    type: Literal["ramp"]
+    torque: Torque
+    """at the end of the ramp, and after it"""
+    first: Torque = 0.0
+    """at the start of the scene"""
+    time: PositiveTime
+    """duration of the ramp"""
+
+
+class SineTorque(OnInertia):
+    """A harmonic torque: mean + amplitude sin(w t + phase)."""
+
+    type: Literal["sine"]
+    amplitude: Torque
+    """half of its swing"""
+    frequency: Frequency | None = None
+    """cycles per second"""
+    angular_frequency: AngularFrequency | None = None
+    """w itself, instead of `frequency`"""
+    mean: Torque = 0.0
+    """round which it swings"""
+    phase: Annotated[float, Measure(units.ANGLE)] = 0.0
+    """of the sine at the start of the scene"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The frequency is given in one way."""
+        yield from exactly_one(given, "frequency", "angular_frequency")
+
+    @property
+    def omega(self) -> float:
+        """Angular frequency [rad/s]."""
+        return self.angular_frequency or 2 * math.pi * (self.frequency or 0.0)
+
+
+class TimePoint(Fragment):
+    """A torque at a time."""
+
+    time: Time
+    torque: Torque
+
+
+class SpeedPoint(Fragment):
+    """A torque at a speed."""
+
+    speed: AnySpeed
+    torque: Torque
+
+
+class PositionPoint(Fragment):
+    """A torque at an angle or position."""
+
+    position: Turn
+    torque: Torque
+
+
+class OverTime(OnInertia):
+    """A torque over time, straight between points; the last holds on."""
+
+    type: Literal["over_time"]
+    points: Annotated[tuple[TimePoint, ...], Field(min_length=2, max_length=2000)]
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Times increase."""
+        yield from rising(given, "time")
+
+
+class OverSpeed(OnInertia):
+    """A torque over the speed of its inertia; the ends hold outside."""
+
+    type: Literal["over_speed"]
+    points: Annotated[tuple[SpeedPoint, ...], Field(min_length=2, max_length=500)]
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Speeds increase."""
+        yield from rising(given, "speed")
+
+
+class OverPosition(OnInertia):
+    """A torque over the angle or position of its inertia."""
+
+    type: Literal["over_position"]
+    points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
+    period: Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None = None
+    """the table repeats after so much travel; its last point is then one period behind the first"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Positions increase; a table that repeats spans its period."""
+        yield from rising(given, "position")
+        period = given.number("period")
+        points = given.blocks("points")
+        places = [point.number("position") if point else None for point in points]
+        known = [place for place in places if place is not None]
+        if period is not None and 1 < len(known) == len(places) and abs(known[-1] - known[0] - period) > 1e-9 * period:
+            yield Conflict(("period",), "the points do not span one period", "give the first point again at the end")
+
+
+def rising(given: Given, key: str) -> Iterator[Conflict]:
+    """Points of a table in order."""
+    numbers = [point.number(key) if point else None for point in given.blocks("points")]
+    for index, (one, other) in enumerate(pairwise(numbers), 1):
+        if one is not None and other is not None and not other > one:
+            reason = f"the `{key}` of a point is not above the one before"
+            yield Conflict(("points", index, key), reason, "sort the points")
+            return
+
+
+AnyTorque = Annotated[
+    ConstantTorque | RisingTorque | SineTorque | OverTime | OverSpeed | OverPosition, Field(discriminator="type")
+]
+
+
+class MotorOn(Fragment):
+    """A motor on an inertia; it is off in scenes of the type `stop`."""
+
+    on: str
+    """the inertia it acts on"""
+    motor: AnyMotor
+    """what its torque is"""
+    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    """number of equal motors"""
+    off_after: PositiveTime | None = None
+    """it is switched off after so much time"""
+    off_delay: Time = 0.0
+    """in a `stop`: how long it still drives"""
+
+
+class MotionPoint(Fragment):
+    """A speed at a time."""
+
+    time: Time
+    speed: AnySpeed
+
+
+class Motion(Fragment):
+    """A prescribed motion of an inertia, straight between the points of its speed."""
+
+    on: str
+    """the inertia it acts on"""
+    points: Annotated[tuple[MotionPoint, ...], Field(min_length=1, max_length=500)]
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Times increase, from 0 on."""
+        yield from rising(given, "time")
+        first = next(iter(given.blocks("points")), None)
+        if first is not None and first.number("time") not in (None, 0.0):
+            yield Conflict(("points", 0, "time"), "the motion is known from time 0 on", "write `0 s`")
+
+
+class Impulse(Fragment):
+    """A blow: a sudden change of momentum."""
+
+    on: str
+    """the inertia it acts on"""
+    time: PositiveTime
+    """when"""
+    size: AnyImpulse
+    """torque times time, or force times time"""
+
+
+class DrivetrainChecks(CheckSettings):
+    """Limits of the checks of a drive train."""
+
+    start_time: PositiveTime | None = None
+    """longest start"""
+    stop_time: PositiveTime | None = None
+    """longest stop"""
+    stop_angle: Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None = None
+    """longest way of a stop"""
+    resonance_margin: Fraction = 0.2
+    """least distance of an exciting frequency from a natural one, as a share of the natural one"""
+    cycle_time: PositiveTime | None = None
+    """time over which a motor's heating torque is taken; the scene's own time when left out"""
+
+
+class TrainScene(Scene):
+    """Base of the scenes of a drive train."""
+
+    duration: PositiveTime | None = None
+    """how long the scene is looked at"""
+    of: str | None = None
+    """the inertia the scene is about; the first motor's, or the first one, when left out"""
+    speed: AnySpeed | None = None
+    """speed of that inertia at the start; the others turn with it"""
+    links: Literal["relaxed", "loaded"] | None = None
+    """whether links start without torque, or with the one the loads put into them; `loaded` in a `stop`"""
+
+
+class Run(TrainScene):
+    """The train for a given time."""
+
+    type: Literal["run"] = "run"
+    duration: PositiveTime
+
+
+class Start(TrainScene):
+    """A start from rest: brakes are off, motors drive."""
+
+    type: Literal["start"] = "start"
+    until: AnySpeed | None = None
+    """the start is over when the inertia the scene is about reaches this speed; 95 % of the motor's when left out"""
+
+
+class Stop(TrainScene):
+    """A stop: motors off, brakes applied."""
+
+    type: Literal["stop"] = "stop"
+
+
+AnyScene = Annotated[Run | Start | Stop, Field(discriminator="type")]
+
+
+class Drivetrain(MachineSpec):
+    """Inertias on a shaft or on a line, tied by gears and elastic links."""
+
+    kind: Literal["drivetrain"]
+    inertias: Annotated[dict[str, Body], Field(min_length=1, max_length=40)]
+    """what moves, by name"""
+    links: dict[str, Link] = Field(default_factory=dict)
+    """elastic links, by name"""
+    gears: dict[str, Gear] = Field(default_factory=dict)
+    """rigid gears and drums, by name"""
+    brakes: dict[str, Brake] = Field(default_factory=dict)
+    """brakes and clutches, by name"""
+    motors: dict[str, MotorOn] = Field(default_factory=dict)
+    """motors, by name"""
+    torques: dict[str, AnyTorque] = Field(default_factory=dict)
+    """torques and forces that are no motors: weights, working loads, excitations"""
+    resistances: dict[str, Resistance] = Field(default_factory=dict)
+    """friction, by name"""
+    motions: dict[str, Motion] = Field(default_factory=dict)
+    """prescribed motions, by name"""
+    impulses: dict[str, Impulse] = Field(default_factory=dict)
+    """blows, by name"""
+    checks: DrivetrainChecks = DrivetrainChecks()
+    """limits, and checks switched off by code"""
+    scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
+    """what happens; a start, when left out"""
+
+    PARTS: ClassVar[tuple[str, ...]] = (
+        "links",
+        "gears",
+        "brakes",
+        "motors",
+        "torques",
+        "resistances",
+        "motions",
+        "impulses",
+    )
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Every part is tied to inertias that are there, in quantities of their kind."""
+        yield from super().conflicts(given)
+        yield from wiring(given, cls.PARTS)
+
+    @property
+    def all_scenes(self) -> Sequence[TrainScene]:
+        """The scenes of the file, or a start."""
+        return self.scenes if self.scenes is not None else (Start(),)
+
+    @property
+    def settings(self) -> CheckSettings:
+        """The limits and switches of the file."""
+        return self.checks
+
+    def turns(self, name: str) -> bool:
+        """Whether an inertia turns, not travels."""
+        return self.inertias[name].turns
+
+    def quantity_at(self, path: KeyPath, measure: Measure) -> Quantity:
+        """The quantity of a number: that of the inertia its part acts on."""
+        if measure.or_else is None or self._turning_at(path):
+            return measure.quantity
+        return measure.or_else
+
+    def _turning_at(self, path: KeyPath) -> bool:
+        if path[0] == "inertias":
+            return self.turns(str(path[1]))
+        if path[0] == "scenes" and isinstance(path[1], int):
+            return self.turns(self.main(self.all_scenes[path[1]]))
+        if path[0] == "checks":
+            return self.turns(self.stopped)
+        part: Any = getattr(self, str(path[0]))[path[1]]
+        return self.turns(part.body if isinstance(part, Link) else part.on)
+
+    @property
+    def stopped(self) -> str:
+        """The inertia whose way the stops are about."""
+        return self.main(next((scene for scene in self.all_scenes if isinstance(scene, Stop)), None))
+
+    def main(self, scene: TrainScene | None = None) -> str:
+        """The inertia a scene is about."""
+        if scene is not None and scene.of is not None:
+            return scene.of
+        if self.motors:
+            return next(iter(self.motors.values())).on
+        return next(iter(self.inertias))

@@ -1,0 +1,73 @@
+"""Largest and smallest values of smooth signals that come in panels: the nodes pick candidates, polynomials decide."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ptmcalc.numerics import panels
+from ptmcalc.numerics.panels import FloatArray
+
+_OVERSHOOT = 0.5
+"""Most a summit between nodes can lie above the highest node, over the larger step beside it; 1/4 for a parabola."""
+
+
+@dataclass(slots=True)
+class Extremes:
+    """The largest value of each signal and its time; `sign` -1 looks for the smallest."""
+
+    sign: int
+    best: FloatArray
+    at: FloatArray
+    _signals: list[FloatArray] = field(default_factory=list)
+    _limits: list[FloatArray] = field(default_factory=list)
+    _nodes: list[FloatArray] = field(default_factory=list)
+    _starts: list[FloatArray] = field(default_factory=list)
+    _lengths: list[FloatArray] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, signals: int, sign: int) -> "Extremes":
+        return cls(sign, np.full(signals, -np.inf), np.zeros(signals))
+
+    def see(self, starts: FloatArray, lengths: FloatArray, watch: FloatArray) -> None:
+        """Take in signals at the nodes of panels, shape (panels, nodes, signals)."""
+        values = self.sign * watch
+        heights = values.max(axis=1)
+        peak = heights.max(axis=0)
+        better = np.flatnonzero(peak > self.best)
+        where = heights[:, better].argmax(axis=0)
+        place = panels.NODES[values[where, :, better].argmax(axis=1)]
+        self.at[better] = starts[where] + lengths[where] * place
+        self.best[better] = peak[better]
+        steps = np.abs(np.diff(values, axis=1)).max(axis=1)
+        index, signal = np.nonzero(heights + _OVERSHOOT * steps > self.best)
+        nodes = values[index, :, signal]
+        ends, highest = nodes @ panels.SLOPES[[0, -1]].T, nodes.argmax(axis=1)
+        outside = (highest == panels.COUNT - 1) & (ends[:, 1] >= 0) | (highest == 0) & (ends[:, 0] <= 0)
+        limits = heights[index, signal] + _OVERSHOOT * steps[index, signal]
+        kept = ~outside & (steps[index, signal] > 0)
+        self._signals.append(signal[kept])
+        self._limits.append(limits[kept])
+        self._nodes.append(nodes[kept])
+        self._starts.append(starts[index[kept]])
+        self._lengths.append(lengths[index[kept]])
+
+    def settle(self) -> None:
+        """Look at every candidate that could still be the summit."""
+        if not self._signals:
+            return
+        signals, limits = np.concatenate(self._signals), np.concatenate(self._limits)
+        still = limits > self.best[signals]
+        signals, nodes = signals[still], np.concatenate(self._nodes)[still]
+        starts, lengths = np.concatenate(self._starts)[still], np.concatenate(self._lengths)[still]
+        if len(signals):
+            values, places = panels.highest(nodes)
+            for signal, value, time in zip(signals, values, starts + lengths * places, strict=True):
+                if value > self.best[signal]:
+                    self.best[signal], self.at[signal] = value, time
+        for part in (self._signals, self._limits, self._nodes, self._starts, self._lengths):
+            part.clear()
+
+    @property
+    def values(self) -> FloatArray:
+        """The extremes, with their own sign."""
+        return self.sign * self.best
