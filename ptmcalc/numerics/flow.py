@@ -13,7 +13,7 @@ RESOLVED = 0.8
 FADED = 1e-11
 """Share of a signal below which a fast component no longer has to be resolved, unless a flow says otherwise."""
 _WELL_POSED = 1e-6
-_WORTH_A_LOOK = 40.0
+WORTH_A_LOOK = 400.0
 """Radians to come of the fastest component above which it is worth asking whether it has faded."""
 MOST_PANELS = 32
 
@@ -36,6 +36,7 @@ class Flow:
     """frequency of the fastest input [rad/s]"""
     faded: float = FADED
     resolved: float = RESOLVED
+    worth: float = WORTH_A_LOOK
     _stack: FloatArray = field(init=False)
     _norm: float = field(init=False)
     _largest: float = field(init=False)
@@ -54,7 +55,7 @@ class Flow:
         """A panel that resolves every component still seen in a signal of these sizes: a power of two in seconds, or
         the longest one that is asked for."""
         fastest = self._largest
-        if fastest * longest > _WORTH_A_LOOK:
+        if fastest * longest > self.worth:
             if self._components is None:
                 self._components = _components(self.rate, self.rows, self.own)
             limits = self.faded * np.maximum(self._sizes @ np.abs(state), sizes)

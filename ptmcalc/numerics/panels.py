@@ -33,7 +33,7 @@ def at(coefficients: list[float], place: float) -> float:
     """The polynomial of these Chebyshev coefficients at a place in [0, 1] (Clenshaw)."""
     x = 2 * (2 * place - 1)
     b0 = b1 = 0.0
-    for c in reversed(coefficients[1:]):
+    for c in coefficients[:0:-1]:
         b0, b1 = c + x * b0 - b1, b0
     return coefficients[0] + x / 2 * b0 - b1
 

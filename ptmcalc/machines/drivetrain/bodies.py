@@ -81,6 +81,9 @@ class Drum(Fragment):
             yield Conflict(("inner_diameter",), "it is not below the outer diameter", "check both diameters")
         if inner is not None and shaft is not None and shaft >= inner:
             yield Conflict(("shaft_diameter",), "the shaft does not fit into the drum", "check both diameters")
+        length, disc = given.number("length"), given.number("disc_thickness")
+        if length is not None and disc is not None and 2 * disc > length:
+            yield Conflict(("disc_thickness",), "the two discs do not fit into the drum", "check it and `length`")
 
     @property
     def inertia(self) -> float:
@@ -101,6 +104,13 @@ class RingPart(Fragment):
     outer_radius: PositiveLength
     inner_radius: Length
     width: PositiveLength
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The hole is smaller than the ring."""
+        outer, inner = given.number("outer_radius"), given.number("inner_radius")
+        if outer is not None and inner is not None and inner >= outer:
+            yield Conflict(("inner_radius",), "it is not below the outer radius", "check both radii")
 
 
 class Sheave(Fragment):
@@ -148,9 +158,16 @@ class Rod(Fragment):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """An inclined rod has an angle."""
-        if given.word("position") == "inclined" and "angle" not in given:
+        """An inclined rod has an angle, and each position only the dimensions that place it."""
+        position = given.word("position")
+        if position == "inclined" and "angle" not in given:
             yield given.missing("angle", "an inclined rod needs its `angle` to the axis")
+        if "angle" in given and position not in ("inclined", None):
+            yield Conflict(("angle",), "only an inclined rod has an angle", "delete it, or write `position: inclined`")
+        if "distance" in given and position not in ("radial", "parallel", None):
+            yield Conflict(("distance",), "it places a rod that is `radial` or `parallel`", "delete it")
+        if "radius" in given and position not in ("parallel", None):
+            yield Conflict(("radius",), "only that of a `parallel` rod counts", "delete it")
 
     @property
     def inertia(self) -> float:

@@ -22,7 +22,7 @@ from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.train.parts import LINEAR, RIGID, Drive, Train
-from ptmcalc.numerics.train.signals import Signal
+from ptmcalc.numerics.train.signals import FloatArray, Signal
 from ptmcalc.numerics.train.tree import Groups
 
 _ONE_SIGN = 1e-6
@@ -45,7 +45,7 @@ def _rigid(key: "_Scene") -> _Rigid:
     spec, scene = key.spec, key.scene
     case = case_of(spec, scene)
     course = motion.run(rigid(case_of(spec, scene, backlash=False)), motion.window(scene, case), _TOLERANCE)
-    named = {name: course.torque(name) for name in spec.links}
+    named = {name: course.torque(name) for name in (*spec.links, *spec.gears)}
     high = {name: float(course.record.top.values[i]) for name, i in named.items() if i is not None}
     low = {name: float(course.record.bottom.values[i]) for name, i in named.items() if i is not None}
     return _Rigid(high, low)
@@ -109,6 +109,14 @@ def swings(spec: Drivetrain, scene: TrainScene) -> Mapping[str, Interval] | None
     torque = np.abs(links) @ (speeds * stray)
     across, faster = np.abs(shapes).T @ (stray + level), np.abs(shapes).T @ (speeds * stray + rate)
     found = {of("torque_peak", one.name): _around(swing) for one, swing in zip(train.springs, torque, strict=True)}
+    harder = np.abs(shapes).T @ (speeds**2 * stray)
+    for index, mesh in enumerate(train.meshes):
+        found[of("torque_peak", mesh.name)] = _around(_through_gear(train, groups, index, harder, torque))
+    torques = _rigid(_Scene(spec, scene))
+    for name in (*spec.links, *spec.gears):
+        swing, largest = found[of("torque_peak", name)].high, torques.largest(name)
+        share = swing / largest if largest > 0 else math.inf
+        found[of("dynamic_factor", name)] = _around(share) if swing > 0 else Interval(0.0, 0.0)
     for name, group, ratio in zip(case.bodies, groups.of, np.abs(groups.ratio), strict=True):
         for family in ("speed_max", "speed_min", "speed_end"):
             found[of(family, name)] = _around(ratio * faster[group])
@@ -117,6 +125,23 @@ def swings(spec: Drivetrain, scene: TrainScene) -> Mapping[str, Interval] | None
         for family in ("motor_torque_peak", "motor_torque_rms"):
             found[of(family, name)] = Interval(0.0, 0.0)
     return found
+
+
+def _through_gear(train: Train, groups: Groups, index: int, harder: FloatArray, torque: FloatArray) -> float:
+    """Swing of the torque on a gear's outer side: what the inertias behind it and the links tied to them can ask."""
+    mesh = train.meshes[index]
+    behind = {mesh.outer}
+    for _ in train.meshes:
+        for other in (one for i, one in enumerate(train.meshes) if i != index):
+            if {other.inner, other.outer} & behind:
+                behind |= {other.inner, other.outer}
+    swing = 0.0
+    for body in behind:
+        share = abs(groups.ratio[body] / groups.ratio[mesh.outer])
+        tied = [torque[i] for i, one in enumerate(train.springs) if body in (one.first, one.second)]
+        inertia = train.bodies[body].inertia * abs(groups.ratio[body]) * harder[groups.of[body]]
+        swing += share * float(inertia + sum(tied))
+    return swing
 
 
 def _around(size: float) -> Interval:

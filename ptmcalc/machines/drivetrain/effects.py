@@ -13,7 +13,8 @@ Loads = Mapping[str, Estimate]
 
 ELASTICITY_THRESHOLD = 0.05
 BACKLASH_THRESHOLD = 0.1
-_UNTOUCHED = frozenset({"torque_steady", "energy_residual"})
+CHANGED = MOVING - {"torque_steady", "energy_residual"}
+"""Loads that the links' elasticity or play can change."""
 
 
 def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
@@ -47,7 +48,7 @@ def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mappi
     found = bounds.swings(spec, scene)
     offsets = {}
     for name in loads:
-        if family(name) not in MOVING or family(name) in _UNTOUCHED:
+        if family(name) not in CHANGED:
             continue
         offsets[name] = found.get(name, ANYTHING) if found is not None else ANYTHING
     return offsets
@@ -81,9 +82,7 @@ def backlash_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping
     """
     found = bounds.two_inertia_play(spec, scene, loads)
     return {
-        name: found.get(name, ANYTHING) if found is not None else ANYTHING
-        for name in loads
-        if family(name) in MOVING and family(name) not in _UNTOUCHED
+        name: found.get(name, ANYTHING) if found is not None else ANYTHING for name in loads if family(name) in CHANGED
     }
 
 

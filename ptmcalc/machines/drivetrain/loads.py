@@ -46,7 +46,7 @@ LOADS = (
     RESIDUAL,
 )
 FAMILIES = frozenset(info.name for info in LOADS)
-MOVING = FAMILIES - {info.name for info in (FREQUENCY, SEPARATION, WEAR, DYNAMIC_FACTOR, START_BY_TERMS, STOP_BY_TERMS)}
+MOVING = FAMILIES - {info.name for info in (FREQUENCY, SEPARATION, WEAR, START_BY_TERMS, STOP_BY_TERMS)}
 """What a motion of the train gives, elastic or rigid."""
 
 

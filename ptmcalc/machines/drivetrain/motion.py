@@ -13,7 +13,8 @@ from ptmcalc.contract.result import Event, Finding, Found, History, of
 from ptmcalc.machines.drivetrain.loads import parts
 from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
-from ptmcalc.numerics.piecewise import JAMMED, Record, march
+from ptmcalc.numerics.piecewise import JAMMED, march
+from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth

@@ -212,6 +212,8 @@ def _about(given: Given, bodies: Bodies, known: list[str]) -> Iterator[Conflict]
     """Scenes about an inertia that is not there, or in quantities of the other kind; the way of a stop."""
     motors = [motor.raw.get("on") for _, motor in _named(given, "motors")]
     usual = motors[0] if motors else known[0]
+    if motors and isinstance(usual, str) and usual in bodies and _turns(bodies[usual]) is False:
+        usual = None  # a motor on what travels: that is said of the motor
     stops: bool | None = None
     for index, scene in enumerate(given.blocks("scenes")):
         name = scene.raw.get("of", usual) if scene else None

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.numerics.piecewise import Curve
+from ptmcalc.numerics.motion import Curve
 from ptmcalc.numerics.train.parts import Drive, Governed, Law, Smooth, Stage, Straight
 from ptmcalc.numerics.train.signals import FloatArray, Now, Signal
 

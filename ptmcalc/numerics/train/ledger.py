@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.numerics.energy import residual
-from ptmcalc.numerics.piecewise import Record
+from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.signals import FloatArray
 from ptmcalc.numerics.train.system import State, TrainSystem
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ptmcalc.numerics.piecewise import Curve
+from ptmcalc.numerics.motion import Curve
 from ptmcalc.numerics.train.parts import CLAMPED, HUNT_CROSSLEY, KELVIN, LINEAR, RIGID, Spring
 from ptmcalc.numerics.train.signals import FloatArray
 

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.piecewise import JAMMED, Event, Look, Reaction
+from ptmcalc.numerics.motion import Look, Reaction
+from ptmcalc.numerics.piecewise import JAMMED
+from ptmcalc.numerics.record import Event
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.parts import RIGID, Governed, Grip
 from ptmcalc.numerics.train.signals import FloatArray, Now, Signal
@@ -227,7 +229,10 @@ class Reactor:
         self.locked.add(clutch)
 
     def _calm(self) -> None:
-        """What is at rest or locked, and was not struck, is so to the last digit, with all that is tied to it."""
+        """What is at rest or locked, and was not struck, is so to the last digit, with all that is tied to it.
+
+        Left alone where rounding already hides what is missing, for to put it right moves all other speeds by rounding.
+        """
         system, train = self.system, self.system.train
         joined = [system.groups.row(train.grips[index].first, train.grips[index].second) for index in self.locked]
         joined += [
@@ -235,11 +240,12 @@ class Reactor:
             for spring, (phase, _) in zip(train.springs, self.state.contacts, strict=True)
             if phase == "shut"
         ]
+        zeros = [*system.speed[sorted(self.resting)], *(system.apart(row) for row in joined)]
+        if all(abs(row @ self.z) <= _ROUNDING * float(np.abs(row) @ np.abs(self.z)) for row in zeros):
+            return
         speeds = system.speed @ self.z
         grounded = {int(np.flatnonzero(row)[0]) for row in joined if np.count_nonzero(row) == 1}
         still = sorted(self.resting | grounded)
-        if not still and not joined:
-            return
         speeds[still] = 0.0
         reached = set(still)
         for anchor in (*still, *system.guided, *range(len(speeds))):
@@ -293,7 +299,7 @@ class Reactor:
                 turning.append((int(np.sign(speeds[group])),))
         slips: list[tuple[int, ...]] = []
         for index, grip in self._clutches():
-            apart = float((system.body_speed[grip.first] - system.body_speed[grip.second]) @ self.z)
+            apart = float(system.groups.row(grip.first, grip.second) @ speeds)
             met = index in self.locked or self._still(apart, largest)
             slips.append((0, 1, -1) if met else (int(np.sign(apart)),))
         for chosen in itertools.product(*turning, *slips):

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ptmcalc.numerics import expm
-from ptmcalc.numerics.piecewise import Curve, Motion, Reaction
+from ptmcalc.numerics.motion import Curve, Motion, Reaction
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.drives import DriveState, Place, SignalRows
 from ptmcalc.numerics.train.held import Part
@@ -28,6 +28,7 @@ from ptmcalc.numerics.train.signals import FloatArray, Inputs, Now, Signal
 from ptmcalc.numerics.train.tree import Coordinates, Groups
 
 _NO_FRICTION = 2
+_CANCELS = 8 * float(np.finfo(float).eps)
 
 
 class State(NamedTuple):
@@ -138,12 +139,18 @@ class TrainSystem:
         x, rate = np.zeros(self.size), np.zeros(self.size)
         if place is None:
             row = self.groups.row(spring.first, spring.second)
-            x[:count] = row @ self.coordinates.basis
+            x[:count] = self.apart(row)[count : self.own]
             rate[count : self.own] = x[:count]
             x += (self._at_start(spring) - float(x[:count] @ self.extended)) * self.one
         else:
             x[place] = rate[count + place] = 1.0
         return Stretch(x, rate, self.one)
+
+    def apart(self, row: FloatArray) -> FloatArray:
+        """A sum of group speeds as a functional; what cancels in it is 0, not rounding."""
+        speed = row @ self.speed
+        speed[np.abs(speed) <= _CANCELS * (np.abs(row) @ np.abs(self.speed))] = 0.0
+        return speed
 
     # -- the start ----------------------------------------------------------------------------------------------
 
@@ -414,10 +421,14 @@ class _Assembly:
                 matrix[second, column] += 1.0
         size = np.abs(matrix).max(axis=1)
         found, fits = _solution(matrix / size[:, None], right / size[:, None])
-        for what, _, row, wanted in held:
-            if what in ("rest", "guide"):  # exactly, so that nothing creeps
-                group = int(np.flatnonzero(row)[0])
-                found[group] = wanted / row[group]
+        exact: set[int] = set()
+        for _ in held:  # exactly, one after the other, so that nothing creeps
+            for _, _, row, wanted in held:
+                left = [group for group in np.flatnonzero(row).tolist() if group not in exact]
+                if len(left) == 1:
+                    others = [group for group in np.flatnonzero(row).tolist() if group in exact]
+                    found[left[0]] = (wanted - row[others] @ found[others]) / row[left[0]]
+                    exact.add(left[0])
         return Solved(found[:count], found[count : count + meshes], found[count + meshes :], fits), held
 
     def _ends(self, what: str, which: int) -> tuple[int, int | None]:
@@ -508,7 +519,7 @@ class _Assembly:
         for index, slip in zip(system.clutches, state.clutches, strict=True):
             if slip:
                 grip = self.train.grips[index]
-                apart = system.body_speed[grip.first] - system.body_speed[grip.second]
+                apart = system.apart(system.groups.row(grip.first, grip.second))
                 yield self._wide(slip * apart), Change("slip", index, None)
 
     def _meshes_in(self, groups: tuple[int, ...]) -> list[int]:
@@ -641,15 +652,25 @@ class _Assembly:
 
 def _solution(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, bool]:
     """Solution of the balances, the smallest one where holds share a load that no balance tells apart; whether it is
-    one."""
+    one. Entries below their rounding are 0: the sign of a torque that is not there must not mean anything.
+
+        |dX| <= 8 eps |A^-1| (|A| |X| + |B|)
+
+    **Source** Skeel, Scaling for numerical stability in Gaussian elimination, 1979.
+    """
     largest = max(1.0, float(np.abs(right).max()))
-    if matrix.shape[0] == matrix.shape[1]:
-        try:
-            found: FloatArray = np.linalg.solve(matrix, right)
-        except np.linalg.LinAlgError:
-            pass
-        else:
-            if np.isfinite(found).all() and np.abs(matrix @ found - right).max() <= 1e-9 * largest:
-                return found, True
-    least: FloatArray = np.linalg.lstsq(matrix, right, rcond=1e-13)[0]
-    return least, bool(np.abs(matrix @ least - right).max() <= 1e-6 * largest)
+    try:
+        inverse = np.linalg.inv(matrix) if matrix.shape[0] == matrix.shape[1] else np.linalg.pinv(matrix, rcond=1e-13)
+        found: FloatArray = inverse @ right
+        found += inverse @ (right - matrix @ found)
+        fits = bool(np.isfinite(found).all() and np.abs(matrix @ found - right).max() <= 1e-9 * largest)
+    except np.linalg.LinAlgError:
+        fits = False
+    if not fits:
+        inverse = np.linalg.pinv(matrix, rcond=1e-13)
+        found = inverse @ right
+        found += inverse @ (right - matrix @ found)
+        fits = bool(np.abs(matrix @ found - right).max() <= 1e-6 * largest)
+    noise = _CANCELS * (np.abs(inverse) @ (np.abs(matrix) @ np.abs(found) + np.abs(right)))
+    found[np.abs(found) <= noise] = 0.0
+    return found, fits

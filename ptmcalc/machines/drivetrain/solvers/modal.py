@@ -47,10 +47,10 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
 MODAL: Solver[Drivetrain, TrainScene] = Solver(
     name="modal_train",
     title="natural frequencies",
-    fidelity=Fidelity.MODAL,
+    fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset(),
-    gives=FAMILIES - MOVING - {"dynamic_factor"},
+    gives=FAMILIES - MOVING,
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="linear vibration",

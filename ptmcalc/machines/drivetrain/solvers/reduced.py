@@ -36,6 +36,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         index = fine.torque(name)
         if index is not None:
             loads[of("torque_steady", name)] = Found(Estimate.exact(abs(float(fine.record.last[index]))))
+            loads[of("dynamic_factor", name)] = Found(Estimate.exact(1.0))
     broken = motion.untrusted(spec, scene, fine, TOLERANCES[1])
     if broken is not None:
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
