@@ -13,6 +13,8 @@ from ptmcalc.numerics.record import Event
 Mode = Hashable
 NOISE = 16 * float(np.finfo(float).eps)
 """Rounding of a functional, over the sum of the magnitudes it adds."""
+DUST = 1e-22
+"""Share of the largest state, in variables of like size, below which a state is no motion but rounding of none."""
 _ORDERS = 5
 """Derivatives looked at to tell on which side of 0 a guard goes on."""
 
@@ -96,11 +98,14 @@ class Look:
 
     def sides(self, mode: Mode) -> NDArray[np.intp]:
         """-1, 0 or 1 for every guard of a mode: the sign of its first derivative that is not 0 beyond rounding."""
-        motion = self.system.motion(mode)
-        return _sides(motion, self.state)
+        own = self.system.own
+        size = float(np.abs(self.state[:own] / self.system.scale[:own]).max(initial=0.0))
+        dust = np.zeros(len(self.state))
+        dust[:own] = DUST * size * self.system.scale[:own]
+        return _sides(self.system.motion(mode), self.state, dust)
 
 
-def _sides(motion: Motion, state: FloatArray) -> NDArray[np.intp]:
+def _sides(motion: Motion, state: FloatArray, dust: FloatArray) -> NDArray[np.intp]:
     """Signs of the guards just after a state.
 
     The k-th derivative of g is G A^k z; where a curve takes part it counts with its slope,
@@ -118,7 +123,7 @@ def _sides(motion: Motion, state: FloatArray) -> NDArray[np.intp]:
         offset = offset + motion.gain[:, index] * rest
         level = level + motion.guards[:, n + index] * rest
     z, size = state, np.abs(state)
-    found, noise = guards @ z + level, NOISE * (np.abs(guards) @ size + np.abs(level))
+    found, noise = guards @ z + level, NOISE * (np.abs(guards) @ size + np.abs(level)) + np.abs(guards) @ dust
     sides = np.where(np.abs(found) > noise, np.sign(found), 0.0)
     magnitude, allowed = np.abs(rate), NOISE
     for _ in range(_ORDERS):

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import panels
 from ptmcalc.numerics.flow import MOST_PANELS, RESOLVED, Flow
-from ptmcalc.numerics.motion import NOISE, Mode, System
+from ptmcalc.numerics.motion import DUST, NOISE, Mode, System
 from ptmcalc.numerics.panels import COUNT, NODES, FloatArray
 from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.stretch import Piece
@@ -28,6 +28,9 @@ _EPS = float(np.finfo(float).eps)
 _POLISHES = 3
 _ROUNDING = 1e-12
 _FIRST_PANELS = 8
+_EARLY = 0.01
+_MOST_AT_ONCE = 200
+"""Events in a row without any progress in time."""
 
 
 def march(
@@ -63,6 +66,8 @@ class _March:
     def __init__(self, system: System, tolerance: float, refined: float, most_events: int) -> None:
         self.system, self.tolerance, self.most_events = system, tolerance, most_events
         self.resolved = RESOLVED * refined
+        self.unheard: int | None = None
+        """guard that crosses without changing anything: too flat for its sign to be told; not heard for one panel"""
         self.products = np.array(system.products, dtype=np.intp).reshape(-1, 2)
         self.pieces: dict[Mode, Piece] = {}
         self.reach = np.inf
@@ -74,6 +79,7 @@ class _March:
         reaction = replace(reaction, events=first)  # how it starts is no event
         record = Record.starting(self._piece(reaction.mode).now(reaction.state), self.products, keep)
         record.began = reaction.mode
+        still = 0
         while True:
             record.mode, record.state = reaction.mode, reaction.state
             record.events += reaction.events
@@ -84,11 +90,15 @@ class _March:
                 return record
             if len(record.events) > self.most_events:
                 raise NumericsError("NUM101", f"more than {self.most_events} events by {record.time:.6g} s: chattering")
-            stop = min(end, system.next_break(record.mode, record.time))
+            stop, before = min(end, system.next_break(record.mode, record.time)), record.time
             fired = self._advance(record, stop)
             if fired is None:
                 record.time = stop
+            still = still + 1 if record.time <= before else 0
+            if still > _MOST_AT_ONCE:
+                raise NumericsError("NUM101", f"contacts change without end at {record.time:.6g} s")
             reaction = system.react(record.mode, record.time, record.state, fired)
+            self.unheard = fired if still and reaction.mode == record.mode else None
 
     def _piece(self, mode: Mode) -> "Piece":
         piece = self.pieces.get(mode)
@@ -119,10 +129,10 @@ class _March:
         self, record: Record, flow: Flow, state: FloatArray, guards: int, stop: float
     ) -> tuple[FloatArray, int | None]:
         """Along a linear flow to the first crossing of a guard or to `stop`."""
-        count, soon = _FIRST_PANELS, _soonest(flow, state, guards)
-        sizes = np.concatenate([np.zeros(guards), record.sizes])
+        unheard, self.unheard = self.unheard, None
+        count, soon = _FIRST_PANELS if unheard is None else 1, _soonest(flow, state, guards)
         while (left := stop - record.time) > 4 * _EPS * abs(stop):
-            panel = flow.panel(state, min(left, soon), sizes)
+            panel = flow.panel(state, min(left, soon), np.concatenate([np.zeros(guards), record.sizes]))
             soon = np.inf
             wanted = min(count, int(left / panel))
             if wanted <= 1 or panel == left:
@@ -131,9 +141,15 @@ class _March:
                 starts, wanted = np.array([state, end]), 1
             else:
                 readings, starts = flow.read(state, panel, wanted)
+            if unheard is not None:
+                readings[:, :, unheard] = 1.0
+                unheard = None
             hit = _first_hit(readings[:, :, :guards], flow, starts) if guards else None
             if hit is not None:
                 index, place, guard = hit
+                if index == 0 and 0 < place < _EARLY:  # so long a panel places it badly: look again from near by
+                    soon = 2 * place * panel
+                    continue
                 if index:
                     record.see(record.time, panel, readings[:index, :, guards:])
                     record.time += index * panel
@@ -186,7 +202,9 @@ def _soonest(flow: Flow, state: FloatArray, guards: int) -> float:
 
 def _first_hit(readings: FloatArray, flow: Flow, starts: FloatArray) -> tuple[int, float, int] | None:
     """(panel, place in it, guard) of the first crossing below 0, or None."""
-    noise = NOISE * (np.abs(flow.rows[: readings.shape[2]]) @ np.abs(starts).max(axis=0))
+    rows, largest = np.abs(flow.rows[: readings.shape[2]]), np.abs(starts).max(axis=0)
+    dust = DUST * largest[: flow.own].max(initial=0.0)
+    noise = NOISE * (rows @ largest) + dust * rows[:, : flow.own].sum(axis=1)
     dips = _dips(readings)
     suspects = (readings.min(axis=1) < -noise) | dips.any(axis=1)
     for index in np.flatnonzero(suspects.any(axis=1)):

@@ -71,6 +71,7 @@ class Record:
 
     def see(self, start: float, panel: float, watch: FloatArray) -> None:
         """Take in signals at the nodes of panels in a row, shape (panels, nodes, signals)."""
+        self.sizes = np.maximum(self.sizes, np.abs(watch).max(axis=(0, 1)))
         self._waiting.append((start, panel, watch))
         self._count += len(watch)
         if self._count >= _BATCH:
@@ -89,7 +90,6 @@ class Record:
         if len(self.products):
             power = watch[:, :, self.products[:, 0]] * watch[:, :, self.products[:, 1]]
             self.integrals += lengths @ (WEIGHTS @ power)
-        self.sizes = np.maximum(self.top.best, self.bottom.best)
         self.last = watch[-1, -1]
         self.steps += len(watch)
         if self.samples is not None:

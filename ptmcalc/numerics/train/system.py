@@ -387,7 +387,9 @@ class _Assembly:
         for index, guide in enumerate(self.train.guides):
             held.append(Hold("guide", index, groups.row(guide.body, None), self._wide(self.now[guide.acceleration])))
         for group, turn in enumerate(state.turning):
-            if (turn == 0 or group == stays) and group not in system.guided:
+            if group == stays:
+                held.append(Hold("verge", group, np.eye(groups.count)[group], zero))
+            elif turn == 0 and group not in system.guided:
                 held.append(Hold("rest", group, np.eye(groups.count)[group], zero))
         for index, slip in zip(system.clutches, state.clutches, strict=True):
             if slip == 0:
@@ -436,9 +438,28 @@ class _Assembly:
         if what == "guide":
             return self.train.guides[which].body, None
         if what == "rest":
-            return self.system.groups.of.index(which), None
+            return self._holder(which)[0], None
+        if what == "verge":
+            return self._root(which), None
         part = self.train.grips[which] if what == "clutch" else self.train.springs[which]
         return part.first, part.second
+
+    def _holder(self, group: int) -> tuple[int, int | None]:
+        """The body on which a group at rest is held, and the grip that does it: the first brake that acts, else the
+        motor's side of the first mesh with losses. Gears between it and the load carry the load."""
+        groups = self.system.groups
+        for index, grip in enumerate(self.train.grips):
+            acts = np.any(self.now[grip.capacity])
+            if index not in self.system.clutches and groups.of[grip.first] == group and acts:
+                return grip.first, index
+        inner = (self.train.meshes[index].inner for index in self.system.lossy)
+        return next((body for body in inner if groups.of[body] == group), groups.of.index(group)), None
+
+    def _root(self, group: int) -> int:
+        """The body of a group from which power flows outward through all its meshes."""
+        bodies = [body for body, one in enumerate(self.system.groups.of) if one == group]
+        outer = {mesh.outer for mesh in self.train.meshes}
+        return next((body for body in bodies if body not in outer), bodies[0])
 
     def _share(self, index: int, mesh: Mesh, state: State) -> float:
         """e = T_inner/T_outer of a mesh, by the direction of the power through it."""
@@ -570,8 +591,9 @@ class _Assembly:
                 if freed is None:
                     continue
                 solved, held = self._solve(freed, static=True, stays=piece[0])
-                place = next(i for i, hold in enumerate(held) if hold.what == "rest" and hold.which == piece[0])
-                yield way * solved.holds[place], Change("hold", piece[0], None)
+                place = next(i for i, hold in enumerate(held) if hold.what == "verge")
+                side = way * np.sign(system.groups.ratio[self._root(piece[0])])
+                yield side * solved.holds[place], Change("hold", piece[0], None)
                 for i in self._meshes_in(piece):
                     yield freed.meshes[i] * solved.mesh[system.lossy[i]], Change("released", i, (piece, way))
 
@@ -641,13 +663,10 @@ class _Assembly:
         return np.array([self._wide(rows[name]) for name in system.watched]).reshape(-1, self.width)
 
     def _share_of_brakes(self, group: int, force: FloatArray, rows: dict[tuple[str, int], FloatArray]) -> None:
-        """What holds a group at rest, told as the torque of its first brake."""
-        groups = self.system.groups
-        for index, grip in enumerate(self.train.grips):
-            if index not in self.system.clutches and groups.of[grip.first] == group:
-                root = groups.of.index(group)
-                rows["grip", index] = -force * groups.ratio[root] / groups.ratio[grip.first]
-                return
+        """What holds a group at rest, told as the torque of the brake that acts."""
+        _, grip = self._holder(group)
+        if grip is not None:
+            rows["grip", grip] = -force
 
 
 def _solution(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, bool]:
