@@ -11,6 +11,7 @@ import typer
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.decode import decode
 from ptmcalc.cli.output import say, steady_streams
 
 if TYPE_CHECKING:
@@ -26,7 +27,10 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+app.command()(decode)
+
 EXIT_USAGE, EXIT_BUG = 2, 4
+_IN_JSON = "json"
 
 
 class CheckFormat(StrEnum):
@@ -44,6 +48,14 @@ class ListFormat(StrEnum):
     JSON = "json"
 
 
+class Law(StrEnum):
+    """Laws of similarity of `scale`."""
+
+    FULL = "full"
+    GEOMETRIC = "geometric"
+    BALLAST = "ballast"
+
+
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
 EffectsOption = Annotated[
@@ -56,6 +68,7 @@ ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print."
 def main() -> None:
     """Entry point: maps what can go wrong to exit statuses."""
     steady_streams()
+    sys.argv[1:] = history_with_its_value(sys.argv[1:])
     try:
         app()
     except UsageError as error:
@@ -72,6 +85,25 @@ def main() -> None:
             err=True,
         )
         sys.exit(EXIT_BUG)
+
+
+def history_with_its_value(words: list[str]) -> list[str]:
+    """The words of a command line in which `--history`, whose value may be left out, always has one.
+
+    A word behind it that ends in .csv is the file to write; anything else is a path to check. Behind `--` no word is
+    an option.
+    """
+    rewritten: list[str] = []
+    options, alone = True, False
+    for word in words:
+        options = options and word != "--"
+        if options and alone and is_csv(word):
+            rewritten[-1] = f"--history={word}"
+            alone = False
+        else:
+            alone = options and word == "--history"
+            rewritten.append(f"--history={_IN_JSON}" if alone else word)
+    return rewritten
 
 
 def _fail(error: UsageError) -> NoReturn:
@@ -108,6 +140,14 @@ def check(
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
+    history: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--history",
+            metavar="[FILE.csv]",
+            help="Loads over time: in the JSON, and in a file when one is named; may be repeated.",
+        ),
+    ] = None,
     fail_level: Annotated[
         Severity, typer.Option("--fail-level", help="Findings from this severity up make the exit status 1.")
     ] = Severity.ERROR,
@@ -118,16 +158,21 @@ def check(
     """
     from ptmcalc.contract.report import exit_status
     from ptmcalc.engine.check import Options, check_paths
-    from ptmcalc.report import Format
+    from ptmcalc.report import Format, histories
 
     files = [_target(text) for text in output or ()]
-    options = Options(tuple(scene or ()), accuracy, _effects(effects))
+    courses = _history_files(history)
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), histories=bool(history))
     reports = check_paths(paths, options)
     for target, name in files:
         _write(Path(name), _rendered(Format(target), reports, to_terminal=False))
+    for name in courses:
+        _write(Path(name), histories.render(reports))
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     say(_rendered(chosen, reports, to_terminal=terminal))
+    if history and not courses and Format.JSON not in {chosen, *(form for form, _ in files)}:
+        say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
     status = exit_status(reports)
     if status in (0, 3) and _reaches(reports, fail_level):
         status = 1
@@ -154,6 +199,18 @@ def _target(text: str) -> tuple[str, str]:
     if not separator or not name or form not in list(CheckFormat):
         raise UsageError(f"`{text}` is not FORMAT=FILE", f"formats: {', '.join(CheckFormat)}")
     return form, name
+
+
+def _history_files(given: list[str] | None) -> list[str]:
+    for text in given or ():
+        if text != _IN_JSON and not is_csv(text):
+            raise UsageError(f"`--history={text}` names no .csv file", "write `--history`, or `--history FILE.csv`")
+    return [text for text in given or () if text != _IN_JSON]
+
+
+def is_csv(name: str) -> bool:
+    """Whether a word names a CSV file."""
+    return name.lower().endswith(".csv")
 
 
 def _write(path: Path, text: str) -> None:
@@ -250,3 +307,26 @@ def solve(
     from ptmcalc.cli.listing import show_solution
 
     raise typer.Exit(show_solution(path, code, vary, scene, form == ListFormat.JSON))
+
+
+@app.command()
+def scale(
+    path: Annotated[str, typer.Argument(help="A design file.")],
+    length: Annotated[str, typer.Option("--length", help="Model to prototype, e.g. 1:10 or 0.1.")],
+    law: Annotated[Law, typer.Option("--law", help="What the model keeps: all, all but gravity, or that by ballast.")],
+    modulus: Annotated[str, typer.Option("--modulus", help="Elastic modulus, model to prototype.")] = "",
+    density: Annotated[str, typer.Option("--density", help="Density of the material, model to prototype.")] = "",
+    gravity: Annotated[str, typer.Option("--gravity", help="Gravity, model to prototype: a centrifuge.")] = "",
+    scene: ScenesOption = None,
+    form: ListOption = ListFormat.TABLE,
+) -> None:
+    """Show the loads, frequencies and times of a physical model of the machine, and what it distorts.
+
+    The laws: `full` keeps all, with a material or a gravity to fit; `geometric` is a plain copy, which leaves gravity
+    out of scale; `ballast` adds masses to the copy. A ratio that is left out is 1; under `full` one of modulus,
+    density and gravity follows from the others.
+    """
+    from ptmcalc.cli.scale import show_scale
+
+    others = {"modulus": modulus, "density": density, "gravity": gravity}
+    raise typer.Exit(show_scale(path, tuple(scene or ()), law, length, others, as_json=form == ListFormat.JSON))

@@ -192,8 +192,8 @@ def _load(one: Settled, other: Settled, info: LoadInfo, scale: float) -> ModelLo
 
 
 def _moved(one: Estimate, other: Estimate) -> bool:
-    if one.value == other.value:
-        return False
+    if one.value == other.value or not math.isfinite(one.value - other.value):
+        return one.value != other.value
     rounding = _ROUNDING * max(abs(one.value), abs(other.value))
     return not abs(one.value - other.value) <= one.numerical + other.numerical + rounding
 

@@ -114,8 +114,9 @@ def highest(nodes: FloatArray, left: float = 0.0, right: float = 1.0) -> tuple[F
     where = np.where(np.isfinite(best), _FINE[sampled.argmax(axis=1)], (left + right) / 2)
     low, high = np.maximum(where - _FINE[1], left), np.minimum(where + _FINE[1], right)
     if left > 0 or right < 1:
-        for edge in (low, high):
+        for edge in (low, high, np.full(len(nodes), left), np.full(len(nodes), right)):
             best, where = _better(coefficients, edge, best, where)
+        low, high = np.maximum(where - _FINE[1], left), np.minimum(where + _FINE[1], right)
     place = where
     for _ in range(3):
         slope, bend = _slopes(coefficients, place)

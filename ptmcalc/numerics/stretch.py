@@ -10,7 +10,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import panels
-from ptmcalc.numerics.flow import FADED, Flow
+from ptmcalc.numerics.flow import FADED, RESOLVED, Flow
 from ptmcalc.numerics.motion import Motion, System
 from ptmcalc.numerics.panels import COUNT, NODES, FloatArray
 
@@ -66,7 +66,8 @@ class Piece:
             round(curve.slope(rows @ state) / curve.grain) * curve.grain
             for curve, rows in zip(self.motion.curves, self.arguments, strict=True)
         )
-        span = min(reach, float(2.0 ** np.ceil(np.log2(longest))), _LONGEST)
+        unit = self.resolved / RESOLVED  # a lattice of its own for every `refined`: two runs share no stretch
+        span = min(reach, float(unit * 2.0 ** np.ceil(np.log2(longest / unit))), unit * _LONGEST)
         while span > _SHORTEST:
             found = self._solve(state, slopes, span, tolerance)
             if found is not None:

@@ -18,6 +18,9 @@ SPECS = Path(__file__).parents[2] / "specs"
 MOST_EVALUATIONS = {
     "conveyor.yaml": 25_000_000,
     "plant_conveyor.yaml": 10_000_000,
+    "drivetrain.yaml": 25_000,
+    "shaft.yaml": 120_000,
+    "crusher_shaft.yaml": 2_500_000,
     "short_conveyor.yaml": 10,
     "reference/bw_02.yaml": 2_000_000,
 }

@@ -596,7 +596,7 @@ def test_help_names_every_command(option: str) -> None:
     done = ptmcalc(option)
     assert done.status == 0
     listed = unpainted(done.out).partition("Commands ")[2]
-    for command in ("check", "plan", "solve", "new", "explain", "schema", "kinds", "solvers"):
+    for command in ("check", "plan", "solve", "scale", "new", "explain", "schema", "kinds", "solvers"):
         assert re.search(rf"(^|\.) ?{command} [A-Z]", listed), command
 
 

@@ -33,8 +33,10 @@ from ptmcalc.laws import (
     resistance,
     response,
     sag,
+    shaft,
     shock,
     similarity,
+    slider_crank,
     start_profile,
     two_mass,
     vibration,
@@ -106,6 +108,7 @@ RISES = ("linear", "exponential")
 DAMPINGS = (0.0, 0.02, 1.0, 1.7)
 FLOWS = ("drive", "brake", "energy")
 READINGS = ("tip_stopped", "whole")
+CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
@@ -256,6 +259,33 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         ("step", False, 4.0, 3.0), ("ramp", False, 4.0, 3.0), ("cosine", False, 4.0, 3.0), ("ramp", True, 4.0, 3.0),
         ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0),
     ],
+    shaft.acceleration: [(90.0, 30.0, -8.0, 12.0)],
+    shaft.torque_of_motion: [(30.0, -8.0, 12.0, 3.0)],
+    shaft.speed_after_work: [(30.0, 12.0, -900.0, 34.0), (30.0, 12.0, -9e3, 34.0)],
+    shaft.gear_factor: [(5.0, 0.2, 30.0, 12.0, 90.0, 0.94, 0.9), (-50.0, 0.2, 30.0, 12.0, 90.0, 0.94, 0.9)],
+    shaft.irregularity: [(13.6, 12.3), (0.0, 0.0)],
+    shaft.flywheel_inertia: [(1060.0, 0.02, 13.0, 34.0), (10.0, 0.02, 13.0, 34.0)],
+    shaft.cycle_efficiency: [(1400.0, 220.0), (0.0, 0.0)],
+    shaft.loss_factor: [(1400.0, 220.0), (0.0, 0.0)],
+    shaft.inertia_criterion: [(8.0, 12.0, 260.0), (8.0, 12.0, 0.0), (0.0, 12.0, 0.0)],
+    shaft.slope_criterion: [(0.48, 820.0, 34.0)],
+    shaft.run_out_angle: [(30.0, 12.0, 335.0), (30.0, 12.0, 0.0)],
+    shaft.run_out_time: [(30.0, 12.0, 335.0), (30.0, 12.0, 0.0)],
+    shaft.brake_torque_for_angle: [(30.0, 12.0, 6.8, 35.0), (30.0, 12.0, 6.8, 900.0)],
+    shaft.recoverable_energy: [(2280.0, 240.0, 0.94)],
+    shaft.braked_stop: [
+        (30.0, 12.0, 35.0, 2.0, 300.0, 0.1, 0.2), (30.0, 12.0, 35.0, 0.0, 300.0, 0.1, 0.0),
+        (30.0, 12.0, 35.0, 9.0, 300.0, 0.1, 9.0), (30.0, 12.0, 350.0, 9.0, 300.0, 9.0, 9.0),
+        (30.0, 12.0, -35.0, 1.0, 300.0, 0.1, 0.2), (30.0, 12.0, 0.0, 1.0, 0.0, 0.1, 0.2),
+    ],
+    slider_crank.slider_position: [(1.1, *CRANK)],
+    slider_crank.slider_velocity: [(1.1, *CRANK)],
+    slider_crank.dead_centre: [(*CRANK, True), (*CRANK, False)],
+    slider_crank.crank_angles: [(0.45, *CRANK)],
+    slider_crank.reduced_inertia: [(1.1, *CRANK, 180.0, 35.0, 0.3, 0.6)],
+    slider_crank.reduced_inertia_slope: [(1.1, *CRANK, 180.0, 35.0, 0.3, 0.6)],
+    slider_crank.rod_centre_height: [(1.1, *CRANK, 0.3, 1.2)],
+    slider_crank.rod_centre_lift: [(1.1, *CRANK, 0.3, 1.2)],
     wave.wave_speed: [(1.2e8, 70.0)],
     wave.impedance: [(1.2e8, 70.0)],
     wave.reflection: [(9e4, 4e4)],

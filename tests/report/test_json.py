@@ -91,7 +91,7 @@ def test_verdicts_and_files_are_counted() -> None:
     verdicts = [check["verdict"] for file in found["files"] for scene in file["scenes"] for check in scene["checks"]]
     expected = {name: verdicts.count(name) for name in ("pass", "fail", "undecided", "not_checked", "waived")}
     assert found["summary"] == {"files": len(SAMPLES), "invalid": 2} | expected
-    assert expected == {"pass": 5, "fail": 1, "undecided": 3, "not_checked": 1, "waived": 0}
+    assert expected == {"pass": 9, "fail": 1, "undecided": 3, "not_checked": 1, "waived": 0}
 
 
 @pytest.mark.parametrize(
@@ -104,6 +104,7 @@ def test_verdicts_and_files_are_counted() -> None:
         ("not_checked", "undecided"),
         ("switched_off", "pass"),
         ("infinite", "pass"),
+        ("moving", "pass"),
         ("warned", "pass"),
         ("broken", "undecided"),
         ("invalid", "invalid"),
@@ -122,6 +123,31 @@ def test_a_load_carries_its_bar_place_window_and_textbook() -> None:
     assert (load["at"], load["window"]) == ({"time": 1.5}, [0.0, 4.0])
     assert load["formula"] == {"name": "textbook", "value": 12000.0, "ratio": pytest.approx(0.75)}
     assert "unbounded" not in load
+
+
+def test_a_load_of_a_part_is_named_with_it_and_carries_its_history() -> None:
+    scene = only_file("moving")["scenes"][0]
+    hook, rope = scene["loads"]
+    assert (hook["name"], rope["name"]) == ("pull[hook]", "pull[rope]")
+    assert hook["history"] == {"t": [0.0, 0.5, 1.0], "value": [0.0, 8000.0, 1 / 3], "unit": "N"}
+    assert "history" not in rope
+    assert [check["element"] for check in scene["checks"]] == ["hook", "rope"]
+    assert "element" not in only_scene("passing")["checks"][0]
+
+
+@pytest.mark.parametrize("name", ["pull[", "pull[]", "pull[a]b", "[a]", "pull[a[b]]"])
+def test_the_schema_refuses_other_names_of_parts(name: str) -> None:
+    found = document(SAMPLES["moving"])
+    found["files"][0]["scenes"][0]["loads"][0]["name"] = name
+    assert any("does not match" in fault for fault in faults(found))
+
+
+def test_every_event_is_listed_in_its_order() -> None:
+    gust, calm = only_file("moving")["scenes"]
+    assert len(gust["events"]) == 35
+    assert gust["events"][1] == {"time": 0.0123456789, "element": "rope", "from": "slack", "to": "taut"}
+    assert [event["time"] for event in gust["events"]] == sorted(event["time"] for event in gust["events"])
+    assert calm["events"] == []
 
 
 def test_an_infinite_load_is_null_and_unbounded() -> None:

@@ -80,6 +80,15 @@ def test_the_worst_come_first(path: str) -> None:
             ],
         ),
         (
+            "moving",
+            [
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook: rope [gust]: 9 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook: hook [gust]: 8 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook: rope [calm]: 4.5 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: pass TOY101 too much weight on the hook: hook [calm]: 4 kN, at most 10 kN is sound",
+            ],
+        ),
+        (
             "warned",
             [
                 "toy.yaml:2:7: warning NUM104 the rope was slack for a moment; hang it gently",

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 from support.command import ROOT, report_of_file
@@ -11,7 +12,7 @@ from ptmcalc.contract.report import FileReport
 from ptmcalc.report import Format, render
 
 CONVEYOR, SLIPPING = "specs/conveyor.yaml", "tests/cli/specs/slipping.yaml"
-HEADINGS = ("Loads", "Checks", "Effects", "Solvers", "Assumed: the file does not say")
+HEADINGS = ("Loads", "Checks", "Effects", "Events", "Solvers", "Assumed: the file does not say")
 
 
 def table(report: FileReport, width: int = 120) -> str:
@@ -37,6 +38,12 @@ def cells(line: str) -> list[str]:
 def rows(report: FileReport, heading: str) -> list[list[str]]:
     """The rows of one table; the first is its head."""
     return [cells(line) for line in parts(table(report))[heading] if not set(line) <= set(" ─")]
+
+
+def with_a_ledger(report: FileReport) -> FileReport:
+    """The same report with the ledger of another."""
+    (other,) = SAMPLES["passing"].scenes
+    return replace(report, scenes=tuple(replace(scene, effects=other.effects) for scene in report.scenes))
 
 
 @pytest.mark.parametrize("path", [CONVEYOR, SLIPPING])
@@ -112,6 +119,35 @@ def test_solvers_show_what_they_carried_and_what_the_next_one_costs() -> None:
     _, *found = rows(SAMPLES["passing"], "Solvers")
     assert ["hang", "rich", "sag, waves", "1000", "rich, 12 ms"] in found
     assert ["hang", "textbook (shown only)", "1"] in found
+
+
+def test_events_stand_with_time_and_states_at_most_30_a_scene() -> None:
+    head, *found = rows(SAMPLES["moving"], "Events")
+    assert head == ["scene", "time", "element", "from", "to"]
+    assert found[:3] == [
+        ["gust", "0 s", "rope", "taut", "slack"],
+        ["gust", "0.012346 s", "rope", "slack", "taut"],
+        ["gust", "0.024691 s", "rope", "taut", "slack"],
+    ]
+    assert len(found) == 31
+    assert found[-1] == ["gust", "... and 5 more"]
+
+
+def test_events_stand_between_effects_and_solvers() -> None:
+    headings = [line for line in table(with_a_ledger(SAMPLES["moving"])).splitlines() if line in HEADINGS]
+    assert headings == ["Loads", "Checks", "Effects", "Events", "Solvers"]
+
+
+def test_30_events_are_all_shown() -> None:
+    gust = SAMPLES["moving"].scenes[0]
+    found = replace(SAMPLES["moving"], scenes=(replace(gust, events=gust.events[:30]),))
+    assert len(rows(found, "Events")) == 31
+    assert "more" not in "".join(parts(table(found))["Events"])
+
+
+@pytest.mark.parametrize("name", [name for name in SAMPLES if name != "moving"])
+def test_a_file_without_events_has_no_table_of_them(name: str) -> None:
+    assert "Events" not in table(SAMPLES[name])
 
 
 def test_assumed_values_stand_with_interval_and_source() -> None:

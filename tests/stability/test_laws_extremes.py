@@ -30,8 +30,10 @@ from ptmcalc.laws import (
     resistance,
     response,
     sag,
+    shaft,
     shock,
     similarity,
+    slider_crank,
     start_profile,
     two_mass,
     vibration,
@@ -194,6 +196,21 @@ def distortion_numbers(*given: Any) -> list[float]:
     return [float(x) for x in re.findall(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", " ".join(similarity.distortions(*given)))]
 
 
+def linkage(draw: Draw) -> tuple[float, float, float]:
+    """Crank radius, rod length and offset of a crank that can turn round."""
+    radius, offset, more = draw.positive(3)
+    return radius, (radius + offset) * (1.001 + more), offset
+
+
+def in_linkage(draw: Draw) -> tuple[float, ...]:
+    return float(draw.rng.uniform(-9, 9)), *linkage(draw)
+
+
+def from_large_to_small(draw: Draw) -> tuple[float, float]:
+    high, low = nested(draw, 2)
+    return high, low
+
+
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
     "reduced_drive_mass": (inertia.reduced_drive_mass, lambda d: tuple(d.positive(5))),
     "inertia_on_motor_shaft": (
@@ -347,6 +364,51 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "peak_rate": (start_profile.peak_rate, lambda d: (d.shape("ramp", "cosine"), *d.positive(1))),
     "phases_torque": (phase_numbers, lambda d: (d.shape("step", "ramp", "cosine"), False, *d.positive(2))),
     "phases_speed": (phase_numbers, lambda d: (d.shape("ramp", "cosine"), True, *d.positive(2))),
+    "acceleration": (shaft.acceleration, lambda d: tuple(d.positive(4))),
+    "torque_of_motion": (shaft.torque_of_motion, lambda d: tuple(d.positive(4))),
+    "speed_after_work": (
+        shaft.speed_after_work,
+        lambda d: (*d.positive(2), d.rng.normal() * d.positive(1)[0], *d.positive(1)),
+    ),
+    "gear_factor": (
+        shaft.gear_factor,
+        lambda d: (d.rng.normal() * d.positive(1)[0], *d.positive(4), efficiency(d), efficiency(d)),
+    ),
+    "irregularity": (shaft.irregularity, from_large_to_small),
+    "flywheel_inertia": (shaft.flywheel_inertia, lambda d: tuple(d.positive(4))),
+    "cycle_efficiency": (shaft.cycle_efficiency, lambda d: tuple(d.positive(2))),
+    "loss_factor": (shaft.loss_factor, lambda d: tuple(d.positive(2))),
+    "inertia_criterion": (shaft.inertia_criterion, lambda d: tuple(d.positive(3))),
+    "slope_criterion": (shaft.slope_criterion, lambda d: tuple(d.positive(3))),
+    "run_out_angle": (shaft.run_out_angle, lambda d: tuple(d.positive(3))),
+    "run_out_time": (shaft.run_out_time, lambda d: tuple(d.positive(3))),
+    "brake_torque_for_angle": (shaft.brake_torque_for_angle, lambda d: tuple(d.positive(4))),
+    "recoverable_energy": (shaft.recoverable_energy, lambda d: (*d.positive(2), d.share())),
+    "braked_stop": (shaft.braked_stop, lambda d: tuple(d.positive(7))),
+    "braked_stop_driven": (
+        shaft.braked_stop,
+        lambda d: (
+            *d.positive(2),
+            -(load := d.positive(1)[0]),
+            *d.positive(1),
+            1.001 * load + d.positive(1)[0],
+            *d.positive(2),
+        ),
+    ),
+    "slider_position": (slider_crank.slider_position, in_linkage),
+    "slider_velocity": (slider_crank.slider_velocity, in_linkage),
+    "dead_centre": (slider_crank.dead_centre, lambda d: (*linkage(d), bool(d.rng.integers(2)))),
+    "crank_angles": (slider_crank.crank_angles, lambda d: (*d.positive(1), *linkage(d))),
+    "reduced_inertia": (
+        slider_crank.reduced_inertia,
+        lambda d: (*in_linkage(d), *d.positive(2), d.share(), *d.positive(1)),
+    ),
+    "reduced_inertia_slope": (
+        slider_crank.reduced_inertia_slope,
+        lambda d: (*in_linkage(d), *d.positive(2), d.share(), *d.positive(1)),
+    ),
+    "rod_centre_height": (slider_crank.rod_centre_height, lambda d: (*in_linkage(d), d.share(), 3 * d.share())),
+    "rod_centre_lift": (slider_crank.rod_centre_lift, lambda d: (*in_linkage(d), d.share(), 3 * d.share())),
     "wave_speed": (wave.wave_speed, lambda d: tuple(d.positive(2))),
     "impedance": (wave.impedance, lambda d: tuple(d.positive(2))),
     "reflection": (wave.reflection, lambda d: tuple(d.positive(2))),
@@ -368,6 +430,12 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "lowest_frequency_fixed": (loop_bounds.lowest_frequency_bound, whole_loop(True)),
 }
 SIGNED = {
+    "acceleration",
+    "crank_angles",
+    "reduced_inertia_slope",
+    "rod_centre_height",
+    "rod_centre_lift",
+    "slider_velocity",
     "converter_torque",
     "coulomb_decay",
     "coulomb_slide",

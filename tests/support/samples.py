@@ -4,14 +4,15 @@ import math
 from dataclasses import replace
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
-from ptmcalc.base.units import RATIO
+from ptmcalc.base.units import FORCE, RATIO
 from ptmcalc.contract.report import FileReport
-from ptmcalc.contract.result import Finding, Found, LoadInfo, Result
+from ptmcalc.contract.result import Event, Finding, Found, History, LoadInfo, Result
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from support.toy_kind import OVERLOAD, PULL, SHOCK, STATICS
-from support.toys import KN, effect, kind_of, pull, report, solver
+from support.toy_kind import OVERLOAD, PULL, SHOCK, STATICS, Hang, Toy
+from support.toys import KN, effect, kind_of, loaded, pull, report, solver
 
+_SWING = (("rope", "taut", "slack"), ("rope", "slack", "taut"))
 RESERVE = LoadInfo("reserve", "reserve of the hook", RATIO)
 
 
@@ -74,6 +75,31 @@ def infinite() -> FileReport:
     return report(kind)
 
 
+def moving() -> FileReport:
+    """A hook and a rope, each with its load and its check; in the first scene they swing: events and histories."""
+
+    def swings(spec: Toy, scene: Hang, carried: frozenset[str], level: int) -> Result:
+        return Result(
+            {"pull[hook]": Found(pull(8 * scene.share), {"time": 0.5}), "pull[rope]": Found(pull(9 * scene.share))},
+            window=(0.0, 1.0),
+            events=tuple(Event(0.0123456789 * n, *_SWING[n % 2]) for n in range(35)) if scene.share == 1 else (),
+            histories=lambda: {"pull[hook]": History(FORCE, (0.0, 0.5, 1.0), (0.0, 8 * KN, 1 / 3))},
+        )
+
+    parts = ("hook", "rope")
+    kind = kind_of(
+        replace(STATICS, run=swings),
+        parts=lambda spec: tuple(PULL.of(part) for part in parts),
+        checks=(
+            replace(
+                OVERLOAD, each=lambda spec, scene: [OVERLOAD.of(part, OVERLOAD.limit, ("load",)) for part in parts]
+            ),
+        ),
+    )
+    scenes = [{"type": "hang", "name": "gust", "share": 1}, {"type": "hang", "name": "calm", "share": 0.5}]
+    return check(loaded(kind, name="Swinging hook", scenes=scenes), Options(histories=True))
+
+
 def warned() -> FileReport:
     """A solver remarks on its own numbers."""
     remark = Finding("NUM104", "the rope was slack for a moment", ("load",), "hang it gently")
@@ -107,6 +133,7 @@ SAMPLES = {
         not_checked,
         switched_off,
         infinite,
+        moving,
         warned,
         broken,
         invalid,

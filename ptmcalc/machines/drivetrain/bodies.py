@@ -22,7 +22,9 @@ class Solid(Fragment):
 
     type: Literal["solid"]
     mass: PositiveMass
+    """mass of the whole body"""
     diameter: PositiveLength
+    """outer diameter"""
 
     @property
     def inertia(self) -> float:
@@ -34,8 +36,11 @@ class Hollow(Fragment):
 
     type: Literal["hollow"]
     mass: PositiveMass
+    """mass of the whole body"""
     outer_diameter: PositiveLength
+    """outer diameter"""
     inner_diameter: PositiveLength
+    """diameter of the hole"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -54,7 +59,9 @@ class Ring(Fragment):
 
     type: Literal["ring"]
     mass: PositiveMass
+    """mass of the whole body"""
     mean_diameter: PositiveLength
+    """of the middle of the ring"""
 
     @property
     def inertia(self) -> float:
@@ -66,10 +73,15 @@ class Drum(Fragment):
 
     type: Literal["drum"]
     outer_diameter: PositiveLength
+    """outer diameter"""
     inner_diameter: PositiveLength
+    """diameter of the hole"""
     length: PositiveLength
+    """along its axis"""
     disc_thickness: Length
+    """of each end disc"""
     shaft_diameter: Length
+    """of the shaft through both discs"""
     density: Density = STEEL
     """7850 kg/m^3 when left out"""
 
@@ -102,8 +114,11 @@ class RingPart(Fragment):
     """One ring of a sheave: rim, web or hub."""
 
     outer_radius: PositiveLength
+    """of this ring"""
     inner_radius: Length
+    """of its hole"""
     width: PositiveLength
+    """along the axis"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -118,6 +133,7 @@ class Sheave(Fragment):
 
     type: Literal["sheave"]
     rings: Annotated[tuple[RingPart, ...], Field(min_length=1, max_length=20)]
+    """rim, web and hub"""
     density: Density = STEEL
     """7850 kg/m^3 when left out"""
 
@@ -133,7 +149,9 @@ class Coupling(Fragment):
 
     type: Literal["coupling"]
     mass: PositiveMass
+    """mass of the whole body"""
     diameter: PositiveLength
+    """outer diameter"""
     shape: Shape = 0.5
     """k in k m R^2: 0.4 to 0.6, a ring is 1"""
 
@@ -147,14 +165,18 @@ class Rod(Fragment):
 
     type: Literal["rod"]
     mass: PositiveMass
+    """mass of the whole body"""
     length: PositiveLength
+    """along its axis"""
     position: Literal["end", "centre", "radial", "parallel", "inclined"]
     """axis across through its end or centre; radial with its near end at `distance`; parallel to it at `distance`;
     inclined at `angle` to the axis with its end on it"""
     distance: Length = 0.0
+    """of the near end, or of the rod, from the axis"""
     radius: Length = 0.0
     """of the rod itself (`parallel`)"""
     angle: Annotated[float, Measure(units.ANGLE)] | None = None
+    """of an inclined rod to the axis"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -111,8 +111,10 @@ def play_of(link: Link) -> float:
         assert given.centre_distance is not None
         assert given.accuracy_class is not None
         new = backlash.new_clearance(given.centre_distance, given.accuracy_class)
-    worn = backlash.worn_clearance(new, given.wear, given.module, given.both_worn) if given.module else new
-    return backlash.clearance_angle(worn, given.pitch_radius)
+    if given.module is not None:
+        share = backlash.wear_share(given.wear, given.module)
+        new = backlash.worn_clearance(new, share, given.module, given.both_worn)
+    return backlash.clearance_angle(new, given.pitch_radius)
 
 
 def rigid(case: Case) -> Case:

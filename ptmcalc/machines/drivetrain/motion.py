@@ -1,4 +1,4 @@
-"""A scene played through, and the loads read from it with their bars."""
+"""A scene played through, and the loads read from it."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Event, Finding, Found, History, of
+from ptmcalc.contract.result import Event, Finding, History, of
 from ptmcalc.machines.drivetrain.loads import parts
 from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
@@ -20,10 +19,7 @@ from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth
 from ptmcalc.numerics.train.system import TrainSystem
 
-COARSER = 16.0
-"""Tolerance of the first of two runs over that of the second."""
 _CLOSES = 1e-9
-_FLOOR = 1e-12
 _LONGEST, _FIRST = 4096.0, 0.25
 _CHATTER, _LAST_PART = 60, 0.05
 _PERIODS = 10
@@ -188,37 +184,14 @@ def _without_dust(name: str, found: Readings) -> tuple[float, float | None]:
     value, time = found[name]
     if "[" not in name:
         return value, time
-    alike = [abs(one) for other, (one, _) in found.items() if _kind(other) == _kind(name)]
+    alike = [abs(one) for other, (one, _) in found.items() if part_of(other) == part_of(name)]
     return (0.0 if abs(value) <= _DUST * max(alike) else value), time
 
 
-def _kind(name: str) -> tuple[str, str]:
-    """What is read and of which part: the largest, smallest and last speed of a body are of one kind."""
+def part_of(name: str) -> tuple[str, str]:
+    """What is read and of which part: the largest, smallest and last speed of a body are alike."""
     family, _, part = name.partition("[")
     return family.removesuffix("_max").removesuffix("_min").removesuffix("_end"), part
-
-
-def loads(spec: Drivetrain, coarse: Course, fine: Course) -> dict[str, Found]:
-    """The loads of the finer of two runs, with bars.
-
-        bar = |coarse - fine|/4 + 1e-12 of the value   with a nonlinear torque
-        bar = |coarse - fine| + 1e-12 of the value     without: both runs are exact, what differs is rounding
-
-    The first run has 16 times the tolerance of the second, so its error, which is nearly the difference, is about 16
-    times that of the second: a quarter of it leaves a factor 4. Two exact runs on unlike panels share no rounding.
-    """
-    share = 0.25 if fine.smooth else 1.0
-    one, two = readings(spec, coarse), readings(spec, fine)
-    found = {}
-    for name, (value, time) in two.items():
-        other = one[name][0]
-        at = {"time": time} if time is not None else {}
-        if not math.isfinite(value) or not math.isfinite(other):
-            found[name] = Found(Estimate.exact(value) if value == other else Estimate.unknown(value), at)
-            continue
-        found[name] = Found(Estimate.within(value, share * abs(value - other) + _FLOOR * abs(value)), at)
-    found["energy_residual"] = Found(Estimate.exact(fine.ledger.residual))
-    return found
 
 
 def untrusted(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: float) -> Finding | None:
@@ -272,7 +245,7 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
     course = run(case, end, tolerance, keep=True)
     samples = course.record.samples
     assert samples is not None
-    times = np.concatenate(samples.times).tolist()
+    times = np.maximum.accumulate(np.concatenate(samples.times)).tolist()  # an event may move by a rounding
     values = np.concatenate(samples.values)
     quantities = {info.name: info.quantity for info in parts(spec)}
     signals = {of("torque_peak", name): course.torque(name) for name in (*spec.links, *spec.gears)}

@@ -319,21 +319,27 @@ class TimePoint(Fragment):
     """A torque at a time."""
 
     time: Time
+    """since the start of the scene"""
     torque: Torque
+    """at that point"""
 
 
 class SpeedPoint(Fragment):
     """A torque at a speed."""
 
     speed: AnySpeed
+    """of the inertia"""
     torque: Torque
+    """at that point"""
 
 
 class PositionPoint(Fragment):
     """A torque at an angle or position."""
 
     position: Turn
+    """of the inertia"""
     torque: Torque
+    """at that point"""
 
 
 class OverTime(OnInertia):
@@ -341,6 +347,7 @@ class OverTime(OnInertia):
 
     type: Literal["over_time"]
     points: Annotated[tuple[TimePoint, ...], Field(min_length=2, max_length=2000)]
+    """in rising order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -353,6 +360,7 @@ class OverSpeed(OnInertia):
 
     type: Literal["over_speed"]
     points: Annotated[tuple[SpeedPoint, ...], Field(min_length=2, max_length=500)]
+    """in rising order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -365,6 +373,7 @@ class OverPosition(OnInertia):
 
     type: Literal["over_position"]
     points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
+    """in rising order"""
     period: Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None = None
     """the table repeats after so much travel; its last point is then one period behind the first"""
 
@@ -414,7 +423,9 @@ class MotionPoint(Fragment):
     """A speed at a time."""
 
     time: Time
+    """since the start of the scene"""
     speed: AnySpeed
+    """of the inertia"""
 
 
 class Motion(Fragment):
@@ -423,6 +434,7 @@ class Motion(Fragment):
     on: str
     """the inertia it acts on"""
     points: Annotated[tuple[MotionPoint, ...], Field(min_length=1, max_length=500)]
+    """in rising order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -477,6 +489,7 @@ class Run(TrainScene):
 
     type: Literal["run"] = "run"
     duration: PositiveTime
+    """how long the scene is looked at"""
 
 
 class Start(TrainScene):

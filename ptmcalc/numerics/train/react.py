@@ -289,11 +289,14 @@ class Reactor:
         system, state = self.system, self.state
         speeds = system.speed @ self.z
         largest = float(np.abs(speeds).max(initial=0.0))
+        system.fastest = max(system.fastest, largest)
         turning: list[tuple[int, ...]] = []
         for group, turn in enumerate(state.turning):
             if turn == 2:
                 turning.append((2,))
-            elif group in self.resting or self._still(speeds[group], largest):
+            elif group in self.resting or self._still(
+                speeds[group], system.fastest if group in system.guided else largest
+            ):
                 turning.append((0, 1, -1))
             else:
                 turning.append((int(np.sign(speeds[group])),))
@@ -302,8 +305,13 @@ class Reactor:
             apart = float(system.groups.row(grip.first, grip.second) @ speeds)
             met = index in self.locked or self._still(apart, largest)
             slips.append((0, 1, -1) if met else (int(np.sign(apart)),))
+        rows = (system.groups.row(grip.first, grip.second) for _, grip in self._clutches())
+        pairs = [(index, _ends(row)) for index, row in enumerate(rows)]
+        between = [(index, ends) for index, ends in pairs if all(len(turning[group]) == 3 for group, _ in ends)]
         for chosen in itertools.product(*turning, *slips):
-            yield state._replace(turning=chosen[: len(turning)], clutches=chosen[len(turning) :])
+            ways, slipping = chosen[: len(turning)], chosen[len(turning) :]
+            if all(_agrees(slipping[index], [ways[group] * side for group, side in ends]) for index, ends in between):
+                yield state._replace(turning=ways, clutches=slipping)
 
     def _with_signs(self, state: "State") -> "tuple[State, list[Change]] | None":
         """The candidate with signs of its mesh torques that agree with the motion, and the other guards it breaks.
@@ -348,10 +356,10 @@ class Reactor:
         system, train, old, new = self.system, self.system.train, self.before, self.state
         for spring, was, now in zip(train.springs, old.contacts, new.contacts, strict=True):
             yield from self._event(spring.name, _contact_word(was), _contact_word(now))
-        for group, (was, now) in enumerate(zip(old.turning, new.turning, strict=True)):
-            yield from self._event(system.friction_name(group), _TURNING[was], _TURNING[now])
-        for (_, grip), was, now in zip(self._clutches(), old.clutches, new.clutches, strict=True):
-            yield from self._event(grip.name, _SLIPPING[was], _SLIPPING[now])
+        for group, (turned, turns) in enumerate(zip(old.turning, new.turning, strict=True)):
+            yield from self._event(system.friction_name(group), _TURNING[turned], _TURNING[turns])
+        for (_, grip), slipped, slips in zip(self._clutches(), old.clutches, new.clutches, strict=True):
+            yield from self._event(grip.name, _SLIPPING[slipped], _SLIPPING[slips])
         for drive, was_drive, now_drive in zip(train.drives, old.drives, new.drives, strict=True):
             stages = (was_drive[0], now_drive[0])
             yield from self._event(drive.name, *(f"stage {stage + 1}" for stage in stages))
@@ -365,6 +373,16 @@ class Reactor:
     def _event(self, element: str, before: str, after: str) -> Iterator[Event]:
         if before != after:
             yield Event(self.time, element, before, after)
+
+
+def _ends(row: FloatArray) -> list[tuple[int, int]]:
+    """Groups in a row with the signs they have in it."""
+    return [(int(group), int(np.sign(row[group]))) for group in np.flatnonzero(row)]
+
+
+def _agrees(slip: int, ways: list[int]) -> bool:
+    """Whether a clutch can slip this way while its two sides begin to move so from rest."""
+    return ways[0] * ways[1] < 0 or slip == int(np.sign(sum(ways)))
 
 
 def _contact_word(contact: links.Contact) -> str:

@@ -95,6 +95,7 @@ class TrainSystem:
         self.clutches = tuple(index for index, grip in enumerate(train.grips) if self._joins(grip))
         self._motions: dict[State, tuple[Motion, tuple[Change, ...]]] = {}
         self.first_impacts: dict[int, float] = {}
+        self.fastest = 0.0
         self._rows()
 
     def _all_signals(self) -> Iterator[Signal]:
@@ -157,6 +158,7 @@ class TrainSystem:
     def start(self) -> tuple[State, FloatArray]:
         """State and z at time 0; which contacts hold is left to the first reaction."""
         self.first_impacts.clear()
+        self.fastest = 0.0
         z = np.zeros(self.size)
         z[: self.groups.count] = self.extended
         speeds = np.zeros(self.groups.count)

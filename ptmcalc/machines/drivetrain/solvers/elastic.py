@@ -3,7 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import motion
+from ptmcalc.machines.drivetrain import bars, motion
 from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
@@ -21,16 +21,15 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     polynomials of time found by iteration. Contacts, sticking and slipping change at roots of the exact solution.
 
     **Range** any train; a chattering contact is given up after 20 000 events.
-    **Error** bars from two runs (`motion.loads`); numbers are trusted only if the energy ledger closes to 1e-9, with a
-    nonlinear torque to ten times the tolerance.
+    **Error** bars from runs that divide time otherwise (`bars.loads`); numbers are trusted only if the energy ledger
+    closes to 1e-9, with a nonlinear torque to ten times the tolerance.
     **Source** derived in `numerics.piecewise` and `numerics.train`; cases against independent integrations.
     """
     case = case_of(spec, scene, "backlash" in carried)
     tolerance = TOLERANCES[level]
     end = motion.window(scene, case)
-    coarse = motion.run(case, end, tolerance * motion.COARSER, refined=0.7)
-    fine = motion.run(case, end, tolerance)
-    loads = motion.loads(spec, coarse, fine)
+    runs = bars.played(case, end, tolerance)
+    fine, loads = runs[0], bars.loads(spec, *runs)
     findings = list(motion.remarks(scene, fine))
     broken = motion.untrusted(spec, scene, fine, tolerance)
     if broken is not None:
@@ -39,7 +38,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     loads |= _against_rigid(spec, scene, loads, end)
     return Result(
         loads,
-        work=coarse.record.steps + fine.record.steps,
+        work=sum(course.record.steps for course in runs),
         window=(0.0, fine.record.time),
         health={"energy_residual": fine.ledger.residual, "steps": float(fine.record.steps)},
         findings=tuple(findings),

@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import motion
+from ptmcalc.machines.drivetrain import bars, motion
 from ptmcalc.machines.drivetrain.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import case_of, rigid
@@ -23,15 +23,15 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     What is left of the freedom of the train, a clutch or a link to the ground, is kept.
 
     **Range** any train.
-    **Error** bars from two runs; what the links' elasticity changes is in the bound of the effect `elasticity`.
+    **Error** bars from runs that divide time otherwise (`bars.loads`); what the links' elasticity changes is in the
+    bound of the effect `elasticity`.
     **Source** lecture notes Kramatorsk 2007 (reduction of masses); efficiency by the total torque, derived in
     `laws.gearing`.
     """
     case = rigid(case_of(spec, scene, backlash=False))
     end = motion.window(scene, case_of(spec, scene))
-    coarse = motion.run(case, end, TOLERANCES[1] * motion.COARSER, refined=0.7)
-    fine = motion.run(case, end, TOLERANCES[1])
-    loads = motion.loads(spec, coarse, fine)
+    runs = bars.played(case, end, TOLERANCES[1])
+    fine, loads = runs[0], bars.loads(spec, *runs)
     for name in (*spec.links, *spec.gears):
         index = fine.torque(name)
         if index is not None:
@@ -42,7 +42,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
     return Result(
         loads,
-        work=coarse.record.steps + fine.record.steps,
+        work=sum(course.record.steps for course in runs),
         window=(0.0, fine.record.time),
         health={"energy_residual": fine.ledger.residual, "steps": float(fine.record.steps)},
         findings=(broken,) if broken else (),

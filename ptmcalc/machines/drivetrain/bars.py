@@ -1,0 +1,87 @@
+"""Loads with bars, from several runs that divide time otherwise."""
+
+import math
+from collections.abc import Iterable
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found
+from ptmcalc.machines.drivetrain import motion
+from ptmcalc.machines.drivetrain.model import Case
+from ptmcalc.machines.drivetrain.motion import Course, Readings, part_of
+from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.numerics.flow import FADED
+
+_COMPARED = (0.7, 0.85)
+"""How the runs beside the one that counts divide time, over its own stretches and panels."""
+_MARGIN = 3.0
+_ALIKE = 1e-3
+_POLYNOMIALS = 3e-12
+_UNSEEN = FADED + _POLYNOMIALS
+"""What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
+
+
+def played(case: Case, end: float, tolerance: float) -> tuple[Course, ...]:
+    """The run that counts, and those it is compared with: one, or two with a nonlinear torque."""
+    course = motion.run(case, end, tolerance)
+    compared = _COMPARED if course.smooth else _COMPARED[:1]
+    return (course, *(motion.run(case, end, tolerance, refined) for refined in compared))
+
+
+def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]:
+    """The loads of a run, with bars from others.
+
+        bar = e |x|,   e = 3 max |x - x'|/|x|   over the loads of one kind and over the other runs
+
+    Without a nonlinear torque all runs are exact, and what differs is rounding. With one each run has an error of its
+    own: that of a stretch goes with the ninth power of its length, so stretches 0.7 and 0.85 times as long, or such
+    multiples of two of it, have errors at least 25 and 4 times as large or as small, and two runs differ by nearly the
+    larger error; 3 leaves room for errors of many stretches that add and cancel. Where a load agrees by chance, others
+    of its kind do not: those of forces, or those of motion. Added is what reading a signal may miss. What is largest at
+    the start is what the file says.
+    """
+    own = motion.readings(spec, course)
+    compared = [motion.readings(spec, other) for other in others]
+    sizes = _sizes(own)
+    apart = {name: max(differences) for name in own if (differences := _differences(name, own, compared))}
+    shares = {force: _share(apart, sizes, force) for force in (True, False)}
+    found = {}
+    for name, (value, time) in own.items():
+        at = {"time": time} if time is not None else {}
+        if name not in apart:
+            same = all(other[name][0] == value for other in compared)
+            found[name] = Found(Estimate.exact(value) if same else Estimate.unknown(value), at)
+            continue
+        size = sizes[part_of(name)]
+        bar = _MARGIN * apart[name]
+        if time != 0:
+            bar = max(bar, _MARGIN * shares[_is_force(name)] * size) + _UNSEEN * size
+        found[name] = Found(Estimate.within(value, bar), at)
+    found["energy_residual"] = Found(Estimate.exact(course.ledger.residual))
+    return found
+
+
+def _sizes(own: Readings) -> dict[tuple[str, str], float]:
+    """Largest magnitude of what is read of each part."""
+    sizes: dict[tuple[str, str], float] = {}
+    for name, (value, _) in own.items():
+        if math.isfinite(value):
+            sizes[part_of(name)] = max(sizes.get(part_of(name), 0.0), abs(value))
+    return sizes
+
+
+def _differences(name: str, own: Readings, others: Iterable[Readings]) -> list[float]:
+    """How far a load lies from that of each other run; none where one of them is not finite."""
+    values = [other[name][0] for other in others]
+    value = own[name][0]
+    return [abs(value - other) for other in values] if all(map(math.isfinite, (value, *values))) else []
+
+
+def _share(apart: dict[str, float], sizes: dict[tuple[str, str], float], force: bool) -> float:
+    """Largest difference of loads of one kind, over their sizes; of parts that hardly take part none counts."""
+    kind = {name: sizes[part_of(name)] for name in apart if _is_force(name) is force}
+    least = _ALIKE * max(kind.values(), default=0.0)
+    return max((apart[name] / size for name, size in kind.items() if size > least), default=0.0)
+
+
+def _is_force(name: str) -> bool:
+    return "torque" in name

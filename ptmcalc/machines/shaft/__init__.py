@@ -1,0 +1,92 @@
+"""Main shaft of a machine with its tachogram: run-up, steady cycle and run-out."""
+
+from collections.abc import Iterator
+from importlib import resources
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.result import Finding
+from ptmcalc.laws import slider_crank
+from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
+from ptmcalc.machines.shaft.checks import CHECKS
+from ptmcalc.machines.shaft.effects import EFFECTS
+from ptmcalc.machines.shaft.loads import LOADS
+from ptmcalc.machines.shaft.model import machine_of
+from ptmcalc.machines.shaft.solvers import SOLVERS
+from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
+
+_SPEED_TOLERANCE = 0.05
+
+
+def inspect(spec: Shaft) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    free = spec.drive.motor.no_load_speed
+    ratio = spec.drive.gear.ratio
+    if spec.speed is not None and free is not None and not 0.85 <= spec.speed * ratio / free <= 1 + _SPEED_TOLERANCE:
+        yield Finding(
+            "SPC201",
+            f"motor and gear give {units.show(free / ratio, units.ANGULAR_SPEED)} without load, the main shaft is said"
+            f" to run at {units.show(spec.speed, units.ANGULAR_SPEED)}",
+            ("speed",),
+            "correct the speed, the ratio or the motor",
+        )
+    for index, scene in enumerate(spec.scenes or ()):
+        if isinstance(scene, RunUp) and scene.to is not None and free is not None and scene.to * ratio >= free:
+            yield Finding(
+                "SPC201",
+                f"the run-up is to end at {units.show(scene.to, units.ANGULAR_SPEED)}, where the motor gives no torque"
+                f" any more ({units.show(free / ratio, units.ANGULAR_SPEED)})",
+                ("scenes", index, "to"),
+                "write a lower speed",
+            )
+    yield from _brake_that_does_not_hold(spec)
+    yield from _force_beyond_the_stroke(spec)
+
+
+def _brake_that_does_not_hold(spec: Shaft) -> Iterator[Finding]:
+    if spec.brake is None or spec.brake.torque == 0:
+        return
+    machine = machine_of(spec, "idle")
+    turning = float(np.max(np.abs(machine.potential_torque(np.linspace(0.0, machine.period, 721)))))
+    if turning > spec.brake.torque + spec.losses.torque:
+        yield Finding(
+            "SPC201",
+            f"weights and springs turn the shaft with up to {units.show(turning, units.TORQUE)}, more than brake and"
+            " friction hold",
+            ("brake", "torque"),
+            "a stronger brake, or a better balance",
+        )
+
+
+def _force_beyond_the_stroke(spec: Shaft) -> Iterator[Finding]:
+    if not isinstance(spec.load, ToolLoad) or not isinstance(spec.inertia, SliderCrank):
+        return
+    crank = spec.inertia
+    shape = crank.crank_radius, crank.rod_length, crank.offset
+    stroke = slider_crank.dead_centre(*shape, True)[0] - slider_crank.dead_centre(*shape, False)[0]
+    for index, point in enumerate(spec.load.points):
+        if point.distance > stroke * (1 + 1e-9):
+            yield Finding(
+                "SPC201",
+                f"the slider moves by {units.show(stroke, units.LENGTH)}: it never is"
+                f" {units.show(point.distance, units.LENGTH)} from its dead centre",
+                ("load", "points", index, "distance"),
+                "correct the distance or the crank radius",
+            )
+            return
+
+
+KIND = MachineKind(
+    name="shaft",
+    title="main shaft with its tachogram: run-up, steady cycle, flywheel, run-out",
+    spec=Shaft,
+    loads=LOADS,
+    effects=EFFECTS,
+    solvers=SOLVERS,
+    checks=CHECKS,
+    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    assumptions=ASSUMPTIONS,
+    inspect=inspect,
+)

@@ -1,0 +1,313 @@
+"""The checks of a main shaft."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import ConstantMotor, ConverterMotor, InductionBase, LinearMotor, TableMotor
+from ptmcalc.contract.check import Check, Sense
+from ptmcalc.machines.shaft.cases import is_braked
+from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+
+_BELOW_ONE = math.nextafter(1.0, 0.0)
+
+
+def _no_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
+    return ()
+
+
+def motor_key(spec: Shaft) -> KeyPath:
+    """The key that says how strong the motor is."""
+    motor = spec.drive.motor
+    if isinstance(motor, InductionBase):
+        return ("drive", "motor", "power")
+    if isinstance(motor, ConstantMotor):
+        return ("drive", "motor", "torque")
+    if isinstance(motor, LinearMotor):
+        return ("drive", "motor", "starting_torque")
+    return ("drive", "motor", "torque_limit") if isinstance(motor, ConverterMotor) else ("drive", "motor", "points")
+
+
+def _motor(spec: Shaft, scene: ShaftScene) -> KeyPath:
+    return motor_key(spec)
+
+
+def _motor_that_can_vary(spec: Shaft, scene: ShaftScene) -> KeyPath:
+    return () if isinstance(spec.drive.motor, TableMotor) else motor_key(spec)
+
+
+def _blame_motor(spec: Shaft, scene: ShaftScene, loads: Loads) -> KeyPath:
+    return motor_key(spec)
+
+
+# -- motion ---------------------------------------------------------------------------------------------------------
+
+
+def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
+    """The loss factor must stay below 1.
+
+    **Range** any machine.
+    **Error** none.
+    **Source** lecture notes Kramatorsk, chapter 6: at 1 motion is impossible.
+    """
+    return Estimate.exact(_BELOW_ONE)
+
+
+def _motion_value(spec: Shaft, scene: Steady, loads: Loads) -> Estimate:
+    """The loss factor; a cycle that surely keeps moving has one below 1.
+
+    A machine that runs idle has a loss factor of 1, too, and one that its load drives has none: both move.
+
+    **Range** any machine.
+    **Error** that of the load; none where the smallest speed of the cycle surely is above 0, or the motor stalls.
+    **Source** the Poincare map of the cycle.
+    """
+    factor = loads["loss_factor"]
+    if loads["speed_min"].low > 0:
+        return Estimate.exact(min(factor.value, _BELOW_ONE))
+    return factor
+
+
+MOTION: Check[Shaft, Steady] = Check(
+    code="SHF101",
+    title="a cycle the motor cannot drive",
+    scenes=frozenset({Steady}),
+    loads=("loss_factor", "speed_min"),
+    value=_motion_value,
+    sense=Sense.AT_MOST,
+    limit=_motion_limit,
+    needs=_no_needs,
+    blame=_blame_motor,
+    repair=_motor_that_can_vary,
+    what="The motor carries the shaft through every angle of the cycle: there is a motion that repeats itself.",
+    why="A machine whose motor stalls in the working stroke stands under load, and the motor overheats in seconds.",
+    formula="psi = A_loss/A_drive < 1;   a machine that stalls has psi = 1: nothing is useful",
+    source="lecture notes Kramatorsk, chapter 6",
+)
+
+# -- irregularity ---------------------------------------------------------------------------------------------------
+
+
+def _even_limit(spec: Shaft, scene: Steady) -> Estimate:
+    """Largest irregularity of the file.
+
+    **Range** 1/5 to 1/30 for presses and pumps, 1/40 to 1/100 for machine tools and looms, 1/100 to 1/300 for
+    generators.
+    **Error** none: a chosen limit.
+    **Source** usual values of textbooks of the theory of machines.
+    """
+    asked = spec.checks.irregularity
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+EVEN: Check[Shaft, Steady] = Check(
+    code="SHF102",
+    title="too uneven a speed",
+    scenes=frozenset({Steady}),
+    loads=("irregularity",),
+    sense=Sense.AT_MOST,
+    limit=_even_limit,
+    needs=lambda spec, scene: (("checks", "irregularity"),),
+    blame=lambda spec, scene, loads: _inertia_key(spec),
+    repair=lambda spec, scene: _inertia_key(spec) if spec.inertia.type != "table" else (),
+    what="The speed of the main shaft swings over the steady cycle by no more than the irregularity of the file.",
+    why="A speed that swings loads gear and motor, spoils the work and can be heard.",
+    formula="(w_max - w_min)/w_mean <= delta",
+    source="definition; limit by the maker of the machine",
+)
+
+
+def _inertia_key(spec: Shaft) -> KeyPath:
+    """The key that a flywheel would raise."""
+    keys = {"constant": "value", "harmonics": "mean", "table": "points", "slider_crank": "crank_inertia"}
+    return ("inertia", keys[spec.inertia.type])
+
+
+# -- run-up ---------------------------------------------------------------------------------------------------------
+
+
+def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
+    """Longest run-up of the file.
+
+    **Range** cage motors bear 5 to 10 s of direct starting, see the maker's list.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement.
+    """
+    asked = spec.checks.run_up_time
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+RUN_UP: Check[Shaft, RunUp] = Check(
+    code="SHF103",
+    title="too slow a run-up",
+    scenes=frozenset({RunUp}),
+    loads=("run_up_time",),
+    sense=Sense.AT_MOST,
+    limit=_run_up_limit,
+    needs=lambda spec, scene: (("checks", "run_up_time"),),
+    blame=_blame_motor,
+    repair=_motor_that_can_vary,
+    what="The motor brings the shaft from rest to speed within the time of the file; one that stalls never does.",
+    why="A motor that starts for too long overheats, and its protection trips.",
+    formula="t = integral of J dw/M <= limit",
+    source="lecture notes Kramatorsk, chapter 6",
+)
+
+# -- heating --------------------------------------------------------------------------------------------------------
+
+
+def _heat_limit(spec: Shaft, scene: Steady) -> Estimate:
+    """Rated torque of the motor.
+
+    **Range** continuous duty S6 of IEC 60034-1: the same cycle over and over, never at rest.
+    **Error** none: the rating.
+    **Source** IEC 60034-1; `laws.duty.rms_torque`.
+    """
+    return Estimate.exact(spec.drive.motor.rated or math.inf)
+
+
+def _rated_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
+    return () if spec.drive.motor.rated is not None else (("drive", "motor", "rated_torque"),)
+
+
+HEAT: Check[Shaft, Steady] = Check(
+    code="SHF104",
+    title="a motor that overheats in the cycle",
+    scenes=frozenset({Steady}),
+    loads=("torque_motor_rms",),
+    sense=Sense.AT_MOST,
+    limit=_heat_limit,
+    needs=_rated_needs,
+    blame=_blame_motor,
+    repair=_motor_that_can_vary,
+    what="The root mean square of the motor's torque over the cycle is no more than its rated torque.",
+    why="The losses of a motor go with the square of its torque; above its rating the insulation ages fast.",
+    formula="sqrt(1/t integral of M^2 dt) <= M_rated",
+    source="IEC 60034-1, duty S6",
+)
+
+# -- stop -----------------------------------------------------------------------------------------------------------
+
+
+class _WhenBraked(Check[Shaft, RunOut]):
+    """A check of a stop: a shaft that is left to coast keeps no limit."""
+
+    def applies_to(self, scene: Scene) -> bool:
+        return Check.applies_to(self, scene) and isinstance(scene, RunOut) and scene.brake != "off"
+
+
+def _brake_key(spec: Shaft, scene: RunOut) -> KeyPath:
+    return ("brake", "torque") if is_braked(spec, scene) else ("brake",)
+
+
+def _blame_brake(spec: Shaft, scene: RunOut, loads: Loads) -> KeyPath:
+    """The delay, where no brake would do; else the torque."""
+    needed = loads.get("brake_torque_needed")
+    if spec.brake is not None and needed is not None and math.isinf(needed.value):
+        return ("brake", "delay")
+    return _brake_key(spec, scene)
+
+
+def _stop_repair(spec: Shaft, scene: RunOut) -> KeyPath:
+    return ("brake", "torque") if spec.brake is not None else ()
+
+
+def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
+    """Largest angle of a braked run-out of the file.
+
+    **Range** for presses what safeguarding allows between the signal and the closing of the tool.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement.
+    """
+    asked = spec.checks.stop_angle
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
+    """Longest braked run-out of the file.
+
+    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement; walking speed of 1.6 m/s from ISO 13855.
+    """
+    asked = spec.checks.stop_time
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
+    code="SHF105",
+    title="a stop over too wide an angle",
+    scenes=frozenset({RunOut}),
+    loads=("run_out_angle",),
+    sense=Sense.AT_MOST,
+    limit=_stop_angle_limit,
+    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_angle")),
+    blame=_blame_brake,
+    repair=_stop_repair,
+    what="With drive off and brake on the shaft stops within the angle of the file, from the angle stated or the"
+    " worst.",
+    why="What the shaft turns by after the command is the way a hand has left.",
+    formula="phi = integral of w dt from the command until w = 0;   T_0 = A_loss + A_brake",
+    source="lecture notes Kramatorsk, chapter 6",
+)
+
+STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
+    code="SHF106",
+    title="too long a stop",
+    scenes=frozenset({RunOut}),
+    loads=("run_out_time",),
+    sense=Sense.AT_MOST,
+    limit=_stop_time_limit,
+    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_time")),
+    blame=_blame_brake,
+    repair=_stop_repair,
+    what="With drive off and brake on the shaft stops within the time of the file, from the angle stated or the worst.",
+    why="The stopping time sets the distance at which a safeguard must stand.",
+    formula="t from the command until w = 0",
+    source="lecture notes Kramatorsk, chapter 6; ISO 13855 for what follows from the time",
+)
+
+# -- overload -------------------------------------------------------------------------------------------------------
+
+
+def _overload_limit(spec: Shaft, scene: Steady) -> Estimate:
+    """The most the motor may give: the limit of the file, that of the converter, or a share of the breakdown torque.
+
+        0.81 M_k:  the torque goes with the square of the voltage, and the voltage may be 10 % low
+
+    **Range** induction motors by their breakdown torque; others by `largest_torque`.
+    **Error** none: a chosen limit.
+    **Source** IEC 60038: supply voltage within 10 %.
+    """
+    motor = spec.drive.motor
+    limits = [motor.largest_torque or math.inf]
+    if isinstance(motor, InductionBase):
+        limits.append(spec.checks.breakdown_share * motor.breakdown_torque)
+    return Estimate.exact(min(limits))
+
+
+def _overload_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
+    return () if isinstance(spec.drive.motor, InductionBase) else (("drive", "motor", "largest_torque"),)
+
+
+OVERLOAD: Check[Shaft, Steady] = Check(
+    code="SHF107",
+    title="a motor close to its breakdown torque",
+    scenes=frozenset({Steady}),
+    loads=("torque_motor_max",),
+    sense=Sense.AT_MOST,
+    limit=_overload_limit,
+    needs=_overload_needs,
+    blame=_blame_motor,
+    repair=_motor_that_can_vary,
+    what="The motor's largest torque over the cycle keeps away from its breakdown torque or its overload limit.",
+    why="Beyond its breakdown torque a motor stalls; near to it a dip of the mains does the same.",
+    formula="max |M| <= 0.81 M_breakdown   or the overload limit of the file",
+    source="IEC 60034-1 (overload); IEC 60038 (voltage)",
+)
+
+CHECKS = (MOTION, EVEN, RUN_UP, HEAT, STOP_ANGLE, STOP_TIME, OVERLOAD)

@@ -1,0 +1,183 @@
+"""The effects a main shaft may call for."""
+
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.laws import shaft as law
+from ptmcalc.machines.shaft import bounds
+from ptmcalc.machines.shaft.cases import machine_in, mean_torque, stop_case, target_speed
+from ptmcalc.machines.shaft.loads import OF_CYCLE, OF_RUN_OUT, OF_RUN_UP
+from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+
+INERTIA_THRESHOLD = 0.05
+SLOPE_THRESHOLD = 1.0
+
+_CLOSED = frozenset({"kinetic_energy", "speed_run_out", "torque_starting", "acceleration_starting"})
+"""Loads that no effect changes: they are of the moment at which the motion begins."""
+
+
+def _anything(names: frozenset[str], loads: Loads) -> Offsets:
+    return {name: ANYTHING for name in names - _CLOSED if name in loads}
+
+
+def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
+    """Torque that the change of the inertia takes, over that on the main shaft.
+
+        q = max |J'| w^2/(2 |M|)
+
+    w is the speed at which the motor carries the mean load (steady), the speed asked for (run-up) or that at the
+    beginning (run-out); M the mean torque of the drive, in a run-out that of losses and brake.
+
+    **Range** any shaft; infinite where the motor cannot carry the mean load, or nothing stops the shaft.
+    **Error** exact for the torques named.
+    **Source** `laws.shaft.inertia_criterion`; the threshold of 5 % is an engineering choice.
+    """
+    machine = machine_in(spec, scene)
+    survey = machine.survey
+    steepest = max(abs(survey.slope_low), abs(survey.slope_high)) if machine.changing else 0.0
+    speed, torque = mean_torque(spec, scene)
+    value = float(law.inertia_criterion(steepest, speed, torque))
+    return Criterion(
+        "q", value, INERTIA_THRESHOLD, "torque that the changing inertia takes, over that on the shaft", "laws.shaft"
+    )
+
+
+def inertia_bound(spec: Shaft, scene: ShaftScene, loads: Loads) -> Offsets:
+    """Interval of every load of the shaft with its mean inertia that holds any change between the extremes of J.
+
+        steady:   delta from x = 2 T/J with T and J anywhere in their ranges, (w_max + w_min)/2 = w_0
+        run-up:   J_low/(D - R_low - J'_low w^2/2) <= dt/dw <= J_high/(D - R_high - J'_high w^2/2)
+        run-out:  delay, rise and viscous torque at both ends of the rate of the reduced time
+
+    **Range** q below 0.05; unbounded above, and where the gear could be driven from the wrong side.
+    **Error** a bound.
+    **Source** derived in `machines.shaft.bounds`: comparison of first-order differential equations.
+    """
+    if inertia_criterion(spec, scene).exceeded:
+        return _anything(OF_CYCLE if isinstance(scene, Steady) else OF_RUN_UP | OF_RUN_OUT, loads)
+    machine = machine_in(spec, scene)
+    if not machine.changing:
+        return {}
+    if isinstance(scene, RunUp):
+        target = target_speed(spec, scene)
+        if not bounds.drives_all_the_way(machine, target, machine.survey.slope_low):
+            return _anything(OF_RUN_UP, loads)
+        return bounds.offsets(bounds.run_up_ranges(machine, target, changing=True), loads)
+    if isinstance(scene, RunOut):
+        stop, wanted = stop_case(spec, scene)
+        if not bounds.coasts_forward(stop):
+            return _anything(OF_RUN_OUT, loads)
+        ranges = bounds.run_out_ranges(stop, changing=True, wanted=wanted)
+        ranges["energy_recoverable"] = bounds.recoverable(stop, ranges, changing=True)
+        return bounds.offsets(ranges, loads)
+    return _steady_inertia(spec, loads, machine_in(spec, scene))
+
+
+def _steady_inertia(spec: Shaft, loads: Loads, machine) -> Offsets:  # type: ignore[no-untyped-def]
+    cycle = bounds.held(machine)
+    if cycle is None:
+        return _anything(OF_CYCLE, loads)
+    irregularity = bounds.with_changing_inertia(cycle)
+    if not irregularity.bounded:
+        return _anything(OF_CYCLE, loads)
+    w = cycle.speed
+    ranges = {
+        "irregularity": irregularity,
+        "speed_max": Interval(w * (1 + irregularity.low / 2), w * (1 + irregularity.high / 2)),
+        "speed_min": Interval(w * (1 - irregularity.high / 2), w * (1 - irregularity.low / 2)),
+    }
+    wanted = spec.checks.irregularity
+    if wanted is not None:
+        ranges["flywheel_inertia"] = bounds.flywheel(cycle, wanted, bounds.with_changing_inertia)
+    return bounds.offsets(ranges, loads)
+
+
+def slope_criterion(spec: Shaft, scene: Steady) -> Criterion:
+    """Period of the useful load over the time in which the motor would even out a change of speed.
+
+        h = t k/J
+
+    t is the time of a cycle, k the fall of the drive's torque with the speed where it carries the mean load, J the
+    mean inertia, all on the main shaft.
+
+    **Range** any machine that its motor can drive; infinite else.
+    **Error** exact.
+    **Source** `laws.shaft.slope_criterion`; the threshold of 1 from the lecture notes Kramatorsk, section on the
+    flywheel.
+    """
+    machine = machine_in(spec, scene)
+    cycle = bounds.held(machine)
+    if cycle is None:
+        value = float("inf")
+    else:
+        period = machine.period / cycle.speed
+        value = float(law.slope_criterion(period, bounds.slope_at_balance(cycle), cycle.inertia))
+    return Criterion(
+        "h", value, SLOPE_THRESHOLD, "period of the load over the time constant of motor and shaft", "laws.shaft"
+    )
+
+
+def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
+    """Interval of every load of a cycle with the motor's torque held that holds a working motor.
+
+        |A - A_held| <= k dw Theta/4 but for a constant,  w = w_0 somewhere
+
+    **Range** h below 1, a torque that falls with the speed all over the range, power through the gear from the motor
+    throughout; unbounded else.
+    **Error** a bound.
+    **Source** derived in `machines.shaft.bounds`: a function without a mean and with a range L has an integral that
+    swings by no more than L Theta/4.
+    """
+    machine = machine_in(spec, scene)
+    cycle = bounds.held(machine)
+    if slope_criterion(spec, scene).exceeded or cycle is None or "irregularity" not in loads:
+        return _anything(OF_CYCLE, loads)
+    if not machine.changing or spec.effects.get("varying_inertia") == "off":
+        cycle = cycle.with_mean_inertia()
+    known = loads["irregularity"]
+    found = bounds.with_working_motor(cycle, Interval(max(known.low, 0.0), known.high))
+    if found is None:
+        return _anything(OF_CYCLE, loads)
+    ranges = {
+        "irregularity": found.irregularity,
+        "speed_mean": found.mean,
+        "speed_max": found.highest,
+        "speed_min": found.lowest,
+        "torque_motor_rms": found.torque,
+        "torque_motor_max": Interval(loads["torque_motor_max"].low, found.torque.high),
+    }
+    if machine.viscous > 0:
+        ranges |= bounds.works(machine, found.lowest.low, found.highest.high)
+    wanted = spec.checks.irregularity
+    if wanted is not None and "flywheel_inertia" in loads:
+
+        def irregularity(of: bounds.Held) -> Interval:
+            changed = of if of.inertia_low == of.inertia_high else None
+            start = Interval(of.irregularity, of.irregularity) if changed else bounds.with_changing_inertia(of)
+            working = bounds.with_working_motor(of, start)
+            return working.irregularity if working else ANYTHING
+
+        ranges["flywheel_inertia"] = bounds.flywheel(cycle, wanted, irregularity)
+    return bounds.offsets(ranges, loads)
+
+
+EFFECTS = (
+    Effect(
+        "varying_inertia",
+        "inertia that changes with the angle",
+        frozenset({RunUp, Steady, RunOut}),
+        inertia_criterion,
+        inertia_bound,
+    ),
+    Effect(
+        "motor_slope",
+        "motor torque that follows the speed within a cycle",
+        frozenset({Steady}),
+        slope_criterion,
+        slope_bound,
+    ),
+)

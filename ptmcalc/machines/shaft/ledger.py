@@ -1,0 +1,136 @@
+"""Work done on a shaft in a motion, by a quadrature of its own: the witness of the energy balance.
+
+Gauss nodes between the collocation nodes; the torque through the gear is taken from the acceleration of the motion, so
+that no inertia of the motor's side is counted with one gear factor here and with another there.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ptmcalc.laws import duty
+from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.motion import Part, Run
+from ptmcalc.machines.shaft.steady import Cycle
+from ptmcalc.numerics import energy
+from ptmcalc.numerics.cycle import Orbit
+
+FloatArray = NDArray[np.float64]
+
+_ORDER = 18
+TOLERANCE = 1e-9
+"""Relative residual a balance may leave; above ten times that a run is not trusted."""
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Works of a motion [J], integrals of the motor torque, and what the balance of the works leaves over."""
+
+    drive: float
+    useful: float
+    loss: float
+    brake: float
+    motor_rms: float
+    """root of the mean square of the motor torque over the time [N*m]"""
+    motor_most: float
+    """largest motor torque at the nodes, either way [N*m]"""
+    residual: float
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the balance closes well enough."""
+        return self.residual <= 10 * TOLERANCE
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """A motion at the nodes of its quadrature: angle, speed, acceleration, duration of a node, torques."""
+
+    angle: FloatArray
+    low: ArrayLike
+    high: ArrayLike
+    speed: FloatArray
+    acceleration: FloatArray
+    time_weight: FloatArray
+    motor: FloatArray
+    brake: FloatArray
+
+
+def _booked(machine: Machine, nodes: list[_Nodes], stored: float) -> Ledger:
+    drive, friction = machine.drive, machine.friction
+    sums = np.zeros(5)
+    turned_over = 0.0
+    for n in nodes:
+        useful = machine.useful_torque(n.angle, n.low, n.high)
+        lost = friction + machine.viscous * n.speed + machine.share * np.abs(useful)
+        inertia, slope, static = machine.fields(n.angle, n.low, n.high)
+        resistance = static + machine.viscous * n.speed + slope * n.speed**2 / 2 + n.brake
+        factor = drive.factor(n.motor, inertia, resistance)
+        through = n.motor - drive.motor_inertia * drive.ratio * n.acceleration
+        power = n.speed * n.time_weight
+        torques = (drive.ratio * factor * through, useful, lost, n.brake, machine.potential_torque(n.angle))
+        sums += [float(np.sum(torque * power)) for torque in torques]
+        turned_over += sum(float(np.sum(np.abs(torque) * power)) for torque in torques)
+    gained, useful_work, lost_work, braked, potential = sums.tolist()
+    residual = energy.residual(gained, useful_work + lost_work + braked + potential, stored, turned_over)
+    motor, times = (np.concatenate([getattr(n, part).ravel() for n in nodes]) for part in ("motor", "time_weight"))
+    rms, most = duty.rms_torque(motor, times), float(np.abs(motor).max())
+    return Ledger(gained, useful_work, lost_work, braked, rms, most, residual)
+
+
+def of_cycle(cycle: Cycle) -> Ledger:
+    """The works of a steady cycle."""
+    machine, orbit = cycle.machine, cycle.orbit
+    return _booked(machine, [_over_angle(machine, orbit, len(machine.drive.stages) - 1)], 0.0)
+
+
+def _over_angle(machine: Machine, orbit: Orbit, stage: int | None) -> _Nodes:
+    """A motion over the angle, long after the start or the command to stop."""
+    angle, e, weight = orbit.sample(_ORDER)
+    speed = np.sqrt(2 * e)
+    low, high = orbit.grid.edges[:-1, None], orbit.grid.edges[1:, None]
+    motor, brake = np.zeros(angle.shape), np.zeros(angle.shape)
+    if stage is None:
+        brake = brake + machine.brake_most
+    else:
+        motor = machine.drive.torque(stage, speed)
+    return _Nodes(angle, low, high, speed, orbit.derivative(_ORDER), weight / speed, motor, brake)
+
+
+def of_run(run: Run) -> Ledger:
+    """The works of a run-up or a run-out."""
+    machine, nodes = run.machine, []
+    skipped: list[Part] = []
+    for part in run.parts:
+        if part.orbit is not None:
+            nodes.append(_over_angle(machine, part.orbit, part.stage))
+        if part.skipped is not None:
+            skipped.append(part)
+        for step in part.steps:
+            time, angle, speed, acceleration, weight = step.sample(_ORDER)
+            if part.stage is None:
+                motor, brake = np.zeros(time.shape), machine.brake_torque(time)
+            else:
+                motor, brake = machine.drive.torque(part.stage, speed, time), np.zeros(time.shape)
+            nodes.append(_Nodes(angle, part.low, part.high, speed, acceleration, weight, motor, brake))
+    ends = [machine.mechanism(np.array([state.angle]))[0][0] * state.speed**2 / 2 for state in (run.begin, run.end)]
+    inertia = float(machine.mechanism(np.zeros(1))[0][0])
+    leaps = [part.skipped for part in skipped if part.skipped is not None]
+    leapt = sum(inertia * (leap.energy - leap.trace[0][2]) for leap in leaps)
+    books = _booked(machine, nodes, float(ends[1] - ends[0]) - leapt)
+    return _with_leaps(machine, books, skipped)
+
+
+def _with_leaps(machine: Machine, books: Ledger, parts: list[Part]) -> Ledger:
+    """With the work of the brake over cycles that were skipped, and the worst balance of the cycles they rest on."""
+    brake, residual = books.brake, books.residual
+    inertia = float(machine.mechanism(np.zeros(1))[0][0])
+    for part in parts:
+        assert part.skipped is not None
+        if part.stage is None:
+            brake += machine.brake_most * machine.period * part.skipped.cycles
+        for orbit in part.skipped.orbits:
+            stored = inertia * float(orbit.within([1.0])[-1, 0] - orbit.start[0])
+            residual = max(residual, _booked(machine, [_over_angle(machine, orbit, part.stage)], stored).residual)
+    return replace(books, brake=brake, residual=residual)

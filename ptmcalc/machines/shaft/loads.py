@@ -1,0 +1,65 @@
+"""The loads a main shaft can report."""
+
+from ptmcalc.base import units
+from ptmcalc.base.units import Quantity
+from ptmcalc.contract.result import LoadInfo
+
+ANGULAR_ACCELERATION = Quantity("angular acceleration", "rad/s^2", ("rad/s^2",), "9.5 rad/s^2")
+
+LOADS = (
+    LoadInfo("run_up_time", "run-up time", units.TIME),
+    LoadInfo("run_up_angle", "run-up angle", units.ANGLE),
+    LoadInfo("torque_starting", "motor torque at rest, on the shaft", units.TORQUE),
+    LoadInfo("acceleration_starting", "acceleration from rest", ANGULAR_ACCELERATION, headline=False),
+    LoadInfo("speed_mean", "mean speed", units.ANGULAR_SPEED),
+    LoadInfo("speed_max", "largest speed", units.ANGULAR_SPEED),
+    LoadInfo("speed_min", "smallest speed", units.ANGULAR_SPEED),
+    LoadInfo("irregularity", "irregularity", units.SHARE),
+    LoadInfo("flywheel_inertia", "flywheel to be added", units.INERTIA),
+    LoadInfo("cycle_efficiency", "efficiency of the cycle", units.SHARE),
+    LoadInfo("loss_factor", "loss factor of the cycle", units.SHARE),
+    LoadInfo("torque_motor_rms", "motor torque, rms", units.TORQUE),
+    LoadInfo("torque_motor_max", "motor torque, largest", units.TORQUE),
+    LoadInfo("work_drive", "work of the drive a cycle", units.ENERGY, headline=False),
+    LoadInfo("work_useful", "useful work a cycle", units.ENERGY, headline=False),
+    LoadInfo("work_loss", "work of the losses a cycle", units.ENERGY, headline=False),
+    LoadInfo("run_out_angle", "run-out angle", units.ANGLE),
+    LoadInfo("run_out_time", "run-out time", units.TIME),
+    LoadInfo("kinetic_energy", "kinetic energy at its beginning", units.ENERGY),
+    LoadInfo("energy_recoverable", "what could be recovered of it", units.ENERGY),
+    LoadInfo("brake_torque_needed", "brake torque for the wanted stop", units.TORQUE),
+    LoadInfo("speed_run_out", "speed at its beginning", units.ANGULAR_SPEED, headline=False),
+)
+
+OF_RUN_UP = frozenset({"run_up_time", "run_up_angle", "torque_starting", "acceleration_starting"})
+"""Loads of a run-up."""
+
+OF_CYCLE = frozenset(
+    {
+        "speed_mean",
+        "speed_max",
+        "speed_min",
+        "irregularity",
+        "flywheel_inertia",
+        "cycle_efficiency",
+        "loss_factor",
+        "torque_motor_rms",
+        "torque_motor_max",
+        "work_drive",
+        "work_useful",
+        "work_loss",
+    }
+)
+"""Loads of a steady cycle."""
+
+OF_RUN_OUT = frozenset(
+    {
+        "run_out_angle",
+        "run_out_time",
+        "kinetic_energy",
+        "energy_recoverable",
+        "brake_torque_needed",
+        "speed_run_out",
+    }
+)
+"""Loads of a run-out."""

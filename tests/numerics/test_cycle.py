@@ -1,0 +1,139 @@
+"""Collocation and the closed cycle against equations with known solutions, and against scipy's integrator."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from ptmcalc.numerics.collocation import gauss, radau
+from ptmcalc.numerics.cycle import Grid, Orbit, solve
+
+TURN = 2 * math.pi
+
+
+class TestRule:
+    @pytest.mark.parametrize("order", [3, 7, 12, 16])
+    def test_the_last_node_is_the_end_and_polynomials_are_exact(self, order: int) -> None:
+        rule = radau(order)
+        assert rule.nodes[-1] == 1.0
+        assert np.all(np.diff(rule.nodes) > 0)
+        for power in range(2 * order - 1):
+            assert rule.integral[-1] @ rule.nodes**power == pytest.approx(1 / (power + 1), rel=1e-12)
+        for power in range(order):
+            assert rule.integral @ rule.nodes**power == pytest.approx(
+                rule.nodes ** (power + 1) / (power + 1), rel=1e-12
+            )
+
+    @pytest.mark.parametrize("order", [4, 9])
+    def test_values_and_integrals_of_an_interpolant(self, order: int) -> None:
+        rule = radau(order)
+        values = np.cos(rule.nodes)
+        coefficients = rule.to_legendre @ values
+        assert rule.evaluate(coefficients, rule.nodes) == pytest.approx(values, rel=1e-12)
+        tolerance = 3 * 10.0 ** (-order + 1)
+        places = np.linspace(0, 1, 7)
+        assert rule.evaluate(coefficients, places) == pytest.approx(np.cos(places), abs=tolerance)
+        assert rule.integrate(coefficients, places) == pytest.approx(np.sin(places), abs=tolerance)
+        assert rule.tail(coefficients) < 10 * tolerance
+
+    def test_gauss_nodes_lie_between_and_weights_sum_to_one(self) -> None:
+        nodes, weights = gauss(9)
+        assert weights.sum() == pytest.approx(1.0, rel=1e-14)
+        assert weights @ nodes**17 == pytest.approx(1 / 18, rel=1e-12)
+
+
+def grid(stretches: int, order: int = 12) -> Grid:
+    return Grid(np.linspace(0, TURN, stretches + 1), order)
+
+
+class TestKnownMotions:
+    def test_a_linear_equation_closes_on_its_known_cycle(self) -> None:
+        """de/dphi = -k (e - 5) + cos phi: e = 5 + (k cos phi + sin phi)/(1 + k^2)."""
+        k, g = 0.7, grid(8)
+        orbit = solve(
+            g, lambda e: (-k * (e - 5) + np.cos(g.angles), np.full(e.shape, -k)), np.full(g.angles.shape, 3.0)
+        )
+        assert orbit is not None
+        exact = 5 + (k * np.cos(g.angles) + np.sin(g.angles)) / (1 + k * k)
+        assert orbit.nodes == pytest.approx(exact, rel=1e-13)
+        assert orbit.multiplier == pytest.approx(math.exp(-k * TURN), rel=1e-10)
+        anywhere = np.linspace(0, TURN, 33)
+        assert orbit.at(anywhere) == pytest.approx(
+            5 + (k * np.cos(anywhere) + np.sin(anywhere)) / (1 + k * k), rel=1e-13
+        )
+        (low, at_low), (high, at_high) = orbit.extremes()
+        swing = 1 / math.sqrt(1 + k * k)
+        assert (low, high) == pytest.approx((5 - swing, 5 + swing), rel=1e-13)
+        top = math.atan2(1, k)
+        assert (at_low, at_high) == pytest.approx((top + math.pi, top), abs=1e-6)
+
+    @pytest.mark.parametrize("stiffness", [1.0, 1e3, 1e7])
+    def test_however_stiff_it_is_the_end_is_met(self, stiffness: float) -> None:
+        g = grid(40)
+        rates = lambda e: (-stiffness * (e - 5 - np.sin(g.angles)), np.full(e.shape, -stiffness))  # noqa: E731
+        orbit = solve(g, rates, np.full(g.angles.shape, 1.0))
+        assert orbit is not None
+        slow = 5 + (stiffness**2 * np.sin(g.angles) - stiffness * np.cos(g.angles)) / (1 + stiffness**2)
+        assert orbit.nodes == pytest.approx(slow, rel=1e-9)
+
+    def test_from_a_start_it_is_an_initial_value_problem(self) -> None:
+        g = grid(10)
+        orbit = solve(g, lambda e: (-0.3 * np.sqrt(e), -0.15 / np.sqrt(e)), np.full(g.angles.shape, 9.0), start=9.0)
+        assert orbit is not None
+        assert orbit.at(TURN) == pytest.approx((3 - 0.15 * TURN) ** 2, rel=1e-12)
+        assert orbit.multiplier == pytest.approx((3 - 0.15 * TURN) / 3, rel=1e-10)
+
+    def test_a_motion_that_comes_to_rest_is_none(self) -> None:
+        g = grid(10)
+        assert (
+            solve(g, lambda e: (np.full(e.shape, -1.0), np.zeros(e.shape)), np.full(g.angles.shape, 3.0), 3.0) is None
+        )
+
+    def test_what_never_closes_is_none(self) -> None:
+        g = grid(4)
+        assert solve(g, lambda e: (np.full(e.shape, 1.0), np.zeros(e.shape)), np.full(g.angles.shape, 3.0)) is None
+
+    def test_a_guess_below_zero_is_refused(self) -> None:
+        g = grid(4)
+        assert solve(g, lambda e: (-e, -np.ones(e.shape)), np.full(g.angles.shape, -1.0)) is None
+
+
+def test_a_motor_and_a_load_against_the_poincare_map_of_an_integrator() -> None:
+    """J w' = 60 - 4 w - 30 (1 + sin phi) + a jump of the load, by e = w^2/2 here and by w over time there."""
+    edges = np.unique(np.concatenate([np.linspace(0, TURN, 13), [2.0, 3.5]]))
+    g = Grid(edges, 12)
+    middle = (edges[1:] + edges[:-1])[:, None] / 2  # the last node of a stretch lies on its end
+    jump = np.where((middle > 2.0) & (middle < 3.5), 20.0, 0.0)
+
+    def rates(e: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        w = np.sqrt(2 * e)
+        return (60 - 4 * w - 30 * (1 + np.sin(g.angles)) - jump) / 2, -2 / w
+
+    orbit = solve(g, rates, np.full(g.angles.shape, 30.0))
+    assert orbit is not None
+
+    def once(w: float) -> float:
+        for low, high, extra in ((0.0, 2.0, 0.0), (2.0, 3.5, 20.0), (3.5, TURN, 0.0)):
+
+            def of(phi: float, y: list[float], extra: float = extra) -> list[float]:
+                return [(60 - 4 * y[0] - 30 * (1 + math.sin(phi)) - extra) / 2 / y[0]]
+
+            w = float(solve_ivp(of, (low, high), [w], method="DOP853", rtol=1e-12, atol=1e-13).y[0, -1])
+        return w
+
+    guess = math.sqrt(2 * float(orbit.at(0.0)))
+    start = brentq(lambda w: once(w) - w, 0.9 * guess, 1.1 * guess, xtol=1e-13)
+    assert math.sqrt(2 * float(orbit.at(0.0))) == pytest.approx(start, rel=1e-10)
+    slope = (once(start + 1e-4) - once(start - 1e-4)) / 2e-4
+    assert orbit.multiplier == pytest.approx(slope, rel=1e-4)
+
+
+def test_a_quadrature_over_the_motion_sees_all_of_it() -> None:
+    slopes = radau(6).to_legendre @ np.zeros((6,))
+    orbit = Orbit(Grid(np.array([0.0, 1.0, TURN]), 6), np.array([2.0, 2.0]), np.array([slopes, slopes]), 1.0)
+    angles, e, weights = orbit.sample(5)
+    assert np.all(e == 2.0)
+    assert np.sum(weights) == pytest.approx(TURN, rel=1e-14)
+    assert np.sum(np.sin(angles / 2) * weights) == pytest.approx(4.0, rel=1e-4)

@@ -1,0 +1,123 @@
+"""The matrix exponential against rational arithmetic, closed forms and scipy's Pade approximants."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.linalg import expm as pade
+
+from ptmcalc.numerics import expm
+
+
+def rational(matrix: np.ndarray, terms: int = 60) -> np.ndarray:
+    """exp(A) by its Taylor series in fractions, rounded once."""
+    n = len(matrix)
+    exact = [[Fraction(float(x)) for x in row] for row in matrix]
+    term = [[Fraction(int(i == j)) for j in range(n)] for i in range(n)]
+    total = [row[:] for row in term]
+    for k in range(1, terms):
+        term = [[sum(term[i][m] * exact[m][j] for m in range(n)) / k for j in range(n)] for i in range(n)]
+        total = [[total[i][j] + term[i][j] for j in range(n)] for i in range(n)]
+    return np.array([[float(x) for x in row] for row in total])
+
+
+class TestBalance:
+    def test_gives_powers_of_two(self) -> None:
+        rng = np.random.default_rng(3)
+        matrix = rng.normal(size=(6, 6)) * 10.0 ** rng.integers(-8, 8, (6, 6))
+        scale = expm.balance(matrix)
+        assert np.array_equal(np.log2(scale), np.round(np.log2(scale)))
+
+    def test_evens_out_a_matrix_scaled_by_hand(self) -> None:
+        rng = np.random.default_rng(4)
+        matrix, by_hand = rng.normal(size=(5, 5)), 2.0 ** np.array([-30, 0, 12, 25, -7])
+        skewed = matrix * by_hand[:, None] / by_hand
+        scale = expm.balance(skewed, sweeps=20)
+        evened = skewed * scale / scale[:, None]
+        assert np.abs(evened).max() < 8 * np.abs(matrix).max()
+
+    def test_an_oscillator_is_left_with_its_frequency(self) -> None:
+        """Cost is squarings: omega = 1.2e4, not omega^2 = 1.4e8."""
+        matrix = np.array([[0.0, 1.0], [-1.44e8, 0.0]])
+        scale = expm.balance(matrix)
+        assert np.abs(matrix * scale / scale[:, None]).max() <= 2 * 1.2e4
+
+    def test_what_only_feeds_on_others_is_scaled_too(self) -> None:
+        """No cycle, so Osborne's ratio has a zero in it."""
+        matrix = np.array([[0.0, 1e8], [0.0, -1.0]])
+        scale = expm.balance(matrix)
+        assert np.abs(matrix * scale / scale[:, None]).max() <= 2.0
+
+    @pytest.mark.parametrize("matrix", [np.zeros((3, 3)), np.eye(2), np.empty((0, 0))])
+    def test_leaves_what_has_nothing_to_scale(self, matrix: np.ndarray) -> None:
+        assert np.array_equal(expm.balance(matrix), np.ones(len(matrix)))
+
+
+class TestExpm:
+    @pytest.mark.parametrize("seed", range(12))
+    def test_against_fractions(self, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        matrix = rng.normal(size=(3, 3)) * 2.0 ** rng.integers(-3, 2, (3, 3))
+        exact = rational(matrix)
+        assert np.abs(expm.expm(matrix) - exact).max() <= 2e-14 * np.abs(exact).max()
+
+    @pytest.mark.parametrize("seed", range(6))
+    def test_of_badly_scaled_variables_keeps_every_entry(self, seed: int) -> None:
+        """Every entry of its own size, not only the largest."""
+        rng = np.random.default_rng(seed)
+        matrix, by_hand = rng.normal(size=(3, 3)) / 2, 2.0 ** rng.integers(-40, 40, 3)
+        exact = rational(matrix) * by_hand[:, None] / by_hand
+        found = expm.expm(matrix * by_hand[:, None] / by_hand)
+        assert found == pytest.approx(exact, rel=1e-12, abs=0)
+
+    @pytest.mark.parametrize("seed", range(6))
+    @pytest.mark.parametrize("size", [1, 2, 7, 16])
+    def test_against_pade(self, seed: int, size: int) -> None:
+        rng = np.random.default_rng(seed)
+        matrix = rng.normal(size=(size, size)) * 3
+        exact = pade(matrix)
+        assert np.abs(expm.expm(matrix) - exact).max() <= 1e-12 * np.abs(exact).max()
+
+    def test_of_a_rotation_far_round(self) -> None:
+        found = expm.expm(np.array([[0.0, 300.0], [-300.0, 0.0]]))
+        c, s = math.cos(300.0), math.sin(300.0)
+        assert found == pytest.approx(np.array([[c, s], [-s, c]]), abs=2e-13)
+
+    def test_of_free_flight_is_a_polynomial(self) -> None:
+        """No eigenvectors exist."""
+        found = expm.expm(np.diag(np.full(4, 0.25), 1))
+        exact = [[0.25 ** (j - i) / math.factorial(j - i) if j >= i else 0.0 for j in range(5)] for i in range(5)]
+        assert found == pytest.approx(np.array(exact), rel=1e-15, abs=0)
+
+    @pytest.mark.parametrize("decay", [1.0, 30.0, 600.0])
+    def test_of_a_strong_decay_stays_small(self, decay: float) -> None:
+        """Alternating terms of size e^decay must not be added up."""
+        found = expm.expm(np.array([[-decay, 0.3 * decay], [0.0, -decay]]))
+        exact = math.exp(-decay) * np.array([[1.0, 0.3 * decay], [0.0, 1.0]])
+        assert found == pytest.approx(exact, rel=2e-13, abs=0)
+
+    def test_of_a_chain_fed_by_its_last(self) -> None:
+        """x' = 1e9 y, y' = z, z' = 0: what comes back nowhere sets no step."""
+        found = expm.expm(np.array([[0.0, 1e9, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]))
+        assert found[0] == pytest.approx([1.0, 1e9, 0.5e9], rel=1e-15)
+
+
+class TestSeveralTimes:
+    def test_are_those_of_one_at_a_time(self) -> None:
+        rng = np.random.default_rng(8)
+        matrix, times = rng.normal(size=(4, 4)), np.array([0.0, 1e-9, 0.3, -0.7, 5.0])
+        norm = float(np.abs(matrix).sum(axis=0).max())
+        found = expm.from_powers(expm.powers(matrix), norm, times)
+        for time, one in zip(times, found, strict=True):
+            exact = pade(matrix * time)
+            assert np.abs(one - exact).max() <= 2e-14 * np.abs(exact).max() * max(1.0, norm * abs(time))
+
+    def test_no_time_is_the_unit_matrix(self) -> None:
+        found = expm.from_powers(expm.powers(np.full((2, 2), 7.0)), 14.0, np.zeros(3))
+        assert np.array_equal(found, np.broadcast_to(np.eye(2), (3, 2, 2)))
+
+    def test_powers_over_factorials(self) -> None:
+        stack = expm.powers(np.array([[0.0, 2.0], [2.0, 0.0]]), 4)
+        assert np.array_equal(stack[2], 2 * np.eye(2))
+        assert stack[3][0, 1] == pytest.approx(8 / 6, rel=1e-15)

@@ -1,0 +1,127 @@
+"""Polynomials through Gauss-Lobatto nodes against numpy's polynomials and dense sampling."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from ptmcalc.numerics import panels
+
+DENSE = np.linspace(0.0, 1.0, 20001)
+
+
+def random_polynomial(seed: int) -> Polynomial:
+    """Of degree 8, with what happens inside [0, 1]."""
+    rng = np.random.default_rng(seed)
+    return Polynomial(rng.normal(size=9) * rng.choice([0.1, 1.0, 3.0], 9), domain=[0, 1], window=[-1, 1]).convert()
+
+
+class TestNodes:
+    def test_weights_and_symmetry(self) -> None:
+        assert math.fsum(panels.WEIGHTS) == pytest.approx(1.0, rel=1e-15)
+        assert np.abs(panels.NODES + panels.NODES[::-1] - 1).max() < 2e-15
+        assert (panels.NODES[0], panels.NODES[-1]) == (0.0, 1.0)
+
+    @pytest.mark.parametrize("degree", range(16))
+    def test_quadrature_is_exact_to_degree_15(self, degree: int) -> None:
+        assert panels.WEIGHTS @ panels.NODES**degree == pytest.approx(1 / (degree + 1), rel=1e-14)
+
+    def test_quadrature_of_degree_16_is_not(self) -> None:
+        error = panels.WEIGHTS @ panels.NODES**16 - 1 / 17
+        assert abs(error) > 1e-12
+
+    @pytest.mark.parametrize("count", [3, 4, 5, 12])
+    def test_any_number_of_nodes(self, count: int) -> None:
+        nodes, weights = panels.lobatto(count)
+        exact = quad(lambda x: x ** (2 * count - 3), 0, 1)[0]
+        assert weights @ nodes ** (2 * count - 3) == pytest.approx(exact, rel=1e-13)
+
+    def test_slopes_are_those_of_the_polynomial(self) -> None:
+        p = random_polynomial(1)
+        assert panels.SLOPES @ p(panels.NODES) == pytest.approx(p.deriv()(panels.NODES), rel=1e-11, abs=1e-11)
+
+    def test_between_the_nodes(self) -> None:
+        p = random_polynomial(2)
+        coefficients = (panels.TO_CHEBYSHEV @ p(panels.NODES)).tolist()
+        found = [panels.at(coefficients, x) for x in DENSE[::500]]
+        assert found == pytest.approx(p(DENSE[::500]), rel=1e-13, abs=1e-13)
+
+
+class TestRoot:
+    @pytest.mark.parametrize("place", [1e-12, 1e-3, 0.21, 0.5, 0.999, 1 - 1e-12])
+    @pytest.mark.parametrize("steep", [1.0, 1e-6, 1e9])
+    def test_of_a_line(self, place: float, steep: float) -> None:
+        assert panels.root(steep * (place - panels.NODES), 0.0, 1.0) == pytest.approx(place, abs=1e-15)
+
+    @pytest.mark.parametrize("seed", range(40))
+    def test_of_random_polynomials(self, seed: int) -> None:
+        p = random_polynomial(seed)
+        p = p - p(0.3 + 0.01 * seed)
+        if p(0.0) < 0:
+            p = -p
+        right = DENSE[p(DENSE) < -1e-9]
+        if not len(right):  # it only touches 0 from above
+            assert panels.root(p(panels.NODES), 0.0, 1.0) in (1.0, pytest.approx(0.3 + 0.01 * seed, abs=1e-6))
+            return
+        found = panels.root(p(panels.NODES), 0.0, float(right[0]))
+        exact = brentq(p, 0.0, right[0], xtol=1e-16)
+        slope = abs(p.deriv()(exact))
+        assert found == pytest.approx(exact, abs=1e-13 * (1 + np.abs(p(panels.NODES)).max() / slope))
+
+    def test_says_where_it_already_is(self) -> None:
+        assert panels.root(-1 - panels.NODES, 0.2, 1.0) == 0.2
+        assert panels.root(1 + panels.NODES, 0.2, 0.9) == 0.9
+
+    def test_a_steep_fall_does_not_hold_up_false_position(self) -> None:
+        exact = 0.5 ** (1 / 8)
+        assert panels.root(0.5 - panels.NODES**8, 0.0, 1.0) == pytest.approx(exact, abs=4e-16)
+
+    @pytest.mark.parametrize("back", [1e-6, 1e-3, 0.01, 0.7])
+    def test_up_from_zero_and_back(self, back: float) -> None:
+        """At both ends at most 0, above it in between, however early it is back."""
+        nodes = panels.NODES * (back - panels.NODES)
+        left = panels.above(nodes, 0.0, 1.0)
+        assert 0 < left < back
+        assert panels.root(nodes, left, 1.0) == pytest.approx(back, abs=1e-15 / back)
+
+    def test_nowhere_above(self) -> None:
+        assert panels.above(-panels.NODES, 0.25, 1.0) == 0.25
+
+
+class TestHighest:
+    @pytest.mark.parametrize("seed", range(40))
+    def test_of_random_polynomials(self, seed: int) -> None:
+        p = random_polynomial(seed)
+        dense = p(DENSE)
+        (value,), (place,) = panels.highest(p(panels.NODES)[None])
+        size = np.abs(dense).max()
+        assert value >= dense.max() - 1e-14 * size
+        assert value == pytest.approx(p(place), abs=2e-14 * size)
+        turns = [x.real for x in p.deriv().roots() if abs(x.imag) < 1e-12 and 0 < x.real < 1]
+        assert value == pytest.approx(max(p(np.array([0.0, 1.0, *turns]))), abs=1e-12 * size)
+
+    @pytest.mark.parametrize("seed", range(20))
+    def test_between_two_places(self, seed: int) -> None:
+        p = random_polynomial(seed)
+        left, right = 0.137, 0.611
+        turns = [x.real for x in p.deriv().roots() if abs(x.imag) < 1e-12 and left < x.real < right]
+        exact = p(np.array([left, right, *turns]))
+        size = np.abs(p(DENSE)).max()
+        low, place = panels.lowest(p(panels.NODES), left, right)
+        high = panels.highest(p(panels.NODES)[None], left, right)[0][0]
+        assert (low, high) == pytest.approx((exact.min(), exact.max()), abs=1e-12 * size)
+        assert left <= place <= right
+
+    def test_several_signals_at_once(self) -> None:
+        nodes = np.array([np.sin(3 * panels.NODES), panels.NODES, -panels.NODES, 0 * panels.NODES])
+        values, places = panels.highest(nodes)
+        assert values == pytest.approx([1.0, 1.0, 0.0, 0.0], abs=1e-6)
+        assert places[:3] == pytest.approx([math.pi / 6, 1.0, 0.0], abs=1e-5)
+
+    def test_within_a_sliver_narrower_than_the_samples(self) -> None:
+        nodes = 1 - (panels.NODES - 0.5) ** 2
+        (value,), (place,) = panels.highest(nodes[None], 0.501, 0.502)
+        assert (value, place) == pytest.approx((1 - 1e-6, 0.501), rel=1e-12)
