@@ -1,8 +1,8 @@
 """The worked case of a main shaft with J(phi): run-up, steady cycle, run-out, flywheel (case C23).
 
 Printed values of the case with six digits. Its steady cycle was computed with the gear's efficiency as a factor while
-the motor brakes too, which happens over a third of its cycle: that is `braking: multiplies`. The exact rule divides by it;
-its values stand beside, from an integration of their own.
+the motor brakes too, which happens over a third of its cycle: that is `braking: multiplies`. The exact rule
+divides by it; its values stand beside, from an integration of their own.
 """
 
 import math
