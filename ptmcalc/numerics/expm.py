@@ -69,18 +69,22 @@ def powers(matrix: FloatArray, degree: int = DEGREE) -> FloatArray:
 def from_powers(stack: FloatArray, norm: float, times: FloatArray) -> FloatArray:
     """exp(A t) at several times from the powers of A, shape (times, n, n).
 
-        exp(A t) = (sum_k (A t/2^s)^k/k!)^(2^s),   norm t_max/2^s <= 1
+        exp(A t) - I = D,   D_0 = sum_k>0 (A t/2^s)^k/k!,   D <- 2 D + D^2  s times,   norm t_max/2^s <= 1
 
-    **Error** rounding: about 2^s units in the last place of the largest entry met on the way.
+    The difference from I is squared, not the whole: what moves slowly beside something that fades fast is lost in the
+    last digits of I + D_0 otherwise (4e-9 at rates 1e9 apart).
+
+    **Error** rounding of the largest entry met on the way.
     """
     longest = norm * float(np.abs(times).max(initial=0.0))
     squarings = max(0, int(np.ceil(np.log2(longest)))) if longest > 1 else 0
-    terms = (times / 2.0**squarings)[:, None] ** np.arange(len(stack))
+    terms = (times / 2.0**squarings)[:, None] ** np.arange(1, len(stack))
     n = stack.shape[1]
-    result: FloatArray = (terms @ stack.reshape(len(stack), n * n)).reshape(len(times), n, n)
+    change: FloatArray = (terms @ stack[1:].reshape(len(stack) - 1, n * n)).reshape(len(times), n, n)
     for _ in range(squarings):
-        result = result @ result
-    return result
+        change = 2 * change + change @ change
+    change[:, np.arange(n), np.arange(n)] += 1.0
+    return change
 
 
 def expm(matrix: FloatArray) -> FloatArray:

@@ -65,7 +65,7 @@ class Record:
             Extremes.of(len(first), -1),
             np.zeros(len(products)),
             Samples() if keep else None,
-            first,
+            last=first,
             sizes=np.abs(first),
         )
 

@@ -92,10 +92,17 @@ class TestExpm:
 
     @pytest.mark.parametrize("decay", [1.0, 30.0, 600.0])
     def test_of_a_strong_decay_stays_small(self, decay: float) -> None:
-        """Alternating terms of size e^decay must not be added up."""
+        """Alternating terms of size e^decay must not be added up; what faded leaves no more than the last digit of 1."""
         found = expm.expm(np.array([[-decay, 0.3 * decay], [0.0, -decay]]))
         exact = math.exp(-decay) * np.array([[1.0, 0.3 * decay], [0.0, 1.0]])
-        assert found == pytest.approx(exact, rel=2e-13, abs=0)
+        assert found == pytest.approx(exact, rel=1e-14, abs=2.0**-52)
+
+    @pytest.mark.parametrize("fast", [1e3, 1e6, 1e9, 1e12])
+    def test_slow_beside_faded_keeps_its_digits(self, fast: float) -> None:
+        """(I + small) squared 2^s times would lose 2^s units: 4e-9 at 1e9."""
+        found = expm.expm(np.diag([-math.log(2.0), -fast]))
+        assert found[0, 0] == pytest.approx(0.5, rel=4e-15)
+        assert abs(found[1, 1]) <= 2.0**-52
 
     def test_of_a_chain_fed_by_its_last(self) -> None:
         """x' = 1e9 y, y' = z, z' = 0: what comes back nowhere sets no step."""

@@ -238,8 +238,7 @@ class TestFastComponents:
             {"fall": Part(whole, ((row, "stopped"),)), **STOPPED}, np.array([[1.0, 1.0, 0.0]]), 2, ends="stopped"
         )
         found = march(system, "fall", np.array([1.0, 1.0, 1.0]), 10.0)
-        squarings = fast * 2.0**-52  # of the exponential, each doubles rounding
-        assert found.time == pytest.approx(math.log(2.0), rel=1e-13 + squarings)
+        assert found.time == pytest.approx(math.log(2.0), rel=1e-13)
         assert found.top.values == pytest.approx([2.0], rel=1e-14)
         assert found.steps < 200
 
@@ -253,7 +252,7 @@ class TestFastComponents:
         system = Modes({"both": Part(rate)}, np.eye(4), 4, sizes=(1.0, 1.0, 1.0 / fast, 1.0))
         found = march(system, "both", np.array([1.0, 0.0, 0.0, 0.0]), 20.0)
         follows = (np.exp(20j) / (fast**2 - 1 + 2j * zeta * fast)).real
-        digits = 1e-11 + fast * 2.0**-52
+        digits = 1e-11
         assert found.last[:2] == pytest.approx([math.cos(20.0), -math.sin(20.0)], rel=digits)
         assert found.last[2] == pytest.approx(follows, rel=digits + math.exp(-20 * zeta * fast))
         assert found.steps < 1500
