@@ -41,13 +41,14 @@ class Flow:
     _norm: float = field(init=False)
     _largest: float = field(init=False)
     _components: "_Components | None" = field(init=False, default=None)
-    _sizes: FloatArray = field(init=False)
+    magnitudes: FloatArray = field(init=False)
+    """|R|"""
     _chunks: dict[float, "_Chunk"] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         self._stack = expm.powers(self.rate)
         self._norm = float(np.abs(self.rate).sum(axis=0).max(initial=0.0))
-        self._sizes = np.abs(self.rows)
+        self.magnitudes = np.abs(self.rows)
         speeds = np.abs(np.linalg.eigvals(self.rate[: self.own, : self.own]))
         self._largest = max(float(speeds.max(initial=0.0)), self.input_speed)
 
@@ -58,7 +59,7 @@ class Flow:
         if fastest * longest > self.worth:
             if self._components is None:
                 self._components = _components(self.rate, self.rows, self.own)
-            limits = self.faded * np.maximum(self._sizes @ np.abs(state), sizes)
+            limits = self.faded * np.maximum(self.magnitudes @ np.abs(state), sizes)
             fastest = max(self._components.fastest(state, limits), self.input_speed)
         if fastest * longest <= self.resolved:
             return longest

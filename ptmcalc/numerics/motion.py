@@ -1,8 +1,8 @@
 """What is propagated: the equations of one mode, and the system that has them."""
 
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +47,28 @@ class Motion:
     guards: FloatArray
     watch: FloatArray
     curves: tuple[Curve, ...] = ()
+    ladder: "_Ladder | None" = field(init=False, default=None)
+    """the derivatives of the guards, where no curve bends them"""
+
+    def __post_init__(self) -> None:
+        if not self.curves:
+            object.__setattr__(self, "ladder", _Ladder.of(self.guards, self.rate))
+
+
+class _Ladder(NamedTuple):
+    """Guards and their derivatives G A^k as functionals, and what rounding leaves of them: NOISE 4^k |G| |A|^k."""
+
+    rows: FloatArray
+    noise: FloatArray
+
+    @classmethod
+    def of(cls, guards: FloatArray, rate: FloatArray) -> "_Ladder":
+        rows, noise = [guards], [NOISE * np.abs(guards)]
+        larger = 4 * np.abs(rate)
+        for _ in range(_ORDERS):
+            rows.append(rows[-1] @ rate)
+            noise.append(noise[-1] @ larger)
+        return cls(np.array(rows), np.array(noise))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,29 +133,25 @@ def _sides(motion: Motion, state: FloatArray, dust: FloatArray) -> NDArray[np.in
     The k-th derivative of g is G A^k z; where a curve takes part it counts with its slope,
     which is exact to the second derivative.
     """
+    ladder = motion.ladder
+    if ladder is None:
+        ladder, state, dust = _bent(motion, state, dust)
+    found, noise = ladder.rows @ state, ladder.noise @ np.abs(state)
+    noise[0] += ladder.noise[0] @ (dust / NOISE)
+    clear = np.abs(found) > noise
+    which = clear.argmax(axis=0), np.arange(clear.shape[1])
+    return (np.sign(found[which]) * clear[which]).astype(np.intp)
+
+
+def _bent(motion: Motion, state: FloatArray, dust: FloatArray) -> tuple[_Ladder, FloatArray, FloatArray]:
+    """The same with the tangents of the curves, whose constant parts go with a last state that is 1."""
     n = len(state)
-    rate, guards = motion.rate, motion.guards[:, :n]
-    offset, level = 0.0, 0.0
+    rate, guards = np.zeros((n + 1, n + 1)), np.zeros((len(motion.guards), n + 1))
+    rate[:n, :n], guards[:, :n] = motion.rate, motion.guards[:, :n]
     for index, curve in enumerate(motion.curves):
         y = curve.rows @ state
         slope, now = curve.slope(y), float(curve.value(y[:, None])[0])
-        rest = now - slope * y[0]
-        rate = rate + np.outer(motion.gain[:, index], slope * curve.rows[0])
-        guards = guards + np.outer(motion.guards[:, n + index], slope * curve.rows[0])
-        offset = offset + motion.gain[:, index] * rest
-        level = level + motion.guards[:, n + index] * rest
-    z, size = state, np.abs(state)
-    found, noise = guards @ z + level, NOISE * (np.abs(guards) @ size + np.abs(level)) + np.abs(guards) @ dust
-    sides = np.where(np.abs(found) > noise, np.sign(found), 0.0)
-    magnitude, allowed = np.abs(rate), NOISE
-    for _ in range(_ORDERS):
-        open_ = np.flatnonzero(sides == 0)
-        if not len(open_):
-            break
-        z, size = rate @ z + offset, magnitude @ size + np.abs(offset)
-        offset, allowed = 0.0, 4 * allowed
-        rows = guards[open_]
-        found = rows @ z
-        clear = np.abs(found) > allowed * (np.abs(rows) @ size)
-        sides[open_[clear]] = np.sign(found[clear])
-    return sides.astype(np.intp)
+        tangent = np.append(slope * curve.rows[0], now - slope * y[0])
+        rate[:n] += np.outer(motion.gain[:, index], tangent)
+        guards += np.outer(motion.guards[:, n + index], tangent)
+    return _Ladder.of(guards, rate), np.append(state, 1.0), np.append(dust, 0.0)

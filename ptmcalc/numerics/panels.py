@@ -14,6 +14,7 @@ def lobatto(count: int) -> tuple[FloatArray, FloatArray]:
     """Gauss-Lobatto nodes on [0, 1], both ends among them, and their weights."""
     inner = np.polynomial.legendre.Legendre.basis(count - 1).deriv().roots()
     nodes = np.concatenate([[-1.0], np.sort(inner.real), [1.0]])
+    nodes = (nodes - nodes[::-1]) / 2  # rounding leaves them symmetric
     heights = np.polynomial.legendre.Legendre.basis(count - 1)(nodes)
     return (nodes + 1) / 2, 1 / (count * (count - 1) * heights**2)
 
@@ -22,6 +23,10 @@ COUNT = 9
 NODES, WEIGHTS = lobatto(COUNT)
 TO_CHEBYSHEV = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * NODES - 1, COUNT - 1))
 """Chebyshev coefficients from node values."""
+_DERIVATIVE = np.zeros((COUNT, COUNT))
+_DERIVATIVE[:-1] = np.polynomial.chebyshev.chebder(np.eye(COUNT), scl=2.0)
+SLOPES = np.polynomial.chebyshev.chebvander(2 * NODES - 1, COUNT - 1) @ _DERIVATIVE @ TO_CHEBYSHEV
+"""Derivatives at the nodes from node values, per panel."""
 _FINE = np.linspace(0.0, 1.0, 33)
 _ON_FINE = np.polynomial.chebyshev.chebvander(2 * _FINE - 1, COUNT - 1) @ TO_CHEBYSHEV
 _ORDERS = np.arange(COUNT)
@@ -44,9 +49,12 @@ def root(nodes: FloatArray, left: float, right: float) -> float:
 
     **Error** rounding of the polynomial: about 1e-15 of the largest node over its slope.
     """
-    coefficients = (TO_CHEBYSHEV @ nodes).tolist()
+    return _first_root((TO_CHEBYSHEV @ nodes).tolist(), left, right)
+
+
+def _first_root(coefficients: list[float], left: float, right: float) -> float:
     above, below = at(coefficients, left), at(coefficients, right)
-    largest = float(np.abs(nodes).max())
+    largest = sum(map(abs, coefficients))
     if above <= 0:
         return left
     if below > 0:
@@ -85,38 +93,32 @@ def above(nodes: FloatArray, left: float, right: float) -> float:
     return left
 
 
-def lowest(nodes: FloatArray, left: float, right: float) -> tuple[float, float]:
-    """Smallest value of the polynomial through the nodes between two places, and its place."""
-    value, place = highest(-nodes[None, :], left, right)
-    return -float(value[0]), float(place[0])
+def dip(nodes: FloatArray, left: float, right: float) -> tuple[float, float]:
+    """Value and place of the minimum of the polynomial through the nodes between two places, at the first of which it
+    falls and at the second rises: the root of its derivative."""
+    coefficients = TO_CHEBYSHEV @ nodes
+    place = _first_root((-_DERIVATIVE @ coefficients).tolist(), left, right)
+    return at(coefficients.tolist(), place), place
 
 
-def highest(nodes: FloatArray, left: float = 0.0, right: float = 1.0) -> tuple[FloatArray, FloatArray]:
-    """Largest values of polynomials between two places, and the places.
+def highest(nodes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Largest values of polynomials over a panel, and the places.
 
         p'(x) = 0 by Newton's method from the largest of 33 values, kept between its neighbours
 
     Args:
         nodes: node values, shape (signals, nodes).
-        left: begin of the stretch, a share of the panel [1].
-        right: its end [1].
 
     Returns:
         (values, places), shape (signals,) each.
 
-    **Error** 1e-14 of the largest node; a peak narrower than a thirtieth of a panel is not one of degree 8.
+    **Error** 2e-14 of the largest node; a peak narrower than a thirtieth of a panel is not one of degree 8.
     """
     coefficients = nodes @ TO_CHEBYSHEV.T
     sampled = nodes @ _ON_FINE.T
-    if left > 0 or right < 1:
-        sampled[:, (left > _FINE) | (right < _FINE)] = -np.inf
     best = sampled.max(axis=1)
-    where = np.where(np.isfinite(best), _FINE[sampled.argmax(axis=1)], (left + right) / 2)
-    low, high = np.maximum(where - _FINE[1], left), np.minimum(where + _FINE[1], right)
-    if left > 0 or right < 1:
-        for edge in (low, high, np.full(len(nodes), left), np.full(len(nodes), right)):
-            best, where = _better(coefficients, edge, best, where)
-        low, high = np.maximum(where - _FINE[1], left), np.minimum(where + _FINE[1], right)
+    where = _FINE[sampled.argmax(axis=1)]
+    low, high = np.maximum(where - _FINE[1], 0.0), np.minimum(where + _FINE[1], 1.0)
     place = where
     for _ in range(3):
         slope, bend = _slopes(coefficients, place)
@@ -137,14 +139,6 @@ def _values(coefficients: FloatArray, place: FloatArray) -> FloatArray:
     angle = np.arccos(np.clip(2 * place - 1, -1, 1))
     result: FloatArray = (coefficients * np.cos(angle[:, None] * _ORDERS)).sum(axis=1)
     return result
-
-
-_DERIVATIVE = np.zeros((COUNT, COUNT))
-_DERIVATIVE[:-1] = np.polynomial.chebyshev.chebder(np.eye(COUNT), scl=2.0)
-
-
-SLOPES = np.polynomial.chebyshev.chebvander(2 * NODES - 1, COUNT - 1) @ _DERIVATIVE @ TO_CHEBYSHEV
-"""Derivatives at the nodes from node values, per panel."""
 
 
 def _slopes(coefficients: FloatArray, place: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -28,6 +28,7 @@ _EPS = float(np.finfo(float).eps)
 _POLISHES = 3
 _ROUNDING = 1e-12
 _FIRST_PANELS = 8
+_HALVES = np.diff(NODES)[:, None] / 2
 _EARLY = 0.01
 _MOST_AT_ONCE = 200
 """Events in a row without any progress in time."""
@@ -114,9 +115,12 @@ class _March:
             state, fired = self._cross(record, piece.linear, record.state / scale, piece.guards, stop)
             record.state = state * scale
             return fired
+        self.reach, entering = min(self.reach, piece.entry), True
         while record.time < stop:
             flow, state, span = piece.stretch(record.state / scale, self.reach, stop - record.time, self.tolerance)
             self.reach = piece.reach
+            if entering:
+                piece.entry, entering = 2 * span, False
             until = min(stop, record.time + span)
             state, fired = self._cross(record, flow, state, piece.guards, until)
             record.state = state[: len(scale)] * scale
@@ -191,7 +195,7 @@ class _March:
 def _soonest(flow: Flow, state: FloatArray, guards: int) -> float:
     """Time in which a guard that starts at 0 and rises could be back, g = g' t + g'' t^2/2."""
     rows = flow.rows[:guards]
-    zero = np.abs(rows @ state) <= NOISE * (np.abs(rows) @ np.abs(state))
+    zero = np.abs(rows @ state) <= NOISE * (flow.magnitudes[:guards] @ np.abs(state))
     if not zero.any():
         return np.inf
     speed = flow.rate @ state
@@ -202,11 +206,11 @@ def _soonest(flow: Flow, state: FloatArray, guards: int) -> float:
 
 def _first_hit(readings: FloatArray, flow: Flow, starts: FloatArray) -> tuple[int, float, int] | None:
     """(panel, place in it, guard) of the first crossing below 0, or None."""
-    rows, largest = np.abs(flow.rows[: readings.shape[2]]), np.abs(starts).max(axis=0)
+    rows, largest = flow.magnitudes[: readings.shape[2]], np.abs(starts).max(axis=0)
     dust = DUST * largest[: flow.own].max(initial=0.0)
     noise = NOISE * (rows @ largest) + dust * rows[:, : flow.own].sum(axis=1)
     dips = _dips(readings)
-    suspects = (readings.min(axis=1) < -noise) | dips.any(axis=1)
+    suspects = (readings < -noise).any(axis=1) | dips.any(axis=1)
     for index in np.flatnonzero(suspects.any(axis=1)):
         found = []
         for guard in np.flatnonzero(suspects[index]):
@@ -223,7 +227,7 @@ def _dips(readings: FloatArray) -> NDArray[np.bool_]:
     slopes = np.matmul(panels.SLOPES, readings)
     falling, rising = slopes[:, :-1], slopes[:, 1:]
     lower = np.minimum(readings[:, :-1], readings[:, 1:])
-    reach = 0.5 * np.diff(NODES)[:, None] * np.maximum(-falling, rising)
+    reach = _HALVES * np.maximum(-falling, rising)
     near: NDArray[np.bool_] = (falling < 0) & (rising > 0) & (lower < reach)
     return near
 
@@ -238,7 +242,7 @@ def _crossing(nodes: FloatArray, dips: NDArray[np.bool_], noise: float) -> float
                 left = panels.above(nodes, NODES[i], NODES[i + 1])
             return panels.root(nodes, left, NODES[i + 1])
         if dips[i]:
-            lowest, place = panels.lowest(nodes, NODES[i], NODES[i + 1])
+            lowest, place = panels.dip(nodes, NODES[i], NODES[i + 1])
             if lowest < -noise - 1e-11 * float(np.abs(nodes).max()):
                 return panels.root(nodes, NODES[i], place)
     return None

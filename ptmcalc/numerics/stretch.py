@@ -39,6 +39,8 @@ class Piece:
         self.rows, self.direct = rows[:, :n] * scale, rows[:, n:]
         self.arguments = [curve.rows * scale for curve in motion.curves]
         self.reach = np.inf
+        self.entry = np.inf
+        """stretch that was short enough the last time this mode began"""
         self._flows: dict[Hashable, Flow] = {}
         self._stretches: dict[Hashable, _Stretch] = {}
 
@@ -135,8 +137,8 @@ class _Stretch:
         nodes = self.flow.at_nodes(span)
         arguments = np.vstack(piece.arguments)
         self.seen_state = (arguments @ nodes[:, :n, :n]).transpose(1, 0, 2).reshape(-1, n)
-        polynomial = np.kron(np.eye(count), _MONOMIALS)
-        self.seen_rest = (arguments @ nodes[:, :n, n:] @ polynomial).transpose(1, 0, 2).reshape(-1, count * COUNT)
+        carried = (arguments @ nodes[:, :n, n:]).reshape(COUNT, -1, count, COUNT) @ _MONOMIALS
+        self.seen_rest = carried.transpose(1, 0, 2, 3).reshape(-1, count * COUNT)
         ends = np.cumsum([len(rows) for rows in piece.arguments])
         self.parts = [slice(end - len(rows), end) for end, rows in zip(ends, piece.arguments, strict=True)]
 

@@ -181,7 +181,7 @@ class Counted:
 def hoist(stiffness: float, curve: Counted) -> Train:
     gear = 2 * 0.1 * math.sqrt(stiffness * MOTOR * DRUM / (MOTOR + DRUM))
     rope = 2 * 0.02 * math.sqrt(2e6 * HOISTED)
-    law = Smooth("speed", curve.value, curve.slope, BREAKDOWN, 2 * BREAKDOWN / SLIP / SYNCHRONOUS / 30)
+    law = Smooth("speed", curve.value, curve.slope, BREAKDOWN, 2 * BREAKDOWN / SLIP / SYNCHRONOUS / 10)
     return Train(
         bodies=(Body("motor", MOTOR), Body("drum", DRUM), Body("load", HOISTED)),
         springs=(

@@ -38,6 +38,7 @@ from ptmcalc.laws import (
     similarity,
     slider_crank,
     start_profile,
+    strand_tension,
     two_mass,
     vibration,
     wave,
@@ -295,6 +296,14 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     wave.first_wave_peak: [(5e4, 9e4, 4e4, 0.7)],
     wave.two_interval_force: [(5e4, 2.0, 0.6, t) for t in (0.7, 3.1)],
     wave.two_interval_peak: [(5e4, 2.0, 0.6, t) for t in (0.7, 3.9)],
+    strand_tension.section_pull: [(300.0, h, 18.0, 160.0, 20.0, 0.022, 9.81) for h in (-20.0, 0.0, 20.0)],
+    strand_tension.load_pull: [(300.0, h, 160.0, 0.022, 9.81) for h in (-20.0, 0.0, 20.0)],
+    strand_tension.strand_tensions: [(3e4, np.array([4e3, -900.0, 7e3]))],
+    strand_tension.tension_extremes: [(np.array([4e3, -900.0, 7e3]),)],
+    strand_tension.worst_loading: [(np.array([4e3, -900.0, 7e3]), sense) for sense in ("most", "least")],
+    strand_tension.worst_stretch: [(np.array([4e3, -900.0, 7e3]), sense) for sense in ("most", "least")],
+    strand_tension.slope_loading: [(np.array([4.0, -9.0, 7.0]), sense) for sense in ("most", "least")],
+    strand_tension.loading_envelope: [(3e4, np.array([4e3, -900.0]), np.array([-4e3, 900.0]))],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -325,6 +334,11 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
     start_profile.phases: [(ValueError, ("step", True, 4.0, 3.0))],
+    strand_tension.load_pull: [(ValueError, (5.0, 5.1, 160.0, 0.022, 9.81))],
+    strand_tension.section_pull: [(ValueError, (5.0, -5.1, 18.0, 160.0, 20.0, 0.022, 9.81))],
+    strand_tension.slope_loading: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
+    strand_tension.worst_loading: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
+    strand_tension.worst_stretch: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
 }
 
 

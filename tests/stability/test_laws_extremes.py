@@ -35,6 +35,7 @@ from ptmcalc.laws import (
     similarity,
     slider_crank,
     start_profile,
+    strand_tension,
     two_mass,
     vibration,
     wave,
@@ -209,6 +210,17 @@ def in_linkage(draw: Draw) -> tuple[float, ...]:
 def from_large_to_small(draw: Draw) -> tuple[float, float]:
     high, low = nested(draw, 2)
     return high, low
+
+
+def rising(draw: Draw, numbers: int) -> tuple[float, ...]:
+    """A section of a route that rises by a share of its length, and so many other numbers."""
+    length, *others = draw.positive(1 + numbers)
+    return length, length * draw.share(), *others
+
+
+def row(draw: Draw) -> np.ndarray:
+    """Five numbers of either sign."""
+    return np.asarray(draw.rng.choice([-1.0, 1.0], 5) * np.array(draw.positive(5)))
 
 
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
@@ -428,6 +440,14 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "stray_fixed": (loop_bounds.stray, in_loop(True)),
     "lowest_frequency_gravity": (loop_bounds.lowest_frequency_bound, whole_loop(False)),
     "lowest_frequency_fixed": (loop_bounds.lowest_frequency_bound, whole_loop(True)),
+    "section_pull": (strand_tension.section_pull, lambda d: rising(d, 5)),
+    "load_pull": (strand_tension.load_pull, lambda d: rising(d, 3)),
+    "strand_tensions": (strand_tension.strand_tensions, lambda d: (d.positive(1)[0], row(d))),
+    "tension_extremes": (strand_tension.tension_extremes, lambda d: (row(d),)),
+    "worst_loading": (strand_tension.worst_loading, lambda d: (row(d), d.shape("most", "least"))),
+    "worst_stretch": (strand_tension.worst_stretch, lambda d: (row(d), d.shape("most", "least"))),
+    "slope_loading": (strand_tension.slope_loading, lambda d: (row(d), d.shape("most", "least"))),
+    "loading_envelope": (strand_tension.loading_envelope, lambda d: (d.positive(1)[0], row(d), row(d))),
 }
 SIGNED = {
     "acceleration",
@@ -459,6 +479,9 @@ SIGNED = {
     "sine_response",
     "slip",
     "switching_speed",
+    "strand_tensions",
+    "tension_extremes",
+    "loading_envelope",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

@@ -161,6 +161,7 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
     """The cycle from a change of sign of P(w) - w, with P the speed a cycle later, looked for from above.
 
     P rises with w, as motions over the angle do not cross; where it lies below w at every speed, there is no cycle.
+    From below a speed that stalls every other one stalls, too.
     """
     top = next(iter(machine.working_speeds), None) or machine.drive.free_speed or float(machine.tried_speeds[-1])
     starts = [1.5 * top * (1 - k / _STARTS) for k in range(_STARTS)]
@@ -169,6 +170,10 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
         gains.append(_gain(machine, grid, speed))
         if gains[-1] > 0:
             return _bracketed(machine, grid, speed, starts[k - 1]) if k else None
+        if gains[-1] == -math.inf:
+            break
+    if gains[0] == -math.inf:
+        return None
     best = int(np.argmax(gains))
     low, high = starts[min(best + 1, _STARTS - 1)], starts[max(best - 1, 0)]
     for _ in range(24):  # a gain that peaks between two starts
@@ -182,9 +187,9 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
 
 
 def _gain(machine: Machine, grid: Grid, speed: float) -> float:
-    """P(w) - w; minus w where the shaft stalls on the way."""
+    """P(w) - w; minus infinity where the shaft stalls on the way."""
     pieces = _run(machine, grid, speed**2 / 2)
-    return -speed if pieces is None else math.sqrt(2 * pieces[-1]) - speed
+    return -math.inf if pieces is None else math.sqrt(2 * pieces[-1]) - speed
 
 
 def _run(machine: Machine, grid: Grid, e: float) -> list[float] | None:
