@@ -23,7 +23,7 @@ inertias:
 links:
   shaft: {between: [motor, load], stiffness: 20 kN*m/rad, damping: 40 N*m*s/rad, limit: 200 N*m}
 torques:
-  drive: {on: motor, type: constant, torque: 100 N*m}
+  drive: {at: motor, type: constant, torque: 100 N*m}
 scenes:
   - {type: run, duration: 0.5 s}
   - {type: run, name: longer, duration: 0.6 s}

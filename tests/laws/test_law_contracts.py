@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 import ptmcalc.laws
 from ptmcalc.laws import (
     backlash,
+    belt_resistance,
     bodies,
     brake,
     buffer,
@@ -304,12 +305,29 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     strand_tension.worst_stretch: [(np.array([4e3, -900.0, 7e3]), sense) for sense in ("most", "least")],
     strand_tension.slope_loading: [(np.array([4.0, -9.0, 7.0]), sense) for sense in ("most", "least")],
     strand_tension.loading_envelope: [(3e4, np.array([4e3, -900.0]), np.array([-4e3, 900.0]))],
+    belt_resistance.secondary_resistance: [(4e4, 430.0)],
+    belt_resistance.loading_resistance: [(300.0, 3.5, 0.8), (300.0, 2.0, 3.0)],
+    belt_resistance.acceleration_length: [(3.5, 0.8, 0.6, 9.81), (2.0, 3.0, 0.6, 9.81)],
+    belt_resistance.skirt_resistance: [(500.0, 900.0, 2.5, 0.8, 4.0, 0.6, 9.81)],
+    belt_resistance.scraper_resistance: [(0.012, 5e4, 0.6)],
+    belt_resistance.wrap_resistance: [(1.2, 9e4, 0.018, 0.8, 1260.0, 0.09)],
+    belt_resistance.bearing_resistance: [(8e4, 0.14, 0.8, 0.005)],
+    belt_resistance.idler_tilt_resistance: [(0.4, 0.35, 100.0, 150.0, 9.81, 0.97, 0.03)],
+    belt_resistance.effective_tension: [(3e4, 1.2, 2e3, -5e4)],
+    belt_resistance.shaft_power: [(3e4, 2.5), (-3e4, 2.5)],
+    belt_resistance.motor_power: [(9e4, 0.9), (-9e4, 0.9)],
+    belt_resistance.cycle_time: [(2030.0, 3.5)],
+    belt_resistance.takeup_travel: [(2030.0, 9e4, 3e4, 1.2e7, 0.004, 2)],
+    belt_resistance.mean_tension: [(np.array([400.0, 900.0]), np.array([3e4, 8e4, 9e4]))],
+    belt_resistance.takeup_mass: [(3e4, 2, 9.81)],
+    belt_resistance.cema_idler_resistance: [(15.0, 130.0, 9.81, 6.7, 1.2)],
+    belt_resistance.cema_effective_tension: [(600.0, 20.0, 15.0, 130.0, 9.81, 1.0, 6.5, 0.024, 3e3)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
 ONE_CALL_EACH = [pytest.param(law, call, id=f"{law.__name__}-{k}") for law, calls in CALLS.items()
                  for k, call in enumerate(calls)]  # fmt: skip
-TABLES_IN_METRES = {backlash.new_clearance, resistance.length_factor}
+TABLES_IN_METRES = {backlash.new_clearance, resistance.length_factor, belt_resistance.secondary_resistance}
 """Laws that are read from a table and know no other unit than its own."""
 
 REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
@@ -339,6 +357,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     strand_tension.slope_loading: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
     strand_tension.worst_loading: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
     strand_tension.worst_stretch: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
+    belt_resistance.secondary_resistance: [(ValueError, (4e4, 79.0))],
 }
 
 

@@ -39,17 +39,17 @@ links:
 gears:
   rail: {from: wheel, to: crane, radius: 250 mm}
 brakes:
-  brake: {on: motor, torque: 100 N*m}
+  brake: {at: motor, torque: 100 N*m}
 motors:
-  main: {on: motor, motor: {type: constant, torque: 50 N*m}}
+  main: {at: motor, motor: {type: constant, torque: 50 N*m}}
 torques:
-  wind: {on: crane, type: constant, torque: -1 kN}
+  wind: {at: crane, type: constant, torque: -1 kN}
 resistances:
-  rolling: {on: crane, coulomb: 200 N}
+  rolling: {at: crane, coulomb: 200 N}
 motions:
-  guided: {on: spare, points: [{time: 0 s, speed: 1 rad/s}, {time: 1 s, speed: 2 rad/s}]}
+  guided: {at: spare, points: [{time: 0 s, speed: 1 rad/s}, {time: 1 s, speed: 2 rad/s}]}
 impulses:
-  blow: {on: crane, time: 1 s, size: 3 N*s}
+  blow: {at: crane, time: 1 s, size: 3 N*s}
 checks:
   stop_angle: 90 deg
 scenes:
@@ -132,51 +132,51 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         "did you mean `wheel`?",
     ),
     "a brake on nothing": (
-        one_edit("brake: {on: motor", "brake: {on: moter"),
-        "brakes.brake.on",
-        "on: moter",
+        one_edit("brake: {at: motor", "brake: {at: moter"),
+        "brakes.brake.at",
+        "at: moter",
         "no inertia is called `moter`",
         "did you mean `motor`?",
     ),
     "a clutch against nothing": (
-        one_edit("brake: {on: motor", "brake: {on: motor, against: shaft"),
+        one_edit("brake: {at: motor", "brake: {at: motor, against: shaft"),
         "brakes.brake.against",
         "against: shaft",
         "no inertia is called `shaft`",
         "inertias: motor, wheel, crane, spare",
     ),
     "a motor on nothing": (
-        one_edit("main: {on: motor", "main: {on: engine"),
-        "motors.main.on",
-        "on: engine",
+        one_edit("main: {at: motor", "main: {at: engine"),
+        "motors.main.at",
+        "at: engine",
         "no inertia is called `engine`",
         "inertias: motor",
     ),
     "a torque on nothing": (
-        one_edit("wind: {on: crane", "wind: {on: crain"),
-        "torques.wind.on",
-        "on: crain",
+        one_edit("wind: {at: crane", "wind: {at: crain"),
+        "torques.wind.at",
+        "at: crain",
         "no inertia is called `crain`",
         "did you mean `crane`?",
     ),
     "a resistance on nothing": (
-        one_edit("rolling: {on: crane", "rolling: {on: cranes"),
-        "resistances.rolling.on",
-        "on: cranes",
+        one_edit("rolling: {at: crane", "rolling: {at: cranes"),
+        "resistances.rolling.at",
+        "at: cranes",
         "no inertia is called `cranes`",
         "did you mean `crane`?",
     ),
     "a motion of nothing": (
-        one_edit("guided: {on: spare", "guided: {on: spar"),
-        "motions.guided.on",
-        "on: spar,",
+        one_edit("guided: {at: spare", "guided: {at: spar"),
+        "motions.guided.at",
+        "at: spar,",
         "no inertia is called `spar`",
         "did you mean `spare`?",
     ),
     "an impulse on nothing": (
-        one_edit("blow: {on: crane", "blow: {on: carne"),
-        "impulses.blow.on",
-        "on: carne",
+        one_edit("blow: {at: crane", "blow: {at: carne"),
+        "impulses.blow.at",
+        "at: carne",
         "no inertia is called `carne`",
         "did you mean `crane`?",
     ),
@@ -216,7 +216,7 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         "name two different ones",
     ),
     "a clutch to itself": (
-        one_edit("brake: {on: motor", "brake: {on: motor, against: motor"),
+        one_edit("brake: {at: motor", "brake: {at: motor, against: motor"),
         "brakes.brake.against",
         "against: motor",
         "both ends are `motor`",
@@ -230,23 +230,23 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         "name an inertia",
     ),
     "a brake on the ground": (
-        one_edit("brake: {on: motor", "brake: {on: ground"),
-        "brakes.brake.on",
-        "on: ground",
+        one_edit("brake: {at: motor", "brake: {at: ground"),
+        "brakes.brake.at",
+        "at: ground",
         "the ground does not move",
         "name an inertia",
     ),
     "a motor on the ground": (
-        one_edit("main: {on: motor", "main: {on: ground"),
-        "motors.main.on",
-        "on: ground",
+        one_edit("main: {at: motor", "main: {at: ground"),
+        "motors.main.at",
+        "at: ground",
         "the ground does not move",
         "name an inertia",
     ),
     "friction on the ground": (
-        one_edit("rolling: {on: crane", "rolling: {on: ground"),
-        "resistances.rolling.on",
-        "on: ground",
+        one_edit("rolling: {at: crane", "rolling: {at: ground"),
+        "resistances.rolling.at",
+        "at: ground",
         "the ground does not move",
         "name an inertia",
     ),
@@ -293,7 +293,7 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         "a gear with a `radius`",
     ),
     "a clutch between turning and travelling": (
-        one_edit("brake: {on: motor", "brake: {on: motor, against: crane"),
+        one_edit("brake: {at: motor", "brake: {at: motor, against: crane"),
         "brakes.brake.against",
         "against: crane",
         "one end turns, the other travels",
@@ -328,19 +328,19 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         "speed ratio",
     ),
     "a motor on a mass": (
-        one_edit("main: {on: motor", "main: {on: crane"),
-        "motors.main.on",
-        "on: crane, motor",
+        one_edit("main: {at: motor", "main: {at: crane"),
+        "motors.main.at",
+        "at: crane, motor",
         "a motor turns, and this inertia travels",
         "a gear of a `radius`",
     ),
     "two motions of inertias that gears tie": (
         (
-            *one_edit(GUIDED, GUIDED + "\nagain: {on: motor, points: [{time: 0 s, speed: 1 rad/s}]}"),
+            *one_edit(GUIDED, GUIDED + "\nagain: {at: motor, points: [{time: 0 s, speed: 1 rad/s}]}"),
             *one_edit("radius: 250 mm}", "radius: 250 mm}\nextra: {from: motor, to: spare, ratio: 2}"),
         ),
-        "motions.again.on",
-        "on: motor, points",
+        "motions.again.at",
+        "at: motor, points",
         "the motion of `motor` is prescribed already, by `guided`",
         "delete one of the two",
     ),
@@ -396,7 +396,7 @@ def _without_motion(case: str) -> str:
     """Some wiring takes the spare inertia away, to which the prescribed motion belongs."""
     edits = WIRING[case][0]
     if case == "the name of an inertia that is no word":
-        edits = (*edits, *one_edit("guided: {on: spare", "guided: {on: motor"))
+        edits = (*edits, *one_edit("guided: {at: spare", "guided: {at: motor"))
         edits = tuple((old, new.replace("crane]", "motor]")) for old, new in edits)
     return edited(*edits)
 
@@ -766,10 +766,10 @@ def test_several_faults_at_once_are_all_shown_in_the_order_of_the_file() -> None
         ("between: [motor, wheel]", "between: [motor, {wheel: 1}]", "SPC111"),
         ("rail: {from: wheel", "rail: {from: [wheel]", "SPC111"),
         ("rail: {from: wheel", "rail: {form: wheel", "SPC104"),
-        ("brake: {on: motor", "brake: {on: [motor]", "SPC111"),
-        ("brake: {on: motor", "brake: {on: {motor: 1}", "SPC111"),
-        ("brake: {on: motor, torque", "brake: {torque", "SPC103"),
-        ("main: {on: motor", "main: {on: 7", "SPC111"),
+        ("brake: {at: motor", "brake: {on: [motor]", "SPC111"),
+        ("brake: {at: motor", "brake: {at: {motor: 1}", "SPC111"),
+        ("brake: {at: motor, torque", "brake: {torque", "SPC103"),
+        ("main: {at: motor", "main: {on: 7", "SPC111"),
         ("type: constant, torque: -1 kN", "type: konstant, torque: -1 kN", "SPC112"),
         ("type: constant, torque: -1 kN", "torque: -1 kN", "SPC103"),
         ("duration: 2 s", "duration: 2 s, of: [motor]", "SPC111"),

@@ -17,6 +17,7 @@ import pytest
 
 from ptmcalc.laws import (
     backlash,
+    belt_resistance,
     bodies,
     brake,
     buffer,
@@ -448,6 +449,29 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "worst_stretch": (strand_tension.worst_stretch, lambda d: (row(d), d.shape("most", "least"))),
     "slope_loading": (strand_tension.slope_loading, lambda d: (row(d), d.shape("most", "least"))),
     "loading_envelope": (strand_tension.loading_envelope, lambda d: (d.positive(1)[0], row(d), row(d))),
+    "secondary_resistance": (
+        belt_resistance.secondary_resistance,
+        lambda d: (*d.positive(1), 80 * max(d.positive(1)[0], 1.0)),
+    ),
+    "loading_resistance": (belt_resistance.loading_resistance, lambda d: tuple(d.positive(3))),
+    "acceleration_length": (belt_resistance.acceleration_length, lambda d: tuple(d.positive(4))),
+    "skirt_resistance": (belt_resistance.skirt_resistance, lambda d: tuple(d.positive(7))),
+    "scraper_resistance": (belt_resistance.scraper_resistance, lambda d: tuple(d.positive(3))),
+    "wrap_resistance": (belt_resistance.wrap_resistance, lambda d: tuple(d.positive(6))),
+    "bearing_resistance": (belt_resistance.bearing_resistance, lambda d: tuple(d.positive(4))),
+    "idler_tilt_resistance": (belt_resistance.idler_tilt_resistance, lambda d: (*d.positive(6), d.share())),
+    "effective_tension": (belt_resistance.effective_tension, lambda d: tuple(d.positive(4))),
+    "shaft_power": (belt_resistance.shaft_power, lambda d: tuple(d.positive(2))),
+    "motor_power": (belt_resistance.motor_power, lambda d: (*d.positive(1), efficiency(d))),
+    "cycle_time": (belt_resistance.cycle_time, lambda d: tuple(d.positive(2))),
+    "takeup_travel": (belt_resistance.takeup_travel, lambda d: (*d.positive(5), 2)),
+    "mean_tension": (
+        belt_resistance.mean_tension,
+        lambda d: (np.array(d.positive(4)), np.array(d.positive(5))),
+    ),
+    "takeup_mass": (belt_resistance.takeup_mass, lambda d: (*d.positive(1), 2, *d.positive(1))),
+    "cema_idler_resistance": (belt_resistance.cema_idler_resistance, lambda d: tuple(d.positive(5))),
+    "cema_effective_tension": (belt_resistance.cema_effective_tension, lambda d: tuple(d.positive(9))),
 }
 SIGNED = {
     "acceleration",
@@ -482,6 +506,8 @@ SIGNED = {
     "strand_tensions",
     "tension_extremes",
     "loading_envelope",
+    "loading_resistance",
+    "takeup_travel",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

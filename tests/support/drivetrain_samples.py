@@ -69,7 +69,7 @@ def linear_train(rng: np.random.Generator) -> dict[str, Any]:
     gentle = rng.random() < 0.2
     for k in range(1 if gentle else int(rng.integers(1, 4))):
         torque = _gentle(rng, units, end) if gentle else _over_time(rng, units, end, fastest)
-        data["torques"][f"t{k}"] = {"on": str(rng.choice(names)), **torque}
+        data["torques"][f"t{k}"] = {"at": str(rng.choice(names)), **torque}
     scene = {"type": "run", "duration": text(end, "s"), "links": str(rng.choice(["relaxed", "relaxed", "loaded"]))}
     if rng.random() < 0.3:
         scene["speed"] = text(rng.normal(), units.speed)
@@ -126,11 +126,11 @@ def train_with_play(rng: np.random.Generator) -> dict[str, Any]:
     damping = 2 * float(rng.choice([0.0, 0.0, 0.0, 0.01, 0.1])) * math.sqrt(stiffness * min(first, second))
     end = float(closing + period * rng.uniform(0.3, 8))
     steady = rng.random() < 0.75
-    torques = {"t0": {"on": "b0", "type": "constant", "torque": text(torque, "N*m")}}
+    torques = {"t0": {"at": "b0", "type": "constant", "torque": text(torque, "N*m")}}
     if rng.random() < 0.4:
-        torques["t1"] = {"on": "b1", "type": "constant", "torque": text(torque * rng.uniform(-0.8, 0.8), "N*m")}
+        torques["t1"] = {"at": "b1", "type": "constant", "torque": text(torque * rng.uniform(-0.8, 0.8), "N*m")}
     if not steady:
-        torques["t2"] = {"on": "b0", **_over_time(rng, TURNING, end, 2 * math.pi / period)}
+        torques["t2"] = {"at": "b0", **_over_time(rng, TURNING, end, 2 * math.pi / period)}
     link = {
         "between": ["b0", "b1"],
         "stiffness": text(stiffness, "N*m/rad"),
@@ -175,7 +175,7 @@ def motor_train(rng: np.random.Generator) -> dict[str, Any]:
             }
         },
         "gears": {},
-        "motors": {"main": {"on": "motor", "motor": motor}},
+        "motors": {"main": {"at": "motor", "motor": motor}},
         "torques": {},
         "brakes": {},
         "resistances": {},
@@ -187,15 +187,15 @@ def motor_train(rng: np.random.Generator) -> dict[str, Any]:
     turned = data["gears"]["g1"]["ratio"] if data["gears"] else 1.0
     if rng.random() < 0.6:
         weight = rated * rng.uniform(-0.9, 0.6) * turned
-        data["torques"]["weight"] = {"on": last, "type": "constant", "torque": text(weight, "N*m")}
+        data["torques"]["weight"] = {"at": last, "type": "constant", "torque": text(weight, "N*m")}
     if rng.random() < 0.5:
         friction = {"coulomb": text(rated * turned * rng.uniform(0.05, 0.3), "N*m"), "static_ratio": 1.2}
         if rng.random() < 0.5:
             friction["viscous"] = text(0.002 * rated * turned, "N*m*s/rad")
-        data["resistances"]["bearing"] = {"on": last, **friction}
+        data["resistances"]["bearing"] = {"at": last, **friction}
     if rng.random() < 0.4:
         delay, rise = text(rng.uniform(0.05, 0.2), "s"), text(rng.uniform(0.02, 0.1), "s")
-        data["brakes"]["brake"] = {"on": "motor", "torque": text(2.5 * rated, "N*m"), "delay": delay,
+        data["brakes"]["brake"] = {"at": "motor", "torque": text(2.5 * rated, "N*m"), "delay": delay,
                                    "rise_time": rise, "applied": "always"}  # fmt: skip
     kind = str(rng.choice(["run", "run", "start", "stop"]))
     scene: dict[str, Any] = {"type": kind, "duration": text(rng.uniform(0.2, 0.6), "s"), "links": "relaxed"}
@@ -220,14 +220,14 @@ def machine_of(data: dict[str, Any], play: bool = True) -> hybrid.Machine:
         )
         for gear in data["gears"].values()
     ]  # fmt: skip
-    torques = [hybrid.Torque(names.index(one["on"]), course_of(one)) for one in data["torques"].values()]
+    torques = [hybrid.Torque(names.index(one["at"]), course_of(one)) for one in data["torques"].values()]
     motors = data.get("motors", {}).values() if data["scenes"][0]["type"] != "stop" else ()
-    torques += [_kloss(names.index(one["on"]), one["motor"]) for one in motors]
+    torques += [_kloss(names.index(one["at"]), one["motor"]) for one in motors]
     frictions = data.get("resistances", {}).values()
-    torques += [_viscous(names.index(one["on"]), number(one["viscous"])) for one in frictions if "viscous" in one]
-    brakes = [_brake(names.index(one["on"]), one) for one in data.get("brakes", {}).values()]
+    torques += [_viscous(names.index(one["at"]), number(one["viscous"])) for one in frictions if "viscous" in one]
+    brakes = [_brake(names.index(one["at"]), one) for one in data.get("brakes", {}).values()]
     brakes += [
-        hybrid.Brake(names.index(one["on"]), None, hybrid.Course.constant(number(one["coulomb"])), one["static_ratio"])
+        hybrid.Brake(names.index(one["at"]), None, hybrid.Course.constant(number(one["coulomb"])), one["static_ratio"])
         for one in frictions
     ]
     scene = data["scenes"][0]

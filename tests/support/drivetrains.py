@@ -103,7 +103,7 @@ gears:
   tie: {from: bar, to: strut, ratio: 1}
 brakes:
   holding:
-    on: motor
+    at: motor
     torque: 300 N*m
     static_ratio: 1.2
     delay: 0.1 s
@@ -111,10 +111,10 @@ brakes:
     rise: exponential
     applied: always
     below: 20 rpm
-  clutch: {on: table, against: arm, torque: 40 N*m, rise: linear, applied: when_stopping}
+  clutch: {at: table, against: arm, torque: 40 N*m, rise: linear, applied: when_stopping}
 motors:
   main:
-    on: motor
+    at: motor
     motor:
       type: induction
       power: 11 kW
@@ -126,23 +126,23 @@ motors:
     off_after: 0.4 s
     off_delay: 0.05 s
 torques:
-  weight: {on: load, type: constant, torque: -9.81 kN, delay: 0.1 s, acts: always}
-  growing: {on: flywheel, type: ramp, torque: 50 N*m, first: 10 N*m, time: 0.2 s, acts: when_running}
-  beat: {on: rim, type: sine, amplitude: 20 N*m, frequency: 3 Hz, mean: 5 N*m, phase: 30 deg}
-  hum: {on: bar, type: sine, amplitude: 2 N*m, angular_frequency: 40 rad/s}
-  wind: {on: load, type: over_time, points: [{time: 0 s, torque: 0 N}, {time: 0.3 s, torque: 200 N}]}
-  fan: {on: wheel, type: over_speed, points: [{speed: 0 rpm, torque: 0 N*m}, {speed: 1000 rpm, torque: -30 N*m}]}
+  weight: {at: load, type: constant, torque: -9.81 kN, delay: 0.1 s, acts: always}
+  growing: {at: flywheel, type: ramp, torque: 50 N*m, first: 10 N*m, time: 0.2 s, acts: when_running}
+  beat: {at: rim, type: sine, amplitude: 20 N*m, frequency: 3 Hz, mean: 5 N*m, phase: 30 deg}
+  hum: {at: bar, type: sine, amplitude: 2 N*m, angular_frequency: 40 rad/s}
+  wind: {at: load, type: over_time, points: [{time: 0 s, torque: 0 N}, {time: 0.3 s, torque: 200 N}]}
+  fan: {at: wheel, type: over_speed, points: [{speed: 0 rpm, torque: 0 N*m}, {speed: 1000 rpm, torque: -30 N*m}]}
   cam:
-    on: strut
+    at: strut
     type: over_position
     points: [{position: 0 deg, torque: 1 N*m}, {position: 180 deg, torque: -1 N*m}, {position: 360 deg, torque: 1 N*m}]
     period: 360 deg
 resistances:
-  bearing: {on: wheel, coulomb: 5 N*m, static_ratio: 1.3, viscous: 0.2 N*m*s/rad}
+  bearing: {at: wheel, coulomb: 5 N*m, static_ratio: 1.3, viscous: 0.2 N*m*s/rad}
 motions:
-  turning: {on: table, points: [{time: 0 s, speed: 0 rpm}, {time: 0.3 s, speed: 60 rpm}]}
+  turning: {at: table, points: [{time: 0 s, speed: 0 rpm}, {time: 0.3 s, speed: 60 rpm}]}
 impulses:
-  blow: {on: strut, time: 0.2 s, size: 3 N*m*s}
+  blow: {at: strut, time: 0.2 s, size: 3 N*m*s}
 checks:
   start_time: 6 s
   stop_time: 4 s

@@ -169,7 +169,7 @@ class _Builder:
             grips=tuple(self._grips()),
             drives=tuple(self._drives(until)),
             guides=tuple(self._guides()),
-            impulses=tuple(Impulse(self.at(one.on), one.time, one.size) for one in self.spec.impulses.values()),
+            impulses=tuple(Impulse(self.at(one.at), one.time, one.size) for one in self.spec.impulses.values()),
         )
         train = replace(train, springs=tuple(self._springs(train)))
         return Case(train, self.names, self.main, until, self.stopping)
@@ -189,7 +189,7 @@ class _Builder:
     def _speeds(self) -> dict[int, float]:
         """Speeds at the start: those the file writes, and of what turns with it; with the scene's speed, of all."""
         known = {self.at(name): body.speed for name, body in self.spec.inertias.items() if body.speed is not None}
-        known |= {self.at(one.on): one.points[0].speed for one in self.spec.motions.values()}
+        known |= {self.at(one.at): one.points[0].speed for one in self.spec.motions.values()}
         ties = [(self.at(gear.start), self.at(gear.end), gear.speed_ratio) for gear in self.spec.gears.values()]
         if self.scene.speed is not None:
             known.setdefault(self.main, self.scene.speed)
@@ -254,17 +254,17 @@ class _Builder:
         for name, brake in self.spec.brakes.items():
             if brake.applied == "always" or (brake.applied == "when_stopping" and self.stopping):
                 second = None if brake.against == GROUND else self.at(brake.against)
-                yield Grip(name, self.at(brake.on), second, self._applied(brake), brake.static_ratio)
+                yield Grip(name, self.at(brake.at), second, self._applied(brake), brake.static_ratio)
         for name, friction in self.spec.resistances.items():
             if friction.coulomb:
-                yield Grip(name, self.at(friction.on), None, Signal.constant(friction.coulomb), friction.static_ratio)
+                yield Grip(name, self.at(friction.at), None, Signal.constant(friction.coulomb), friction.static_ratio)
 
     def _applied(self, brake: Brake) -> Signal:
         """Torque of a brake over the time since its command."""
         trigger = None
         if brake.below is not None:
-            backward = self._speeds().get(self.at(brake.on), 0.0) < 0
-            trigger = Trigger(self.at(brake.on), "speed", -brake.below if backward else brake.below, rising=backward)
+            backward = self._speeds().get(self.at(brake.at), 0.0) < 0
+            trigger = Trigger(self.at(brake.at), "speed", -brake.below if backward else brake.below, rising=backward)
         full, start, rise = brake.torque, brake.delay, brake.rise_time
         times: tuple[float, ...]
         values: tuple[float, ...]
@@ -282,14 +282,14 @@ class _Builder:
         for name, one in self.spec.motors.items():
             gate = self._gate(one)
             if gate is not None:
-                yield Drive(name, self.at(one.on), tuple(_stages(one)), gate)
+                yield Drive(name, self.at(one.at), tuple(_stages(one)), gate)
         for name, torque in self.spec.torques.items():
             if torque.acts == "always" or not self.stopping:
-                yield Drive.of(name, self.at(torque.on), _law(torque))
+                yield Drive.of(name, self.at(torque.at), _law(torque))
         for name, friction in self.spec.resistances.items():
             if friction.viscous:
                 law = Straight("speed", (0.0, 1.0), (0.0, -friction.viscous), extends=True)
-                yield Drive.of(f"{name} (viscous)", self.at(friction.on), law)
+                yield Drive.of(f"{name} (viscous)", self.at(friction.at), law)
         if until is not None:
             backward = until < 0
             yield Drive.of(
@@ -311,7 +311,7 @@ class _Builder:
             return None
         if self.scene.until is not None:
             return self.scene.until
-        speeds = [_rated_speed(one) for one in self.spec.motors.values() if self.at(one.on) == self.main]
+        speeds = [_rated_speed(one) for one in self.spec.motors.values() if self.at(one.at) == self.main]
         known = [speed for speed in speeds if speed]
         return 0.95 * min(known, key=abs) if known else None
 
@@ -320,7 +320,7 @@ class _Builder:
             times = tuple(point.time for point in one.points)
             speeds = [point.speed for point in one.points]
             slopes = tuple(float(s) for s in np.diff(speeds) / np.diff(times)) if len(times) > 1 else ()
-            yield Guide(name, self.at(one.on), Signal(times, (*slopes, 0.0), (0.0,) * len(times)))
+            yield Guide(name, self.at(one.at), Signal(times, (*slopes, 0.0), (0.0,) * len(times)))
 
 
 def _rated_speed(one: MotorOn) -> float | None:

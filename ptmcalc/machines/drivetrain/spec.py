@@ -225,7 +225,7 @@ class Gear(Fragment):
 class Brake(Fragment):
     """A brake against the ground, or a clutch between two inertias (Coulomb friction)."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     against: str = "ground"
     """`ground`, or the inertia on the other side of a clutch"""
@@ -242,13 +242,13 @@ class Brake(Fragment):
     applied: Literal["when_stopping", "always", "never"] = "when_stopping"
     """in which scenes the command is given, at their start"""
     below: AnySpeed | None = None
-    """the command is only given when the speed of `on` has fallen to this"""
+    """the command is only given when the speed of `at` has fallen to this"""
 
 
 class Resistance(Fragment):
     """Resistance to the motion of an inertia."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     coulomb: TorqueOrNone = 0.0
     """dry friction, against the motion whatever the speed"""
@@ -261,7 +261,7 @@ class Resistance(Fragment):
 class OnInertia(Fragment):
     """What acts on one inertia."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     acts: Literal["always", "when_running"] = "always"
     """`when_running`: not in scenes of the type `stop`"""
@@ -407,7 +407,7 @@ AnyTorque = Annotated[
 class MotorOn(Fragment):
     """A motor on an inertia; it is off in scenes of the type `stop`."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     motor: AnyMotor
     """what its torque is"""
@@ -431,7 +431,7 @@ class MotionPoint(Fragment):
 class Motion(Fragment):
     """A prescribed motion of an inertia, straight between the points of its speed."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     points: Annotated[tuple[MotionPoint, ...], Field(min_length=1, max_length=500)]
     """in rising order"""
@@ -448,7 +448,7 @@ class Motion(Fragment):
 class Impulse(Fragment):
     """A blow: a sudden change of momentum."""
 
-    on: str
+    at: str
     """the inertia it acts on"""
     time: PositiveTime
     """when"""
@@ -581,7 +581,7 @@ class Drivetrain(MachineSpec):
         if path[0] == "checks":
             return self.turns(self.stopped)
         part: Any = getattr(self, str(path[0]))[path[1]]
-        return self.turns(part.body if isinstance(part, Link) else part.on)
+        return self.turns(part.body if isinstance(part, Link) else part.at)
 
     @property
     def stopped(self) -> str:
@@ -593,5 +593,5 @@ class Drivetrain(MachineSpec):
         if scene is not None and scene.of is not None:
             return scene.of
         if self.motors:
-            return next(iter(self.motors.values())).on
+            return next(iter(self.motors.values())).at
         return next(iter(self.inertias))

@@ -49,7 +49,7 @@ class _Part:
         raw = self.given.raw
         between = raw["between"] if isinstance(raw.get("between"), list) else []
         found = [((*self.path, "between", index), name) for index, name in enumerate(between)]
-        found += [((*self.path, key), raw[key]) for key in ("on", "against", "from", "to") if key in raw]
+        found += [((*self.path, key), raw[key]) for key in ("at", "against", "from", "to") if key in raw]
         return [(path, name) for path, name in found if isinstance(name, str)]
 
     @property
@@ -210,7 +210,7 @@ def _blocks(part: _Part) -> Iterator[tuple[KeyPath, Given]]:
 
 def _about(given: Given, bodies: Bodies, known: list[str]) -> Iterator[Conflict]:
     """Scenes about an inertia that is not there, or in quantities of the other kind; the way of a stop."""
-    motors = [motor.raw.get("on") for _, motor in _named(given, "motors")]
+    motors = [motor.raw.get("at") for _, motor in _named(given, "motors")]
     usual = motors[0] if motors else known[0]
     if motors and isinstance(usual, str) and usual in bodies and _turns(bodies[usual]) is False:
         usual = None  # a motor on what travels: that is said of the motor
@@ -297,7 +297,7 @@ def _speeds(bodies: Bodies, motions: list[_Part], ties: _Ties) -> Iterator[Confl
         root, _ = ties.root(name)
         if root in guided:
             reason = f"the motion of {quote(name)} is prescribed already, by `{guided[root]}`"
-            yield Conflict((*motion.path, "on"), reason, "delete one of the two")
+            yield Conflict((*motion.path, "at"), reason, "delete one of the two")
         guided.setdefault(root, str(motion.path[1]))
 
 

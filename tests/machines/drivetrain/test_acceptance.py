@@ -30,7 +30,7 @@ def test_a_clamped_gap_over_many_contacts() -> None:
         inertias: {{a: {{inertia: 1 kg*m^2}}, b: {{inertia: 3 kg*m^2}}}}
         links:
           gap: {{between: [a, b], stiffness: {stiffness} N*m/rad, damping: {damping} N*m*s/rad, gap: {play} rad}}
-        torques: {{drive: {{on: a, type: constant, torque: {torque} N*m}}}}
+        torques: {{drive: {{at: a, type: constant, torque: {torque} N*m}}}}
         checks: {{DRV101: {{off: "looked at by itself"}}}}
         scenes: [{{type: run, duration: {end} s}}]
         """
@@ -59,8 +59,8 @@ def test_a_brake_that_stops_a_mass_holds_it() -> None:
         """
         kind: drivetrain
         inertias: {sled: {mass: 100 kg, speed: 1 m/s}}
-        brakes: {shoe: {on: sled, torque: 90 N, applied: always}}
-        torques: {pull: {on: sled, type: constant, torque: 40 N}}
+        brakes: {shoe: {at: sled, torque: 90 N, applied: always}}
+        torques: {pull: {at: sled, type: constant, torque: 40 N}}
         scenes: [{type: run, duration: 1000 s}]
         """
     )
@@ -96,8 +96,8 @@ def test_a_lossy_gear_under_a_sine_torque() -> None:
         inertias: {{motor: {{inertia: {small} kg*m^2}}, wheel: {{inertia: {big} kg*m^2}}}}
         gears: {{worm: {{from: motor, to: wheel, ratio: {ratio}, efficiency: {eta}}}}}
         torques:
-          sine: {{on: motor, type: sine, amplitude: {size} N*m, angular_frequency: {omega} rad/s}}
-          weight: {{on: wheel, type: constant, torque: {-load} N*m}}
+          sine: {{at: motor, type: sine, amplitude: {size} N*m, angular_frequency: {omega} rad/s}}
+          weight: {{at: wheel, type: constant, torque: {-load} N*m}}
         checks: {{DRV107: {{off: "no link to resonate"}}}}
         scenes: [{{type: run, duration: {fourth + 0.01} s}}]
         """
@@ -119,7 +119,7 @@ def test_a_stiff_damped_link_needs_no_smaller_steps(stiffness: float) -> None:
         kind: drivetrain
         inertias: {{a: {{inertia: 1 kg*m^2}}, b: {{inertia: 3 kg*m^2}}}}
         links: {{s: {{between: [a, b], stiffness: {stiffness} N*m/rad, damping: {damping} N*m*s/rad}}}}
-        torques: {{drive: {{on: a, type: constant, torque: 100 N*m}}}}
+        torques: {{drive: {{at: a, type: constant, torque: 100 N*m}}}}
         checks: {{DRV101: {{off: "looked at by itself"}}}}
         scenes: [{{type: run, duration: 2 s}}]
         """

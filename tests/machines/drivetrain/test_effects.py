@@ -21,10 +21,10 @@ JERK: dict[str, Any] = {
     "kind": "drivetrain",
     "inertias": {"motor": {"inertia": "1 kg*m^2"}, "wheel": {"inertia": "7 kg*m^2"}},
     "links": {"shaft": {"between": ["motor", "wheel"], "stiffness": "20 kN*m/rad", "limit": "150 N*m"}},
-    "torques": {"drive": {"on": "motor", "type": "constant", "torque": "120 N*m"}},
+    "torques": {"drive": {"at": "motor", "type": "constant", "torque": "120 N*m"}},
     "scenes": [{"type": "run", "duration": "0.5 s"}],
 }
-RAMP = {"on": "motor", "type": "ramp", "torque": "120 N*m"}
+RAMP = {"at": "motor", "type": "ramp", "torque": "120 N*m"}
 GENTLE = changed(JERK, torques__drive=RAMP | {"time": "0.6 s"}, scenes=[{"type": "run", "duration": "0.7 s"}])
 LOOSE = changed(JERK, links__shaft__gap="3.7012e-3 rad", links__shaft__limit="230 N*m")
 TIGHT = changed(LOOSE, links__shaft__gap="3e-4 rad")

@@ -20,7 +20,7 @@ JERK: dict[str, Any] = {
     "kind": "drivetrain",
     "inertias": {"motor": {"inertia": "1 kg*m^2"}, "wheel": {"inertia": "7 kg*m^2"}},
     "links": {"shaft": {"between": ["motor", "wheel"], "stiffness": "20 kN*m/rad", "limit": "1 MN*m"}},
-    "torques": {"drive": {"on": "motor", "type": "constant", "torque": "120 N*m"}},
+    "torques": {"drive": {"at": "motor", "type": "constant", "torque": "120 N*m"}},
     "scenes": [{"type": "run", "duration": "0.5 s"}],
 }
 OMEGA = math.sqrt(20e3 * (1 + 1 / 7))
@@ -49,7 +49,7 @@ def test_a_step_swings_to_twice_what_it_carries() -> None:
 @pytest.mark.parametrize("periods", [0.3, 0.5, 1.5, 2.2])
 def test_a_ramp_swings_by_the_sinc_of_its_duration(periods: float) -> None:
     time = periods * 2 * math.pi / OMEGA
-    data = changed(JERK, torques__drive={"on": "motor", "type": "ramp", "torque": "120 N*m", "time": f"{time!r} s"})
+    data = changed(JERK, torques__drive={"at": "motor", "type": "ramp", "torque": "120 N*m", "time": f"{time!r} s"})
     swing = abs(math.sin(OMEGA * time / 2) / (OMEGA * time / 2))
     assert value(report_of(data), "torque_peak[shaft]") == pytest.approx(105 * (1 + swing), rel=1e-10)
 
@@ -71,7 +71,7 @@ def test_damped_contacts_agree_with_an_independent_integration(law: str) -> None
         JERK,
         links__shaft={"between": ["motor", "wheel"], "stiffness": "20 kN*m/rad", "damping": "25 N*m*s/rad",
                       "gap": "0.05 rad", "law": law, "limit": "1 MN*m"},
-        torques__load={"on": "wheel", "type": "sine", "amplitude": "300 N*m", "angular_frequency": "31 rad/s"},
+        torques__load={"at": "wheel", "type": "sine", "amplitude": "300 N*m", "angular_frequency": "31 rad/s"},
     )  # fmt: skip
     machine = hybrid.Machine(
         (1.0, 7.0),
@@ -104,8 +104,8 @@ HOIST: dict[str, Any] = {
         "floor": {"between": ["ground", "load"], "slack": "0 mm", "law": "rigid"},
     },
     "torques": {
-        "motor": {"on": "drive", "type": "constant", "torque": f"{Q!r} N"},
-        "weight": {"on": "load", "type": "constant", "torque": f"{-Q!r} N"},
+        "motor": {"at": "drive", "type": "constant", "torque": f"{Q!r} N"},
+        "weight": {"at": "load", "type": "constant", "torque": f"{-Q!r} N"},
     },
     "scenes": [{"type": "run", "duration": "0.6 s"}],
 }
@@ -139,8 +139,8 @@ def test_a_brake_while_lowering() -> None:
         "kind": "drivetrain",
         "inertias": {"drum": {"mass": f"{M1} kg"}, "load": {"mass": f"{M} kg"}},
         "links": {"rope": {"between": ["drum", "load"], "stiffness": f"{K} N/m", "slack": "0 mm", "limit": "1 MN"}},
-        "torques": {"weight": {"on": "load", "type": "constant", "torque": f"{-Q!r} N"}},
-        "brakes": {"brake": {"on": "drum", "torque": f"{1.75 * Q!r} N"}},
+        "torques": {"weight": {"at": "load", "type": "constant", "torque": f"{-Q!r} N"}},
+        "brakes": {"brake": {"at": "drum", "torque": f"{1.75 * Q!r} N"}},
         "scenes": [{"type": "stop", "of": "drum", "speed": "-0.4 m/s", "duration": "3 s"}],
     }
     report = report_of(data)
@@ -177,8 +177,8 @@ def test_a_hoist_starts_with_slack_under_an_induction_motor() -> None:
             "box": {"from": "motor", "to": "drum", "ratio": 40, "efficiency": 0.85},
             "winding": {"from": "drum", "to": "hook", "radius": "100 mm"},
         },
-        "motors": {"main": {"on": "motor", "motor": motor}},
-        "torques": {"weight": {"on": "load", "type": "constant", "torque": "-78.48 kN"}},
+        "motors": {"main": {"at": "motor", "motor": motor}},
+        "torques": {"weight": {"at": "load", "type": "constant", "torque": "-78.48 kN"}},
         "checks": {"DRV105": {"off": "one start"}},
         "scenes": [{"type": "run", "duration": "1.5 s"}],
     }  # fmt: skip
@@ -198,7 +198,7 @@ LIFT: dict[str, Any] = {
         "box": {"from": "motor", "to": "drum", "ratio": 40, "efficiency": 0.85, "reverse_efficiency": 0.85},
         "winding": {"from": "drum", "to": "load", "radius": "200 mm"},
     },
-    "torques": {"weight": {"on": "load", "type": "constant", "torque": "-98.1 kN"}},
+    "torques": {"weight": {"at": "load", "type": "constant", "torque": "-98.1 kN"}},
     "scenes": [{"type": "run", "duration": "0.2 s"}],
 }
 
@@ -212,7 +212,7 @@ def test_losses_go_by_the_whole_torque_in_the_four_phases_of_hoisting(
     torque: float, speed: float, acceleration: float
 ) -> None:
     """C04: the motor torque that gives 60 rad/s^2."""
-    data = changed(LIFT, torques__motor={"on": "motor", "type": "constant", "torque": f"{torque} N*m"})
+    data = changed(LIFT, torques__motor={"at": "motor", "type": "constant", "torque": f"{torque} N*m"})
     report = report_of(changed(data, scenes=[{"type": "run", "duration": "0.2 s", "speed": f"{speed} rad/s"}]))
     assert value(report, "speed_end[motor]") == pytest.approx(speed + acceleration * 0.2, abs=2e-4)
     assert value(report, "speed_end[load]") == pytest.approx((speed + acceleration * 0.2) / 200, abs=1e-6)
@@ -223,7 +223,7 @@ def test_a_stop_takes_its_delay_its_rise_and_its_way(sign: int) -> None:
     data = {
         "kind": "drivetrain",
         "inertias": {"rotor": {"inertia": "2 kg*m^2"}},
-        "brakes": {"brake": {"on": "rotor", "torque": "200 N*m", "delay": "0.2 s", "rise_time": "0.1 s"}},
+        "brakes": {"brake": {"at": "rotor", "torque": "200 N*m", "delay": "0.2 s", "rise_time": "0.1 s"}},
         "scenes": [{"type": "stop", "speed": f"{100 * sign} rad/s"}],
     }
     report = report_of(data)
@@ -240,7 +240,7 @@ def test_the_heating_torque_of_a_linear_motor() -> None:
     data = {
         "kind": "drivetrain",
         "inertias": {"rotor": {"inertia": "2 kg*m^2"}},
-        "motors": {"main": {"on": "rotor", "motor": motor}},
+        "motors": {"main": {"at": "rotor", "motor": motor}},
         "scenes": [{"type": "run", "duration": "3 s"}],
     }
     report = report_of(data)
