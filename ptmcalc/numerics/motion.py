@@ -140,7 +140,8 @@ def _sides(motion: Motion, state: FloatArray, dust: FloatArray) -> NDArray[np.in
     noise[0] += ladder.noise[0] @ (dust / NOISE)
     clear = np.abs(found) > noise
     which = clear.argmax(axis=0), np.arange(clear.shape[1])
-    return (np.sign(found[which]) * clear[which]).astype(np.intp)
+    sides: NDArray[np.intp] = (np.sign(found[which]) * clear[which]).astype(np.intp)
+    return sides
 
 
 def _bent(motion: Motion, state: FloatArray, dust: FloatArray) -> tuple[_Ladder, FloatArray, FloatArray]:

@@ -92,7 +92,7 @@ class TestExpm:
 
     @pytest.mark.parametrize("decay", [1.0, 30.0, 600.0])
     def test_of_a_strong_decay_stays_small(self, decay: float) -> None:
-        """Alternating terms of size e^decay must not be added up; what faded leaves no more than the last digit of 1."""
+        """Terms of size e^decay must not be added up; what has faded leaves no more than the last digit of 1."""
         found = expm.expm(np.array([[-decay, 0.3 * decay], [0.0, -decay]]))
         exact = math.exp(-decay) * np.array([[1.0, 0.3 * decay], [0.0, 1.0]])
         assert found == pytest.approx(exact, rel=1e-14, abs=2.0**-52)

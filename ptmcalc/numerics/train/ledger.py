@@ -8,7 +8,8 @@ import numpy as np
 from ptmcalc.numerics.energy import residual
 from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.signals import FloatArray
-from ptmcalc.numerics.train.system import State, TrainSystem
+from ptmcalc.numerics.train.state import State
+from ptmcalc.numerics.train.system import TrainSystem
 
 
 @dataclass(frozen=True, slots=True)

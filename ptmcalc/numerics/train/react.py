@@ -19,9 +19,10 @@ from ptmcalc.numerics.record import Event
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.parts import RIGID, Governed, Grip
 from ptmcalc.numerics.train.signals import FloatArray, Now, Signal
+from ptmcalc.numerics.train.state import Change, State
 
 if TYPE_CHECKING:
-    from ptmcalc.numerics.train.system import Change, State, TrainSystem
+    from ptmcalc.numerics.train.system import TrainSystem
 
 _FRICTION = ("turning", "slip", "hold")
 _MOST_CHANGES = 100
@@ -40,7 +41,7 @@ _WORDS = {"whole": "closed", "firm": "closed", "over": "closed", "shut": "closed
 class Reactor:
     """Finds the state after an event."""
 
-    def __init__(self, system: "TrainSystem", state: "State", time: float, z: FloatArray) -> None:
+    def __init__(self, system: "TrainSystem", state: State, time: float, z: FloatArray) -> None:
         self.system, self.state, self.time, self.z = system, state, time, z.copy()
         self.before, self.lost = state, 0.0
         self.look = Look(system, self.z)
@@ -120,7 +121,7 @@ class Reactor:
 
     # -- single elements ---------------------------------------------------------------------------------------
 
-    def _apply(self, change: "Change") -> None:
+    def _apply(self, change: Change) -> None:
         if change.kind == "contact":
             self._contact(change.index, change.to)
         elif change.kind == "drive":
@@ -271,7 +272,7 @@ class Reactor:
         for index in self.system.clutches:
             yield index, self.system.train.grips[index]
 
-    def _grip(self) -> "list[Change]":
+    def _grip(self) -> list[Change]:
         """Choose what holds and what slips, so that every guard of friction and of the meshes holds on.
 
         Returns the other guards that do not.
@@ -285,7 +286,7 @@ class Reactor:
             self._jam()
         raise NumericsError("NUM101", f"no state of friction holds at {self.time:.9g} s")
 
-    def _candidates(self) -> Iterator["State"]:
+    def _candidates(self) -> Iterator[State]:
         system, state = self.system, self.state
         speeds = system.speed @ self.z
         largest = float(np.abs(speeds).max(initial=0.0))
@@ -313,7 +314,7 @@ class Reactor:
             if all(_agrees(slipping[index], [ways[group] * side for group, side in ends]) for index, ends in between):
                 yield state._replace(turning=ways, clutches=slipping)
 
-    def _with_signs(self, state: "State") -> "tuple[State, list[Change]] | None":
+    def _with_signs(self, state: State) -> tuple[State, list[Change]] | None:
         """The candidate with signs of its mesh torques that agree with the motion, and the other guards it breaks.
 
         None where friction itself does not hold in it.
@@ -391,7 +392,7 @@ def _contact_word(contact: links.Contact) -> str:
     return word if word == "open" or side >= 0 else f"{word} backward"
 
 
-def _flipped(state: "State", change: "Change") -> "State":
+def _flipped(state: State, change: Change) -> State:
     """The state with another sign of the torque through a mesh."""
     if change.kind == "mesh":
         meshes = tuple(-sign if i == change.index else sign for i, sign in enumerate(state.meshes))

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from ptmcalc.numerics.train.parts import LINEAR, RIGID, Grip, Guide, Mesh, Train
-from ptmcalc.numerics.train.system import State, TrainSystem
+from ptmcalc.numerics.train.state import State
+from ptmcalc.numerics.train.system import TrainSystem
 
 _ROUNDS = 4
 
