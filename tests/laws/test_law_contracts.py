@@ -20,7 +20,9 @@ from numpy.typing import ArrayLike
 import ptmcalc.laws
 from ptmcalc.laws import (
     backlash,
+    belt_modes,
     belt_resistance,
+    belt_section,
     bodies,
     brake,
     buffer,
@@ -38,9 +40,12 @@ from ptmcalc.laws import (
     shock,
     similarity,
     slider_crank,
+    slip_heat,
     start_profile,
+    stopping,
     strand_tension,
     two_mass,
+    vertical_curve,
     vibration,
     wave,
 )
@@ -322,12 +327,64 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_resistance.takeup_mass: [(3e4, 2, 9.81)],
     belt_resistance.cema_idler_resistance: [(15.0, 130.0, 9.81, 6.7, 1.2)],
     belt_resistance.cema_effective_tension: [(600.0, 20.0, 15.0, 130.0, 9.81, 1.0, 6.5, 0.024, 3e3)],
+    belt_section.usable_width: [(0.8,), (2.4,)],
+    belt_section.water_section: [(0.9, 0.38, 0.6), (0.3, 0.38, 0.6)],
+    belt_section.surcharge_section: [(0.9, 0.38, 0.6, 0.3), (0.3, 0.38, 0.6, 0.3)],
+    belt_section.slope_reduction: [(0.1, 0.3), (0.4, 0.3)],
+    belt_section.capacity: [(0.17, 3.2, 850.0)],
+    belt_section.load_line_mass: [(300.0, 3.2)],
+    belt_section.fill_share: [(300.0, 400.0), (300.0, 0.0)],
+    belt_section.belt_safety: [(1.25e6, 1.0, 1.3e5), (1.25e6, 1.0, -1.0)],
+    belt_section.minimum_pulley_diameter: [("polyester", 0.006)],
+    belt_section.transition_strains: [(3.0, 0.4, 0.38, 0.7, 0.05)],
+    belt_section.transition_length: [(0.002, 0.4, 0.38, 0.7, 0.05), (0.002, 0.4, 0.38, 0.7, 0.5)],
+    vertical_curve.lift_off_radius: [(6e4, 22.0, 5.0, 9.81, 0.98), (100.0, 22.0, 5.0, 9.81, 0.98)],
+    vertical_curve.lift_off_tension: [(250.0, 22.0, 5.0, 9.81, 0.98)],
+    vertical_curve.idler_line_load: [(6e4, 250.0, 22.0, 5.0, 9.81, 0.98, convex) for convex in (False, True)],
+    vertical_curve.idler_radius: [(9e4, 180.0, 9.81, 0.98, spacing, 3e3) for spacing in (0.8, 2.0)],
+    vertical_curve.trough_heights: [(0.4, 0.38, 0.7)],
+    vertical_curve.radius_for_largest: [(9e4, 1.2, 2e7, 0.1, 2e5), (9e4, 1.2, 2e7, 0.1, 2e4)],
+    vertical_curve.radius_for_least: [(9e4, 1.2, 2e7, 0.1, 3e4), (9e4, 1.2, 2e7, 0.1, 2e5)],
+    stopping.moving_resistance: [(60.0, beta, 150.0, 80.0, 0.05, 9.81) for beta in (-0.2, 0.2)],
+    stopping.rollback_force: [(60.0, beta, 150.0, 80.0, 0.05, 9.81) for beta in (-0.2, 0.2)],
+    stopping.critical_coefficient: [(0.2, 150.0, 80.0)],
+    stopping.backstop_torque: [(9e3, 0.65, 1.5), (-9e3, 0.65, 1.5)],
+    stopping.torque_on_motor_shaft: [(5e3, 40.0, 0.9)],
+    stopping.brake_torque_for_distance: [
+        (19e3, w, 0.5, s, 0.65, 40.0, 0.9, 0.35, form)
+        for w in (-9e3, 28e3) for s in (0.1, 0.3) for form in ("signed", "notes")
+    ],
+    stopping.stopping_distance: [
+        (19e3, w, 0.5, torque, 0.65, 40.0, 0.9, 0.35) for w in (-9e3, 28e3) for torque in (0.0, 300.0)
+    ],
+    stopping.braking_force: [(19e3, 0.5, 0.1)],
+    stopping.fixed_loop_braking: [(14e3, 5e3, 1.25)],
+    stopping.coasting: [(19e3, w, b, 0.5) for w in (-9e3, 0.0, 28e3) for b in (0.0, 50.0, 9e4)],
+    stopping.coast_down_coefficient: [(19e3, 9e2, 2e5, 1.1, 1.8, 4.0, 0.02, 0.05)],
+    slip_heat.slip_heat: [(np.array([0.0, 0.3, 1.0]), *np.array([[9e3, 8e3, 5e3], [3.0, 4.0, 3.5], [0.0, 1.0, 3.5]]))],
+    slip_heat.slip_heat_of_linear_change: [(1.3, 9e3, 7e3, 3.0, 0.5)],
+    slip_heat.slip_distance: [(np.array([0.0, 0.3, 1.0]), np.array([3.0, 4.0, 3.5]), np.array([0.0, 1.0, 6.0]))],
+    slip_heat.temperature_rise: [(4e6, 14.0, 1700.0)],
+    slip_heat.largest_drum_forces: [(6e4, 0.9, 1.1)],
+    slip_heat.best_share: [(0.9, 1.1)],
+    slip_heat.drum_forces_in_slip: [
+        (force, share, 6e4, 0.9, 1.1, sharing)
+        for force in (1e5, 3e5, 9e5) for share in (0.2, 0.67, 0.95) for sharing in (False, True)
+    ],
+    belt_modes.natural_frequencies: [(loop, mass, 4) for loop in LOOPS for mass in (0.0, 900.0)],
+    belt_modes.modes_below: [(loop, mass, w) for loop in LOOPS for mass in (0.0, 900.0) for w in (1.7, 23.0, 91.0)],
+    belt_modes.modal_damping: [(3.0, 0.02, 12.0, 180.0)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
 ONE_CALL_EACH = [pytest.param(law, call, id=f"{law.__name__}-{k}") for law, calls in CALLS.items()
                  for k, call in enumerate(calls)]  # fmt: skip
-TABLES_IN_METRES = {backlash.new_clearance, resistance.length_factor, belt_resistance.secondary_resistance}
+TABLES_IN_METRES = {
+    backlash.new_clearance,
+    resistance.length_factor,
+    belt_resistance.secondary_resistance,
+    belt_section.usable_width,
+}
 """Laws that are read from a table and know no other unit than its own."""
 
 REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
@@ -358,6 +415,8 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     strand_tension.worst_loading: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
     strand_tension.worst_stretch: [(ValueError, (np.array([4.0, -9.0]), "worst"))],
     belt_resistance.secondary_resistance: [(ValueError, (4e4, 79.0))],
+    belt_section.minimum_pulley_diameter: [(ValueError, ("rubber", 0.006))],
+    stopping.brake_torque_for_distance: [(ValueError, (19e3, 9e3, 0.5, 0.1, 0.65, 40.0, 0.9, 0.35, "seed"))],
 }
 
 

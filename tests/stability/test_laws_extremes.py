@@ -17,7 +17,9 @@ import pytest
 
 from ptmcalc.laws import (
     backlash,
+    belt_modes,
     belt_resistance,
+    belt_section,
     bodies,
     brake,
     buffer,
@@ -35,9 +37,12 @@ from ptmcalc.laws import (
     shock,
     similarity,
     slider_crank,
+    slip_heat,
     start_profile,
+    stopping,
     strand_tension,
     two_mass,
+    vertical_curve,
     vibration,
     wave,
 )
@@ -472,6 +477,105 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "takeup_mass": (belt_resistance.takeup_mass, lambda d: (*d.positive(1), 2, *d.positive(1))),
     "cema_idler_resistance": (belt_resistance.cema_idler_resistance, lambda d: tuple(d.positive(5))),
     "cema_effective_tension": (belt_resistance.cema_effective_tension, lambda d: tuple(d.positive(9))),
+    "usable_width": (belt_section.usable_width, lambda d: tuple(d.positive(1))),
+    "water_section": (belt_section.water_section, lambda d: (*d.positive(2), 1.5 * d.share())),
+    "surcharge_section": (
+        belt_section.surcharge_section,
+        lambda d: (*d.positive(2), 1.5 * d.share(), 1.5 * d.share()),
+    ),
+    "slope_reduction": (belt_section.slope_reduction, lambda d: (1.5 * d.share(), 1.5 * d.share())),
+    "capacity": (belt_section.capacity, lambda d: tuple(d.positive(3))),
+    "load_line_mass": (belt_section.load_line_mass, lambda d: tuple(d.positive(2))),
+    "fill_share": (belt_section.fill_share, lambda d: tuple(d.positive(2))),
+    "belt_safety": (belt_section.belt_safety, lambda d: tuple(d.positive(3))),
+    "minimum_pulley_diameter": (
+        belt_section.minimum_pulley_diameter,
+        lambda d: (d.shape(*belt_section.PULLEY_FACTORS), *d.positive(1)),
+    ),
+    "transition_strains": (
+        belt_section.transition_strains,
+        lambda d: (*d.positive(3), 1.5 * d.share(), *d.positive(1)),
+    ),
+    "transition_length": (
+        belt_section.transition_length,
+        lambda d: (*d.positive(3), 1.5 * d.share(), *d.positive(1)),
+    ),
+    "lift_off_radius": (vertical_curve.lift_off_radius, lambda d: tuple(d.positive(5))),
+    "lift_off_tension": (vertical_curve.lift_off_tension, lambda d: tuple(d.positive(5))),
+    "idler_line_load": (vertical_curve.idler_line_load, lambda d: (*d.positive(6), bool(d.rng.integers(2)))),
+    "idler_radius": (
+        vertical_curve.idler_radius,
+        lambda d: (*(given := d.positive(5)), 1.001 * math.prod(given[1:]) + d.positive(1)[0]),
+    ),
+    "trough_heights": (vertical_curve.trough_heights, lambda d: (*d.positive(2), 1.5 * d.share())),
+    "radius_for_largest": (
+        vertical_curve.radius_for_largest,
+        lambda d: (*(given := d.positive(4)), 1.001 * given[0] / given[1] + d.positive(1)[0]),
+    ),
+    "radius_for_least": (
+        vertical_curve.radius_for_least,
+        lambda d: (*(given := d.positive(4)), 0.999 * d.share() * given[0] / given[1]),
+    ),
+    "moving_resistance": (stopping.moving_resistance, lambda d: (*d.positive(1), 1.5 * d.share(), *d.positive(4))),
+    "rollback_force": (stopping.rollback_force, lambda d: (*d.positive(1), 1.5 * d.share(), *d.positive(4))),
+    "critical_coefficient": (stopping.critical_coefficient, lambda d: (1.5 * d.share(), *d.positive(2))),
+    "backstop_torque": (stopping.backstop_torque, lambda d: tuple(d.positive(3))),
+    "torque_on_motor_shaft": (stopping.torque_on_motor_shaft, lambda d: (*d.positive(2), efficiency(d))),
+    "brake_torque_for_distance": (
+        stopping.brake_torque_for_distance,
+        lambda d: (
+            *d.positive(1),
+            float(d.rng.choice([-1.0, 1.0])) * d.positive(1)[0],
+            *d.positive(4),
+            efficiency(d),
+            *d.positive(1),
+            d.shape("signed", "notes"),
+        ),
+    ),
+    "stopping_distance": (
+        stopping.stopping_distance,
+        lambda d: (*d.positive(6), efficiency(d), *d.positive(1)),
+    ),
+    "braking_force": (stopping.braking_force, lambda d: tuple(d.positive(3))),
+    "fixed_loop_braking": (stopping.fixed_loop_braking, lambda d: tuple(d.positive(3))),
+    "coasting": (stopping.coasting, lambda d: tuple(d.positive(4))),
+    "coast_down_coefficient": (stopping.coast_down_coefficient, lambda d: tuple(d.positive(8))),
+    "slip_heat": (
+        slip_heat.slip_heat,
+        lambda d: (np.cumsum(d.positive(5)), *(np.array(d.positive(5)) for _ in range(3))),
+    ),
+    "slip_heat_of_linear_change": (slip_heat.slip_heat_of_linear_change, lambda d: tuple(d.positive(5))),
+    "slip_distance": (
+        slip_heat.slip_distance,
+        lambda d: (np.cumsum(d.positive(5)), *(np.array(d.positive(5)) for _ in range(2))),
+    ),
+    "temperature_rise": (slip_heat.temperature_rise, lambda d: tuple(d.positive(3))),
+    "largest_drum_forces": (slip_heat.largest_drum_forces, lambda d: (*d.positive(1), 9 * d.share(), 9 * d.share())),
+    "best_share": (slip_heat.best_share, lambda d: tuple(d.positive(2))),
+    "drum_forces_in_slip": (
+        slip_heat.drum_forces_in_slip,
+        lambda d: (
+            *d.positive(1),
+            d.share(),
+            *d.positive(1),
+            9 * d.share(),
+            9 * d.share(),
+            bool(d.rng.integers(2)),
+        ),
+    ),
+    "natural_frequencies_gravity": (belt_modes.natural_frequencies, lambda d: (*whole_loop(False)(d), 0.0, 3)),
+    "natural_frequencies_weight": (
+        belt_modes.natural_frequencies,
+        lambda d: (*whole_loop(False)(d), *d.positive(1), 3),
+    ),
+    "natural_frequencies_fixed": (belt_modes.natural_frequencies, lambda d: (*whole_loop(True)(d), 0.0, 3)),
+    "modes_below": (
+        lambda loop, mass, share: belt_modes.modes_below(
+            loop, mass, share * belt_modes.natural_frequencies(loop, mass, 3)
+        ),
+        lambda d: (*whole_loop(bool(d.rng.integers(2)))(d), *d.positive(1), 0.9 + d.share()),
+    ),
+    "modal_damping": (belt_modes.modal_damping, lambda d: tuple(d.positive(4))),
 }
 SIGNED = {
     "acceleration",
@@ -508,6 +612,10 @@ SIGNED = {
     "loading_envelope",
     "loading_resistance",
     "takeup_travel",
+    "idler_line_load",
+    "rollback_force",
+    "coast_down_coefficient",
+    "slip_heat",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

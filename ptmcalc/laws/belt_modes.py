@@ -1,0 +1,157 @@
+"""Natural frequencies of a belt loop with all its masses, none missed and none spurious, and how they are damped.
+
+The loop is that of `loop_bounds`: drive drum m, return strand 2, tail drum m_t, carry strand 1. A strand of mass m_i
+and compliance C_i has the impedance Z_i = sqrt(m_i/C_i) and the phase theta_i = w sqrt(m_i C_i), with s_i and c_i its
+sine and cosine. M is the weight of the take-up on two falls and k = M/4: it moves half as fast as the two falls differ,
+and pulls each with half its force. The frequencies are the roots of
+
+    B = Z1 c1 s2 + Z2 c2 s1 - m_t w s1 s2                                     fixed length, speed imposed
+    A = Z1 Z2 c1 c2 - Z2^2 s1 s2 - m_t w Z2 s1 c2                             gravity, speed imposed (k = 0)
+    A - k w B                                                                 weight M, speed imposed
+    R = 2 Z1 Z2 (c1 c2 - 1) - (Z1^2 + Z2^2) s1 s2 - m_t w (Z1 c1 s2 + Z2 c2 s1)
+    R - m w B                                                                 fixed length, torque imposed
+    G = -Z1^2 Z2 s1 c2 - Z2^2 Z1 c1 s2 - m_t w Z1 Z2 c1 c2
+    G - k w R - m w (A - k w B)                                               weight M, torque imposed; k = 0: gravity
+
+**Why none is missed.** With the speed imposed the loop is a chain from the take-up to the clamped drum. In polar form,
+u = r sin(phi) and S = Z w r cos(phi), the angle phi grows by theta on each strand and with w everywhere; it never
+leaves its half turn at a mass or a jump of Z. So the modes below w are the half turns of phi at the drum. Letting the
+drum go adds a mode wherever its dynamic stiffness, K = w (line with the torque)/(line with the speed imposed), is
+negative: Wittrick and Williams' count for one freed displacement. The denominator is positive at w = 0 and changes its
+sign at each of its roots, which are single: its sign is that of (-1)^(half turns), and rounding beside a root of it
+cannot make count and sign disagree. Bisection on the count finds every frequency, double ones twice.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ptmcalc.laws.loop_bounds import LoopMasses
+
+FloatArray = NDArray[np.float64]
+
+
+def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
+    """The lowest natural circular frequencies of a belt loop.
+
+        w_n = smallest w at which N(w) >= n,   N of `modes_below`
+
+    Args:
+        loop: the loop; its drum is clamped when the speed is imposed.
+        takeup_mass: M, weight of the take-up in two falls; 0 for a constant tension, and without effect in a loop of
+            fixed length [kg].
+        count: how many.
+
+    Returns:
+        w_1 <= w_2 <= ..., without the rigid motion of a loop whose drum is free [rad/s].
+
+    **Range** undamped linear strands with mass; take-up beside the drive, its two falls short against a wave.
+    **Error** rounding: some 1e-14 of each frequency, 1e-8 where two nearly coincide, 1e-4 where masses lie 20 decades
+    apart.
+    **Source** frequency equations in the module docstring, derived; W. H. Wittrick, F. W. Williams, "A general
+    algorithm for computing natural frequencies of elastic structures", Q. J. Mech. Appl. Math. 24 (1971).
+    """
+    wanted = np.arange(1, count + 1)
+    first, second = _transits(loop)
+    high = (wanted + 4) * (np.pi / (first + second))  # N >= (theta_1 + theta_2)/pi - 3
+    low = high / 2
+    while np.any(above := modes_below(loop, takeup_mass, low) >= wanted):
+        high = np.where(above, low, high)
+        low = np.where(above, low / 2, low)
+    for _ in range(60):
+        middle = (low + high) / 2
+        above = modes_below(loop, takeup_mass, middle) >= wanted
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    return np.asarray((low + high) / 2)
+
+
+def modes_below(loop: LoopMasses, takeup_mass: float, frequency: ArrayLike) -> FloatArray:
+    """How many natural frequencies of a belt loop are lower than a given one.
+
+        speed imposed: N = floor(phi/pi)      torque imposed: N = floor(phi/pi) + (1 if K < 0 else 0) - 1
+
+    Args:
+        loop: the loop; its drum is clamped when the speed is imposed.
+        takeup_mass: M, as in `natural_frequencies` [kg].
+        frequency: w, above 0 [rad/s].
+
+    Returns:
+        N, without the rigid motion [1].
+
+    **Range** as `natural_frequencies`.
+    **Error** exact but within rounding of a natural frequency.
+    **Source** module docstring.
+    """
+    w = np.asarray(frequency, float)
+    clamped = np.floor(_angle_at_drum(loop, takeup_mass / 4, w) / np.pi)
+    if loop.imposed_speed:
+        return np.asarray(clamped)
+    held = np.where(clamped % 2 == 0, 1.0, -1.0)
+    return np.asarray(clamped + (_with_free_drum(loop, takeup_mass / 4, w) * held < 0) - 1)
+
+
+def _transits(loop: LoopMasses) -> tuple[float, float]:
+    """Travel times of carry and return strand."""
+    return (
+        float(np.sqrt(loop.carry_mass) * np.sqrt(loop.carry_compliance)),
+        float(np.sqrt(loop.return_mass) * np.sqrt(loop.return_compliance)),
+    )
+
+
+def _impedances(loop: LoopMasses) -> tuple[float, float]:
+    return (
+        float(np.sqrt(loop.carry_mass) / np.sqrt(loop.carry_compliance)),
+        float(np.sqrt(loop.return_mass) / np.sqrt(loop.return_compliance)),
+    )
+
+
+def _angle_at_drum(loop: LoopMasses, quarter: float, w: FloatArray) -> FloatArray:
+    """phi at the run-on, from 0 at a clamped and pi/2 at a free beginning."""
+    (t1, t2), (z1, z2) = _transits(loop), _impedances(loop)
+    begin = 0.0 if loop.fixed_length else np.pi / 2 + np.arctan(w * quarter / z2)
+    angle = begin + w * t2
+    turns = np.floor(angle / np.pi) * np.pi
+    sine, cosine = np.sin(angle - turns), np.cos(angle - turns)
+    return np.asarray(turns + np.arctan2(z1 * sine, z2 * cosine - w * loop.tail_mass * sine) + w * t1)
+
+
+def _with_free_drum(loop: LoopMasses, quarter: float, w: FloatArray) -> FloatArray:
+    """The functions of the module docstring with the torque imposed."""
+    (t1, t2), (z1, z2) = _transits(loop), _impedances(loop)
+    m, tail = loop.drive_mass * w, loop.tail_mass * w
+    s1, c1, s2, c2 = np.sin(w * t1), np.cos(w * t1), np.sin(w * t2), np.cos(w * t2)
+    cross = z1 * c1 * s2 + z2 * c2 * s1
+    b = cross - tail * s1 * s2
+    # 2 Z1 Z2 (c1 c2 - 1) - (Z1^2 + Z2^2) s1 s2, without its cancellation
+    ring = -4 * z1 * z2 * np.sin(w * (t1 + t2) / 2) ** 2 - (z1 - z2) ** 2 * s1 * s2
+    r = ring - tail * cross
+    if loop.fixed_length:
+        return np.asarray(r - m * b)
+    a = z2 * (z1 * c1 * c2 - z2 * s1 * s2 - tail * s1 * c2)
+    g = -z1 * z2 * (z1 * s1 * c2 + z2 * c1 * s2 + tail * c1 * c2)
+    return np.asarray(g - quarter * w * r - m * (a - quarter * w * b))
+
+
+def modal_damping(
+    natural_frequency: ArrayLike, retardation_time: float, resistance_rate: float, line_mass: float
+) -> FloatArray:
+    """Damping ratio of a mode of the belt.
+
+        zeta = eta w/2 + k/(2 rho w)
+
+    Args:
+        natural_frequency: w, of `natural_frequencies` [rad/s].
+        retardation_time: eta, Kelvin-Voigt: S = EA (u_s + eta u_st); 0.01 to 0.05 s is usual [s].
+        resistance_rate: k, resistance per speed and length [N*s/m^2].
+        line_mass: rho, moving mass per length [kg/m].
+
+    Returns:
+        zeta [1].
+
+    **Range** the same eta and k/rho on both strands; drums and take-up without damping of their own, light against
+    the belt in what k does.
+    **Error** exact for a loop without point masses, where both kinds of damping leave the modes alone; else the
+    part of k holds for the share of the kinetic energy that is in the belt.
+    **Source** derived: proportional damping, each mode by itself.
+    """
+    w = np.asarray(natural_frequency, float)
+    return np.asarray(retardation_time * w / 2 + resistance_rate / line_mass / w / 2)
