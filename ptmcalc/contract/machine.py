@@ -53,6 +53,13 @@ class MachineKind(Generic[S]):
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
     """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
 
+    assumed: Callable[[S], Iterable[Assumption[S]]] | None = None
+    """for a kind with parts that a machine has several times: the assumptions of one machine, instead of the list"""
+
+    def assumptions_of(self, spec: S) -> Iterable[Assumption[S]]:
+        """What may be filled in for a machine."""
+        return self.assumed(spec) if self.assumed else self.assumptions
+
     def loads_of(self, spec: S) -> tuple[LoadInfo, ...]:
         """The loads of a machine."""
         return tuple(self.parts(spec)) if self.parts else self.loads

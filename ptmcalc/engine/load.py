@@ -96,7 +96,7 @@ def _read(
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:
     """The spec with every assumption in place, and the list of them."""
     assumed = []
-    for assumption in kind.assumptions:
+    for assumption in kind.assumptions_of(spec):
         if spec.value_at(assumption.path) is not None:
             continue
         value = assumption.value(spec)

@@ -58,7 +58,7 @@ class _Node:
     def __init__(self, mass: float, impedance: float, step: float) -> None:
         self.impedance = impedance
         self.rate = impedance / mass if mass > 0 else math.inf
-        self.full = _weights(self.rate * step)
+        self.full = weights(self.rate * step)
         self.step_size = step
         self.speed = 0.0
         self.forcing = 0.0
@@ -72,11 +72,11 @@ class _Node:
 
     def part(self, speed: float, before: float, after: float, share: float) -> float:
         """Speed after a share of a step from `speed`, with the forcing going from `before` to `after`."""
-        decay, old, new = _weights(self.rate * self.step_size * share)
+        decay, old, new = weights(self.rate * self.step_size * share)
         return decay * speed + (old * before + new * after) / self.impedance
 
 
-def _weights(x: float) -> tuple[float, float, float]:
+def weights(x: float) -> tuple[float, float, float]:
     """exp(-x) and the weights of the forcing at the start and the end of a step of x time constants."""
     if math.isinf(x):
         return 0.0, 0.0, 1.0

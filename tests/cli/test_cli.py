@@ -118,7 +118,7 @@ def test_findings_weigh_only_as_much_as_asked(level: str, file: Path, status: in
             ("solve", PASSING, "--check", "CNV101", "--vary", "speed", "--scene", "stop"),
             "no scene is called `stop`",
         ),
-        (("explain", "CNV1O1"), "did you mean `CNV101`?"),
+        (("explain", "CNV1O4"), "did you mean `CNV104`?"),
         (("explain", "belt_waves"), "did you mean `belt_wave`?"),
         (("explain", "xyzzy"), "nothing is called `xyzzy`"),
         (("frobnicate",), "frobnicate"),

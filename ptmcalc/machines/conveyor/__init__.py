@@ -6,10 +6,10 @@ from importlib import resources
 from ptmcalc.base import units
 from ptmcalc.contract.machine import MachineKind
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.conveyor.assumptions import ASSUMPTIONS
+from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS
-from ptmcalc.machines.conveyor.loads import LOADS
+from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor
 
@@ -19,7 +19,7 @@ _STEEP = 0.309  # sine of 18 degrees
 
 def inspect(spec: Conveyor) -> Iterator[Finding]:
     """Values of the file that disagree with each other."""
-    drive = spec.drive
+    drive = spec.main_drive
     if drive.motor.speed is not None:
         rim = drive.motor.speed / drive.gear.ratio * drive.drum.diameter / 2
         if abs(rim / spec.speed - 1) > _SPEED_TOLERANCE:
@@ -30,7 +30,7 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
                 ("speed",),
                 "correct the speed, the ratio or the diameter",
             )
-    if spec.route.inclination == "small_angle" and abs(spec.route.lift) > _STEEP * spec.route.length:
+    if spec.route.inclination == "small_angle" and abs(spec.route.climb) > _STEEP * spec.route.span:
         yield Finding(
             "SPC201",
             "the slope is above 18 degrees: its cosine is not 1",
@@ -48,6 +48,7 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=CHECKS,
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
-    assumptions=ASSUMPTIONS,
+    assumed=assumptions,
+    parts=parts,
     inspect=inspect,
 )

@@ -1,28 +1,27 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
+from collections.abc import Iterator
+
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
+from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.spec import Conveyor, Drive
 
 _ROUGH_DRUM_SHARE = 0.05
 _ROUGH_TAIL_SHARE = 0.01
 
 
-def _motor_side_inertia(spec: Conveyor) -> float:
-    return spec.drive.motor.count * spec.drive.motor.inertia * spec.drive.gear.ratio**2
-
-
 def _secondary(spec: Conveyor) -> float | None:
     if spec.resistance.secondary_force is not None:
         return None
-    return resistance.length_factor(spec.route.length)
+    return resistance.length_factor(spec.route.span)
 
 
 def _secondary_interval(spec: Conveyor) -> Interval:
-    extra = resistance.length_factor(spec.route.length) - 1
+    extra = resistance.length_factor(spec.route.span) - 1
     return Interval(1 + 0.75 * extra, 1 + 1.25 * extra)
 
 
@@ -33,10 +32,10 @@ def _moving_mass(spec: Conveyor) -> float:
         + spec.idlers.back.rotating_line_mass
         + load_line_mass(spec)
     )
-    return per_length * spec.route.length
+    return per_length * spec.route.span
 
 
-ASSUMPTIONS: tuple[Assumption[Conveyor], ...] = (
+_OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "coefficient"),
         units.RATIO,
@@ -58,35 +57,54 @@ ASSUMPTIONS: tuple[Assumption[Conveyor], ...] = (
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
     ),
-    Assumption(
-        ("drive", "gear", "efficiency"),
-        units.RATIO,
-        lambda spec: 0.94,
-        lambda spec: Interval(0.90, 0.97),
-        "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
-    ),
-    Assumption(
-        ("drive", "coupling_inertia"),
-        units.INERTIA,
-        lambda spec: 0.15 * spec.drive.motor.inertia,
-        lambda spec: Interval(0.10 * spec.drive.motor.inertia, 0.25 * spec.drive.motor.inertia),
-        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
-    ),
-    Assumption(
-        ("drive", "drum", "inertia"),
-        units.INERTIA,
-        lambda spec: 0.0,
-        lambda spec: Interval(0.0, _ROUGH_DRUM_SHARE * _motor_side_inertia(spec)),
-        "left out; a shell drum is seldom above 5 % of the motors' inertia on the same shaft",
-    ),
+)
+
+_OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("tail_drum", "inertia"),
         units.INERTIA,
         lambda spec: 0.0,
         lambda spec: Interval(
             0.0,
-            _ROUGH_TAIL_SHARE * _moving_mass(spec) * (spec.tail_drum.diameter or spec.drive.drum.diameter) ** 2 / 4,
+            _ROUGH_TAIL_SHARE
+            * _moving_mass(spec)
+            * (spec.tail_drum.diameter or spec.main_drive.drum.diameter) ** 2
+            / 4,
         ),
         "left out; seldom above 1 % of belt and load at the rim",
     ),
 )
+
+
+def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
+    """What is assumed of the belt, of every drive, and of the tail drum."""
+    yield from _OF_THE_BELT
+    for name, drive in spec.all_drives.items():
+        yield from _of_a_drive(spec.drive_path(name), drive)
+    yield from _OF_THE_TAIL
+
+
+def _of_a_drive(path: KeyPath, drive: Drive) -> Iterator[Assumption[Conveyor]]:
+    rotor = drive.motor.inertia
+    on_drum = drive.motor.count * rotor * drive.gear.ratio**2
+    yield Assumption(
+        (*path, "gear", "efficiency"),
+        units.RATIO,
+        lambda spec: 0.94,
+        lambda spec: Interval(0.90, 0.97),
+        "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+    )
+    yield Assumption(
+        (*path, "coupling_inertia"),
+        units.INERTIA,
+        lambda spec: 0.15 * rotor,
+        lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
+        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+    )
+    yield Assumption(
+        (*path, "drum", "inertia"),
+        units.INERTIA,
+        lambda spec: 0.0,
+        lambda spec: Interval(0.0, _ROUGH_DRUM_SHARE * on_drum),
+        "left out; a shell drum is seldom above 5 % of the motors' inertia on the same shaft",
+    )

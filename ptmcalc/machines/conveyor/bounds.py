@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
+from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
@@ -379,18 +380,65 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
         ends.append(line.breaking_force / (tension - change) if tension > change else np.inf)
         moved["belt_safety_min"] = _around(loads["belt_safety_min"].value, ends)
     if "sag_relative_max" in loads:
-        ratio = loads["sag_relative_max"].value
-        spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span]
-        forces = [sag.tension_at_sag(span, ratio) for span in spans]
-        ends = [
-            float(sag.sag_ratio(span, force + part))
-            for span, force in zip(spans, forces, strict=True)
-            for part in (-change, change)
-        ]
-        moved["sag_relative_max"] = _around(ratio, ends)
+        moved["sag_relative_max"] = _moved_sag(line, loads["sag_relative_max"].value, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
         moved |= _spread_slip(line, loads, change)
     return moved
+
+
+def moved(
+    line: BeltLine, loads: Mapping[str, Estimate], change: float, slowing: float, off: bool = False
+) -> dict[str, Interval]:
+    """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
+
+    The run-off tension of a constant take-up does not move unless `off` says so. Grip is a ratio: its tight side grows
+    and its slack side shrinks; where it then still holds, nothing slips. The mean of all that moves follows Newton's
+    law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by
+    what a wave of that size makes of its speed:
+
+        ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
+    """
+    found: dict[str, Interval] = {}
+    fixed = line.fixed_length or off
+    stretch = change * (line.back.length + line.carry.length) / line.stiffness
+    least = min(line.impedance(RETURN), line.impedance(CARRY))
+    delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
+    slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
+    share = change / slack if slack > change else np.inf
+    grown = (1 + share) / (1 - share) if share < 1 else np.inf
+    used = [one.high for name, one in loads.items() if family(name) == "slip_utilisation_max"]
+    holds = all(one * grown < 1 for one in used)
+    for name, estimate in loads.items():
+        kind, value = family(name), estimate.value
+        if kind in TENSIONS:
+            found[name] = Interval(-change, change)
+        elif kind == "tension_run_off_min":
+            found[name] = Interval(-change, change) if fixed or "[" in name else NOTHING
+        elif kind == "belt_safety_min" and line.breaking_force is not None:
+            tension = line.breaking_force / value
+            weakest = line.breaking_force / (tension - change) if tension > change else np.inf
+            found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
+        elif kind in GRIP:
+            found[name] = _around(value, [value * grown, value / grown])
+        elif kind == "sag_relative_max":
+            found[name] = _moved_sag(line, value, change)
+        elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
+            found[name] = Interval(-stretch, stretch)
+        elif kind == "stop_time":
+            found[name] = Interval(-delay, delay)
+        elif kind in CHANGED_BY_MOTION and not (kind in ("slip_distance", "slip_heat") and holds):
+            found[name] = ANYTHING
+    return found
+
+
+def _moved_sag(line: BeltLine, ratio: float, change: float) -> Interval:
+    spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span]
+    ends = [
+        float(sag.sag_ratio(span, sag.tension_at_sag(span, ratio) + part))
+        for span in spans
+        for part in (-change, change)
+    ]
+    return _around(ratio, ends)
 
 
 def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:

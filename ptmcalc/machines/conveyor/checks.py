@@ -1,15 +1,34 @@
 """The checks of a conveyor."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, Sense
+from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start
+from ptmcalc.machines.conveyor.moving import brakes_of, braking
+from ptmcalc.machines.conveyor.spec import (
+    IN_MOTION,
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    Drive,
+    EmergencyStop,
+    Hold,
+    Jam,
+    Run,
+    Start,
+    Stop,
+)
 
 Loads = Mapping[str, Estimate]
+Checks = Iterable[AnyCheck]
+ANY_MOTION = IN_MOTION | {Run}
+_GRIPPING = ANY_MOTION - {Jam}
+"""Scenes in which a drum has to hold the belt: over a jammed one it must slip."""
 
 _LEAST_WRAP = 2.8  # rad, 160 deg
 _LEAST_GRIP = 0.6931471805599453  # mu alpha = ln 2: below it the drum transmits less than the run-off tension
@@ -17,11 +36,12 @@ _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 _STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
 
 _SAFETY = {
-    ("textile", Run): 8.0,
-    ("textile", Start): 5.4,
-    ("steel_cord", Run): 6.7,
-    ("steel_cord", Start): 4.8,
+    ("textile", True): 8.0,
+    ("textile", False): 5.4,
+    ("steel_cord", True): 6.7,
+    ("steel_cord", False): 4.8,
 }
+"""by carcass, and whether the belt runs steadily"""
 
 _TENSION: KeyPath = ("takeup", "tension")
 
@@ -78,35 +98,78 @@ def _inverse(value: float) -> float:
 
 def _blame_slip(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> KeyPath:
     """The key that stands out: a small wrap, a poor friction, a violent start; else the take-up tension."""
-    drum = spec.drive.drum
-    line = belt_line(spec, scene)
+    return _blame_grip(spec, scene, spec.main_path, spec.main_drive)
+
+
+def _blame_grip(spec: Conveyor, scene: ConveyorScene, path: KeyPath, drive: Drive) -> KeyPath:
+    drum = drive.drum
     if drum.wrap < _LEAST_WRAP:
-        return ("drive", "drum", "wrap")
-    if line.grip_exponent is not None and line.grip_exponent < _LEAST_GRIP:
-        return ("drive", "drum", "friction")
-    if isinstance(scene, Start) and starting_force(spec) > _STRONG_START * max(line.static_resistance, 0):
-        return _TENSION if scene.profile.imposes_speed else starting_torque_key(spec)
+        return (*path, "drum", "wrap")
+    if drum.friction is not None and drum.friction * drum.wrap < _LEAST_GRIP:
+        return (*path, "drum", "friction")
+    if isinstance(scene, Start) and starting_force(spec) > _STRONG_START * max(
+        belt_line(spec, scene).static_resistance, 0
+    ):
+        return _TENSION if scene.profile.imposes_speed else starting_torque_key(spec, path)
+    if isinstance(scene, Stop | EmergencyStop) and (acting := brakes_of(spec, scene)):
+        return ("brakes", max(acting, key=lambda name: braking(spec, acting[name]).force), "torque")
     return _TENSION
 
 
-def starting_torque_key(spec: Conveyor) -> KeyPath:
+def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
     """The key of the starting torque the file uses."""
-    one = spec.drive.motor
+    path = path or spec.main_path
+    one = spec.value_at(path).motor
     key = "mean_starting_torque" if one.mean_starting_torque is not None else "largest_starting_torque"
-    return ("drive", "motor", key)
+    return (*path, "motor", key)
+
+
+def _slip_checks(spec: Conveyor, scene: ConveyorScene) -> Iterator[Check[Conveyor, ConveyorScene]]:
+    """The drum's own, or one for each drum where there are several."""
+    if len(spec.all_drives) == 1:
+        yield replace(SLIP, each=None)
+        return
+    for name, drive in spec.all_drives.items():
+        path = spec.drive_path(name)
+        used, left = of("slip_utilisation_max", name), of("slip_reserve_min", name)
+        yield replace(
+            SLIP,
+            each=None,
+            element=name,
+            loads=(left, used),
+            value=_slip_value_of(left, used),
+            needs=_needs((*path, "drum", "friction")),
+            blame=_blames_grip(path, drive),
+        )
+
+
+def _needs(*paths: KeyPath) -> Callable[[Conveyor, ConveyorScene], tuple[KeyPath, ...]]:
+    return lambda spec, scene: paths
+
+
+def _slip_value_of(left: str, used: str) -> Callable[[Conveyor, ConveyorScene, Loads], Estimate]:
+    def value(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Estimate:
+        return _slip_value(spec, scene, {"slip_reserve_min": loads[left], "slip_utilisation_max": loads[used]})
+
+    return value
+
+
+def _blames_grip(path: KeyPath, drive: Drive) -> Callable[[Conveyor, ConveyorScene, Loads], KeyPath]:
+    return lambda spec, scene, loads: _blame_grip(spec, scene, path, drive)
 
 
 SLIP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV101",
     title="belt slip at the drive drum",
-    scenes=frozenset({Run, Start}),
+    scenes=_GRIPPING,
     loads=("slip_reserve_min", "slip_utilisation_max"),
     value=_slip_value,
     sense=Sense.AT_LEAST,
     limit=_slip_limit,
-    needs=lambda spec, scene: (("drive", "drum", "friction"),),
+    needs=lambda spec, scene: ((*spec.main_path, "drum", "friction"),),
     blame=_blame_slip,
     repair=_takeup_tension,
+    each=_slip_checks,
     what="The grip of the drum exceeds what it must transmit by the reserve k_T, at every moment and in both senses.",
     why="A belt that slips on the drum wears the lagging, overheats and can burn; it does not recover by itself.",
     formula="k = S_slack (exp(mu alpha) - 1)/(S_tight - S_slack) >= k_T, and U < 1   (definition `force`)\n"
@@ -128,7 +191,8 @@ def _safety_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
     """
     checks = spec.checks
     asked = checks.belt_safety_running if isinstance(scene, Run) else checks.belt_safety_starting
-    return Estimate.exact(asked if asked is not None else _SAFETY[spec.belt.carcass or "textile", type(scene)])
+    usual = _SAFETY[spec.belt.carcass or "textile", isinstance(scene, Run)]
+    return Estimate.exact(asked if asked is not None else usual)
 
 
 def _safety_needs(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
@@ -145,7 +209,7 @@ def _strength_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     code="CNV102",
     title="too little belt strength",
-    scenes=frozenset({Run, Start}),
+    scenes=ANY_MOTION,
     loads=("belt_safety_min",),
     sense=Sense.AT_LEAST,
     limit=_safety_limit,
@@ -236,7 +300,7 @@ def _slack_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 SLACK: Check[Conveyor, ConveyorScene] = Check(
     code="CNV105",
     title="a slack belt",
-    scenes=frozenset({Run, Start}),
+    scenes=ANY_MOTION,
     loads=("slack_margin_min",),
     sense=Sense.AT_LEAST,
     limit=_slack_limit,
@@ -249,4 +313,210 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
     source="shallow parabola; slack as the end of the linear belt, lecture notes Kramatorsk 2007",
 )
 
-CHECKS = (SLIP, STRENGTH, SAG, START, SLACK)
+# -- stop -----------------------------------------------------------------------------------------------------------
+
+
+def _distance_key(scene: ConveyorScene) -> KeyPath:
+    return ("checks", "emergency_stop_distance" if isinstance(scene, EmergencyStop) else "stop_distance")
+
+
+def _stop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Longest way of the file, by the kind of stop.
+
+    **Range** a stop or an emergency stop with a limit.
+    **Error** none: a chosen limit.
+    **Source** the plant's safety rules.
+    """
+    return Estimate.exact(spec.value_at(_distance_key(scene)) or math.inf)
+
+
+def _only_with(check: str, key: Callable[[ConveyorScene], KeyPath]) -> Callable[[Conveyor, ConveyorScene], Checks]:
+    """The check itself where the file gives its limit."""
+
+    def each(spec: Conveyor, scene: ConveyorScene) -> Checks:
+        return (replace(_BY_CODE[check], each=None),) if spec.value_at(key(scene)) is not None else ()
+
+    return each
+
+
+def _brake_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    acting = brakes_of(spec, scene)
+    if not acting:
+        return ("brakes",)
+    return ("brakes", max(acting, key=lambda name: braking(spec, acting[name]).force), "torque")
+
+
+def _brake_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    return _brake_key(spec, scene) if brakes_of(spec, scene) else ()
+
+
+STOP: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV106",
+    title="too long a way to stop",
+    scenes=frozenset({Stop, EmergencyStop}),
+    loads=("stop_distance",),
+    sense=Sense.AT_MOST,
+    limit=_stop_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _brake_key(spec, scene),
+    repair=_brake_repair,
+    each=_only_with("CNV106", _distance_key),
+    what="The belt at the head comes to rest within the way the file allows.",
+    why="A belt that runs on overfills the chute below and drags along whoever it has caught.",
+    formula="s = integral of v dt until v = 0 <= limit",
+    source="the plant's safety rules",
+)
+
+
+def _time_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Longest time of any stop, from the file.
+
+    **Range** stops with a limit.
+    **Error** none: a chosen limit.
+    **Source** the plant's rules.
+    """
+    return Estimate.exact(spec.checks.stop_time or math.inf)
+
+
+STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV107",
+    title="too long a time to stop",
+    scenes=frozenset({Stop, EmergencyStop, Coast}),
+    loads=("stop_time",),
+    sense=Sense.AT_MOST,
+    limit=_time_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _brake_key(spec, scene) if brakes_of(spec, scene) else ("checks", "stop_time"),
+    repair=_brake_repair,
+    each=_only_with("CNV107", lambda scene: ("checks", "stop_time")),
+    what="The belt at the head comes to rest within the time the file allows.",
+    why="Conveyors that feed one another must stop in order, or the transfer points choke.",
+    formula="t(v = 0) <= limit",
+    source="the plant's rules",
+)
+
+
+def _brake_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Torque of all brakes that act, on the drum shaft of the head.
+
+        M = sum F_brake R
+
+    **Range** brakes at full torque; delay and rise are in the simulated way (CNV106), not here.
+    **Error** that of the gear's efficiency, which is an input.
+    **Source** `moving.braking`.
+    """
+    forces = sum(braking(spec, brake).force for brake in brakes_of(spec, scene).values())
+    return Estimate.exact(forces * spec.main_drive.drum.diameter / 2)
+
+
+BRAKE: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV108",
+    title="too little brake torque",
+    scenes=frozenset({Stop, EmergencyStop}),
+    loads=("brake_torque_required",),
+    sense=Sense.AT_MOST,
+    limit=_brake_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _brake_key(spec, scene),
+    repair=_brake_repair,
+    each=_only_with("CNV108", _distance_key),
+    what="The brakes together hold what the rigid body needs to stop within the way the file allows.",
+    why="A brake sized without the resistance's sign is too weak downhill and needlessly violent uphill.",
+    formula="(m v^2/(2 s) - W) R <= sum M_brake on the drum shaft",
+    source="lecture notes Kramatorsk 2007, in the signed form",
+)
+
+
+def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Torque the backstop may be asked for: rated torque over the reserve; none without a backstop.
+
+    **Range** a belt at rest with its drives off.
+    **Error** none: a chosen reserve.
+    **Source** practice: reserve 1.25 to 1.75.
+    """
+    return Estimate.exact(spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0)
+
+
+BACKSTOP: Check[Conveyor, Hold] = Check(
+    code="CNV109",
+    title="a belt that runs back",
+    scenes=frozenset({Hold}),
+    loads=("backstop_torque",),
+    sense=Sense.AT_MOST,
+    limit=_backstop_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: ("backstop", "torque") if spec.backstop else ("backstop",),
+    repair=lambda spec, scene: ("backstop", "torque") if spec.backstop else (),
+    what="What pulls the loaded belt back is held by friction, or by the backstop with its reserve.",
+    why="A belt that runs back buries its tail and turns the motors backward.",
+    formula="(climb of the load - idler friction at its lowest) D/2 <= M_backstop/reserve",
+    source="lecture notes Kramatorsk 2007",
+)
+
+
+def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Way the take-up can go, from the file.
+
+    **Range** any take-up with its stroke given.
+    **Error** none.
+    **Source** the maker's data.
+    """
+    return Estimate.exact(spec.takeup.stroke or math.inf)
+
+
+STROKE: Check[Conveyor, Run] = Check(
+    code="CNV110",
+    title="too short a take-up",
+    scenes=frozenset({Run}),
+    loads=("takeup_travel",),
+    sense=Sense.AT_MOST,
+    limit=_stroke_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: ("takeup", "stroke"),
+    repair=lambda spec, scene: ("takeup", "stroke"),
+    each=_only_with("CNV110", lambda scene: ("takeup", "stroke")),
+    what="The take-up can follow the belt's elastic and permanent elongation.",
+    why="A take-up at its end lets the tension fall, and the belt slips.",
+    formula="L_loop (S_mean/EA + permanent)/2 <= stroke",
+    source="DIN 22101, elongation of the belt",
+)
+
+
+def _heat_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Largest heat of slip of the file.
+
+    **Range** any scene in motion with the limit given.
+    **Error** none: a chosen limit.
+    **Source** the lagging maker's data.
+    """
+    return Estimate.exact(spec.checks.slip_heat or math.inf)
+
+
+def _heat_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
+    if spec.checks.slip_heat is None:
+        return
+    for name, drive in spec.all_drives.items():
+        path = (*spec.drive_path(name), "drum", "friction")
+        if drive.drum.friction is not None:
+            yield HEAT.of(name, _heat_limit, path)
+
+
+HEAT: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV111",
+    title="too much heat of slip",
+    scenes=IN_MOTION - {Jam},
+    loads=("slip_heat",),
+    sense=Sense.AT_MOST,
+    limit=_heat_limit,
+    needs=_no_needs,
+    blame=_blame_tension,
+    repair=lambda spec, scene: (),
+    each=_heat_checks,
+    what="A drum that slips for a moment burns off no more than the file allows.",
+    why="A slipping drum sets the belt on fire before anybody sees it.",
+    formula="integral of |S_on - S_off| |v_drum - v_belt| dt <= limit",
+    source="work of friction",
+)
+
+CHECKS = (SLIP, STRENGTH, SAG, START, SLACK, STOP, STOP_TIME, BRAKE, BACKSTOP, STROKE, HEAT)
+_BY_CODE: dict[str, AnyCheck] = {check.code: check for check in CHECKS}

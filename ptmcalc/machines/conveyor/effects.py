@@ -1,4 +1,4 @@
-"""The effects a start of a conveyor may call for.
+"""The effects a conveyor in motion may call for.
 
 Bounds marked *calibrated* have the form that perturbation theory gives, with a factor from the seeded samples of
 `tests/coverage` (about 1900 machines, seeds 11 and 21) and a margin on its largest value; the coverage tests hold
@@ -12,11 +12,14 @@ import numpy as np
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.model import StartCase, start_case
-from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE
+from ptmcalc.machines.conveyor.model import BeltLine, StartCase, belt_line, delay_lines_do, is_plain, start_case
+from ptmcalc.machines.conveyor.moving import deceleration, moving, moving_mass, rough_utilisation, running
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start, Stopping
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -25,23 +28,37 @@ WAVE_THRESHOLD = 0.05
 JUMP_THRESHOLD = 0.02
 TAIL_MASS_THRESHOLD = 0.01
 SAG_THRESHOLD = 0.05
+COULOMB_THRESHOLD = 0.1
 
 _JUMP_FACTOR = 2.5
 _TAIL_MASS_FACTOR = 5.0
 _SAG_FACTOR = 0.4
+_GENTLE_SAG = 0.5
+_COULOMB_FACTOR = 4.0
 
 _X = np.linspace(0.0, 1.0, 33)
 
 
-def _anything(case: StartCase, loads: Loads) -> Offsets:
+def _anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """No bound for any load that the motion of the belt can change."""
-    return {name: ANYTHING for name in bounds.changed_by_motion(case) if name in loads}
+    drives = isinstance(scene, Start) and scene.profile.imposes_speed
+    return {name: ANYTHING for name in loads if family(name) in CHANGED_BY_MOTION or (drives and name in DRIVE)}
 
 
-def wave_criterion(spec: Conveyor, scene: Start) -> Criterion:
+def _moved(
+    spec: Conveyor, scene: ConveyorScene, line: BeltLine, loads: Loads, change: float, off: bool = False
+) -> Offsets:
+    """Offsets of the loads of any scene when every tension may be off by `change` [N]."""
+    slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
+    return bounds.moved(line, loads, change, slowing, off)
+
+
+def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Largest stray of the tension from the rigid body's, over the static tension of the same section.
 
-        E = max over the belt of a b(s) g / S_static(s)
+        E = max over the belt of a b(s) g / S_static(s)           start
+        E = m_belt |a| / S_static,min                             stop, a the largest rigid deceleration
+        E = max(Z) v / S_static,min                               jam
 
     with a b(s) the bound of a step (`laws.loop_bounds.stray`) and g what the profile leaves of it
     (`laws.start_profile.phases`).
@@ -50,13 +67,27 @@ def wave_criterion(spec: Conveyor, scene: Start) -> Criterion:
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
-    value = bounds.stray_ratio(start_case(spec, scene))
+    value = bounds.stray_ratio(start_case(spec, scene)) if isinstance(scene, Start) else _shock(spec, scene)
     return Criterion(
         "E", value, WAVE_THRESHOLD, "tension the belt's waves can add, over the static tension", "laws.loop_bounds"
     )
 
 
-def wave_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
+def _shock(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Tension that a stop or a jam can add over the smallest static one."""
+    line = running(spec, scene)
+    least = float(min((*line.static_ends(RETURN), *line.static_ends(CARRY))))
+    added = _belt_mass(line) * deceleration(spec, scene, line)
+    if isinstance(scene, Jam):
+        added = max(line.impedance(CARRY), line.impedance(RETURN)) * line.speed
+    return added / least if least > 0 else math.inf
+
+
+def _belt_mass(line: BeltLine) -> float:
+    return line.carry.line_mass * line.carry.length + line.back.line_mass * line.back.length
+
+
+def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Interval of every load of the rigid body that holds all waves of the belt.
 
         S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
@@ -65,16 +96,21 @@ def wave_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
     below 5 % anywhere, or changing by less than 5 % over the swing; then the lowest frequency is taken of the softest
     belt. A belt that sags more is unbounded.
 
-    **Range** linear undamped belt without slip; any jump of impedance and tail mass.
+    **Range** linear undamped belt without slip, one slope, one drive, a start from the frozen running profile; any jump
+    of impedance and tail mass. Anything else is unbounded.
     **Error** a bound; at the run-on of a gravity take-up under a torque step it is attained.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley).
     """
+    if not isinstance(scene, Start) or not is_plain(spec, scene):
+        return _anything(spec, scene, loads)
+    if scene.belt == "relaxed" and spec.effects.get("coulomb_idlers") != "off":
+        return _anything(spec, scene, loads)
     case = start_case(spec, scene)
     softening = None if spec.effects.get("sag") == "off" else bounds.largest_softening(case)
     if softening is None or softening < SAG_THRESHOLD:
         return bounds.offsets(case, bounds.enclose(case, softening or 0.0), loads)
     enclosure = _gently_sagging(case)
-    return bounds.offsets(case, enclosure, loads) if enclosure else _anything(case, loads)
+    return bounds.offsets(case, enclosure, loads) if enclosure else _anything(spec, scene, loads)
 
 
 def _gently_sagging(case: StartCase) -> bounds.Enclosure | None:
@@ -90,7 +126,7 @@ def _gently_sagging(case: StartCase) -> bounds.Enclosure | None:
     return enclosure
 
 
-def jump_criterion(spec: Conveyor, scene: Start) -> Criterion:
+def jump_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Part of a wave that the tail sends back because carry and return strand differ.
 
         r = |Z1 - Z2|/(Z1 + Z2)
@@ -99,12 +135,12 @@ def jump_criterion(spec: Conveyor, scene: Start) -> Criterion:
     **Error** exact.
     **Source** `laws.wave.reflection`; the threshold of 2 % is an engineering choice.
     """
-    line = start_case(spec, scene).line
+    line = belt_line(spec, scene)
     value = abs(wave.reflection(line.impedance(CARRY), line.impedance(RETURN)))
     return Criterion("r", value, JUMP_THRESHOLD, "part of a wave the tail reflects", "laws.wave.reflection")
 
 
-def jump_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
+def jump_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when the return strand is given the impedance of the carry strand.
 
         d = r a M_belt + min(2.5 r sqrt(1 + n), 2) a b_max g
@@ -117,10 +153,10 @@ def jump_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
     **Source** perturbation of the reflected waves; coverage sample.
     """
     r = jump_criterion(spec, scene).value
-    return _small_change(start_case(spec, scene), loads, r, r < JUMP_THRESHOLD, _JUMP_FACTOR)
+    return _small_change(spec, scene, loads, r, r < JUMP_THRESHOLD, _JUMP_FACTOR)
 
 
-def tail_mass_criterion(spec: Conveyor, scene: Start) -> Criterion:
+def tail_mass_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Mass of the tail drum over that of belt and load.
 
         m_t/m_belt
@@ -129,12 +165,12 @@ def tail_mass_criterion(spec: Conveyor, scene: Start) -> Criterion:
     **Error** exact.
     **Source** the threshold of 1 % is an engineering choice.
     """
-    masses = start_case(spec, scene).masses
-    value = masses.tail_mass / (masses.return_mass + masses.carry_mass)
+    line = belt_line(spec, scene)
+    value = line.tail_mass / _belt_mass(line)
     return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail drum over belt and load", "Newton's law")
 
 
-def tail_mass_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
+def tail_mass_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when the tail drum is taken without mass.
 
         d = e a M_belt + min(5 e sqrt(1 + n), 2) a b_max g,   e = m_t/m_belt
@@ -146,14 +182,17 @@ def tail_mass_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
     **Source** perturbation of the tail's equation of motion; coverage sample.
     """
     share = tail_mass_criterion(spec, scene).value
-    return _small_change(start_case(spec, scene), loads, share, share < TAIL_MASS_THRESHOLD, _TAIL_MASS_FACTOR)
+    return _small_change(spec, scene, loads, share, share < TAIL_MASS_THRESHOLD, _TAIL_MASS_FACTOR)
 
 
-def _small_change(case: StartCase, loads: Loads, share: float, known: bool, factor: float) -> Offsets:
-    if not known:
-        return _anything(case, loads)
+def _small_change(
+    spec: Conveyor, scene: ConveyorScene, loads: Loads, share: float, known: bool, factor: float
+) -> Offsets:
+    if not known or not isinstance(scene, Start):
+        return _anything(spec, scene, loads)
     if share == 0:
         return {}
+    case = start_case(spec, scene)
     change = share * case.acceleration * case.masses.belt_mass + _grown(case, factor * share)
     return bounds.spread(case, loads, change)
 
@@ -166,64 +205,84 @@ def _grown(case: StartCase, share: float) -> float:
     return min(share * math.sqrt(1 + contours), 2.0) * swing * factor
 
 
-def sag_criterion(spec: Conveyor, scene: Start) -> Criterion | None:
+def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """Softening of the belt by sag at the lowest tension the waves can bring.
 
         f = EA (w l)^2/(12 S_low^3)
 
-    **Range** any start with idler pitches given; infinite where the belt can lose its tension.
-    **Error** an upper bound, as S_low is the lower end of the wave bound.
+    S_low is the lower end of the wave bound in a start, and the smallest static tension in a stop or a jam.
+
+    **Range** idler pitches given; infinite where the belt can lose its tension.
+    **Error** in a start an upper bound.
     **Source** Ernst (`laws.sag.softening`); the threshold of 5 % is an engineering choice.
     """
-    value = bounds.largest_softening(start_case(spec, scene))
+    if isinstance(scene, Start):
+        value = bounds.largest_softening(start_case(spec, scene))
+    else:
+        line = running(spec, scene)
+        value = _softening(line, float(min((*line.static_ends(RETURN), *line.static_ends(CARRY)))))
     if value is None:
         return None
     return Criterion("f", value, SAG_THRESHOLD, "give of the sagging spans over that of the belt", "laws.sag.softening")
 
 
-def sag_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
+def _softening(line: BeltLine, lowest: float) -> float | None:
+    """Softening of the belt by sag at a tension; None without idler pitches."""
+    spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span]
+    if not spans:
+        return None
+    return max(float(sag.softening(line.stiffness, span, lowest)) for span in spans)
+
+
+def sag_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when the sagging spans are taken as straight.
 
-        d = min(0.4 f sqrt(1 + n), 2) a b_max g,   f at the lowest tension the run found
+        d = min(0.4 f sqrt(1 + n), 2) a b_max g,   f at the lowest tension the run found       start
+        d = min(0.4 f sqrt(1 + n), 2) (S_max - S_min)/2                                        stop, jam
 
-    **Range** f below 0.05 at the lowest tension of the run; unbounded above, and where the run does not know it.
+    **Range** f below 0.05 (a plain start, where a richer solver carries sag) or 0.5 at the lowest tension of the run;
+    unbounded above, and where the run does not know it.
     **Error** calibrated: the largest value of the sample was 0.17 in place of 0.4.
     **Source** perturbation of the compliance; coverage sample.
     """
-    case = start_case(spec, scene)
     lowest = loads["tension_min"].low if "tension_min" in loads else -math.inf
-    spans = [span for span in (case.line.back.span_weight, case.line.carry.span_weight) if span]
-    if not spans:
+    line = belt_line(spec, scene)
+    softest = _softening(line, lowest)
+    if softest is None:
         return {}
-    softest = max(float(sag.softening(case.line.stiffness, span, lowest)) for span in spans)
-    if softest >= SAG_THRESHOLD:
-        return _anything(case, loads)
-    return bounds.spread(case, loads, _grown(case, _SAG_FACTOR * softest))
+    plain = isinstance(scene, Start) and delay_lines_do(spec, scene)
+    if softest >= (SAG_THRESHOLD if plain else _GENTLE_SAG) or "tension_max" not in loads:
+        return _anything(spec, scene, loads)
+    if isinstance(scene, Start) and plain:
+        case = start_case(spec, scene)
+        return bounds.spread(case, loads, _grown(case, _SAG_FACTOR * softest))
+    contours = moving(spec, scene).window / line.contour_time
+    swing = (loads["tension_max"].value - loads["tension_min"].value) / 2
+    return _moved(spec, scene, line, loads, min(_SAG_FACTOR * softest * math.sqrt(1 + contours), 2.0) * swing)
 
 
-def slip_criterion(spec: Conveyor, scene: Start) -> Criterion | None:
-    """Most of the drum's grip that the start can use, by the wave bound.
+def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+    """Most of a drum's grip that the scene can use.
 
-        U_b = (S_on - rho v^2)/((S_off - rho v^2) exp(mu alpha)) at the bounds of both sides
+        U_b = (S_on - rho v^2)/((S_off - rho v^2) exp(mu alpha)) at the bounds of both sides       start, one drive
+        the same with the rigid body's tensions, the dynamic part twice, drum by drum             anything else
 
-    **Range** any start with the friction of the drum given.
-    **Error** an upper bound.
+    **Range** the friction of a drum given.
+    **Error** an upper bound in a start with one drive, else an estimate.
     **Source** Euler-Eytelwein (`laws.capstan`), tensions from `laws.loop_bounds`; the threshold is 1/k_T of the file.
     """
-    case = start_case(spec, scene)
-    if case.line.grip_exponent is None:
+    if all(drive.drum.friction is None for drive in spec.all_drives.values()):
         return None
-    held = bounds.enclosed_loads(case, bounds.enclose(case))["slip_utilisation_max"]
-    return Criterion(
-        "U_b",
-        held.high,
-        1 / spec.checks.slip.reserve,
-        "most of the drum's grip the start can use",
-        "laws.capstan",
-    )
+    if isinstance(scene, Start) and is_plain(spec, scene):
+        case = start_case(spec, scene)
+        value = bounds.enclosed_loads(case, bounds.enclose(case))["slip_utilisation_max"].high
+    else:
+        value = rough_utilisation(spec, scene)
+    limit = 1 / spec.checks.slip.reserve
+    return Criterion("U_b", value, limit, "most of a drum's grip the scene can use", "laws.capstan")
 
 
-def slip_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
+def slip_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """A belt that never comes to the limit of its grip never slips: then nothing changes, else anything.
 
         U_max < 1 with its whole bar  =>  no change
@@ -232,18 +291,104 @@ def slip_bound(spec: Conveyor, scene: Start, loads: Loads) -> Offsets:
     **Error** exact.
     **Source** slip starts where U reaches 1 (`laws.capstan`).
     """
-    used, case = loads.get("slip_utilisation_max"), start_case(spec, scene)
-    return {} if used is not None and used.high < 1 else _anything(case, loads)
+    used = loads.get("slip_utilisation_max")
+    return {} if used is not None and used.high < 1 else _anything(spec, scene, loads)
 
 
-_START = frozenset({Start})
+def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Idler friction over the force that accelerates the belt.
+
+        W_idlers/(m_belt a);   0 for a start of a belt with the running friction frozen in it
+
+    **Range** any scene in motion. A belt that starts from the frozen profile slides forward from the first moment on.
+    **Error** exact.
+    **Source** balance of a friction front; the threshold of 10 % is an engineering choice.
+    """
+    line = belt_line(spec, scene)
+    pulled = _belt_mass(line) * (
+        start_case(spec, scene).acceleration if isinstance(scene, Start) else deceleration(spec, scene, line)
+    )
+    idlers = line.back.friction[-1] + line.carry.friction[-1]
+    value = idlers / pulled if pulled > 0 else math.inf
+    if isinstance(scene, Start) and scene.belt == "frozen":
+        value = 0.0
+    return Criterion("W/(m a)", value, COULOMB_THRESHOLD, "idler friction over the belt's inertia", "Newton's law")
+
+
+def coulomb_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of any tension when a relaxed belt is taken as one with the running friction frozen in it.
+
+        d = 4 W_idlers
+
+    The tension profiles differ by W_idlers before the start; a front that meets half the friction arrives with so much
+    more force, and an echo doubles both.
+
+    **Range** W_idlers/(m_belt a) below 0.1; unbounded above.
+    **Error** calibrated on the sample of the coverage tests.
+    **Source** front speeds with Coulomb friction (F - w x/2 against F - w L), lecture notes Kramatorsk 2007 completed.
+    """
+    criterion = coulomb_criterion(spec, scene)
+    if not isinstance(scene, Start) or criterion.exceeded:
+        return _anything(spec, scene, loads)
+    if scene.belt == "frozen":
+        return {}
+    line = belt_line(spec, scene)
+    return _moved(spec, scene, line, loads, _COULOMB_FACTOR * (line.back.friction[-1] + line.carry.friction[-1]))
+
+
+def takeup_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """How far the inertia of the take-up weight changes the run-off tension.
+
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 without `takeup.mass`
+
+    a_0 is the acceleration of the drum alone, w_1 a lower bound of the lowest frequency.
+
+    **Range** a gravity take-up; a file that gives no mass asks for a constant tension.
+    **Error** an estimate.
+    **Source** take-up weight on two falls; thresholds are an engineering choice.
+    """
+    value = 0.0
+    if spec.takeup.mass is not None:
+        kappa, drum = _takeup_numbers(spec, scene, running(spec, scene))
+        value = max(kappa / 0.1, drum / spec.gravity / 0.03)
+    return Criterion("kappa", value, 1.0, "inertia of the take-up weight", "take-up weight on two falls")
+
+
+def _takeup_numbers(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> tuple[float, float]:
+    """kappa, and the acceleration of the drum alone [m/s^2]."""
+    slowest = math.pi / (2 * line.contour_time)
+    kappa = line.takeup_tension * slowest / (2 * spec.gravity * line.impedance(RETURN))
+    if isinstance(scene, Start):
+        force = start_case(spec, scene).excess
+    else:
+        force = deceleration(spec, scene, line) * moving_mass(line)
+    return kappa, force / line.drive_mass
+
+
+def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of any tension when the take-up weight is taken without inertia.
+
+        d = T_0 (3.4 a_0/(2 g) + kappa)
+
+    **Range** below the threshold; unbounded above.
+    **Error** calibrated: the largest drop seen of the run-off tension was T_0 3.4 a_0/(2 g) at small kappa.
+    **Source** take-up weight on two falls.
+    """
+    if spec.takeup.mass is None:
+        return {}
+    if takeup_criterion(spec, scene).exceeded:
+        return _anything(spec, scene, loads)
+    line = running(spec, scene)
+    kappa, drum = _takeup_numbers(spec, scene, line)
+    return _moved(spec, scene, line, loads, line.takeup_tension * (3.4 * drum / (2 * spec.gravity) + kappa), off=True)
+
 
 EFFECTS = (
-    Effect("belt_wave", "belt elasticity: waves", _START, wave_criterion, wave_bound),
+    Effect("belt_wave", "belt elasticity: waves", IN_MOTION, wave_criterion, wave_bound),
     Effect(
         "tail_jump",
         "impedance jump at the tail",
-        _START,
+        IN_MOTION,
         jump_criterion,
         jump_bound,
         part_of="belt_wave",
@@ -252,7 +397,7 @@ EFFECTS = (
     Effect(
         "tail_mass",
         "mass of the tail drum",
-        _START,
+        IN_MOTION,
         tail_mass_criterion,
         tail_mass_bound,
         part_of="belt_wave",
@@ -261,11 +406,29 @@ EFFECTS = (
     Effect(
         "sag",
         "sag of the belt between idlers",
-        _START,
+        IN_MOTION,
         sag_criterion,
         sag_bound,
         part_of="belt_wave",
         calibrated=True,
     ),
-    Effect("slip", "slip at the drive drum", _START, slip_criterion, slip_bound),
+    Effect(
+        "coulomb_idlers",
+        "idlers that stick and slide",
+        IN_MOTION,
+        coulomb_criterion,
+        coulomb_bound,
+        part_of="belt_wave",
+        calibrated=True,
+    ),
+    Effect(
+        "takeup_mass",
+        "inertia of the take-up weight",
+        IN_MOTION,
+        takeup_criterion,
+        takeup_bound,
+        part_of="belt_wave",
+        calibrated=True,
+    ),
+    Effect("slip", "slip at the drive drums", IN_MOTION, slip_criterion, slip_bound),
 )

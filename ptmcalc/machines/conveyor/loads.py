@@ -1,7 +1,11 @@
 """The loads a conveyor can report."""
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
+from ptmcalc.machines.conveyor.spec import Conveyor
 
 LOADS = (
     LoadInfo("tension_run_on_max", "run-on tension, largest", units.FORCE),
@@ -14,12 +18,34 @@ LOADS = (
     LoadInfo("slip_reserve_min", "reserve of grip", units.RATIO),
     LoadInfo("belt_safety_min", "belt safety", units.RATIO),
     LoadInfo("sag_relative_max", "sag over idler pitch", units.SHARE),
+    LoadInfo("slip_distance", "way of slip", units.SPAN),
+    LoadInfo("slip_heat", "heat of slip", units.ENERGY),
+    LoadInfo("stop_time", "time to come to rest", units.TIME),
+    LoadInfo("stop_distance", "way to come to rest", units.SPAN),
+    LoadInfo("coast_distance", "way without brakes", units.SPAN),
+    LoadInfo("brake_torque_required", "brake torque for the allowed way, drum shaft", units.TORQUE),
+    LoadInfo("tension_overload_braking", "tension that braking in the allowed way adds", units.FORCE),
+    LoadInfo("resistance_coefficient_identified", "resistance coefficient of the measured way", units.RATIO),
+    LoadInfo("backstop_torque", "torque that runs it back, drum shaft", units.TORQUE),
+    LoadInfo("effective_tension", "effective tension", units.FORCE),
+    LoadInfo("effective_tension_worst", "effective tension, worst part loaded", units.FORCE, headline=False),
+    LoadInfo("power_drive_running", "power at the drive shafts", units.POWER),
+    LoadInfo("power_drive_empty", "power at the drive shafts, empty", units.POWER, headline=False),
+    LoadInfo("power_motor_running", "power at the motors", units.POWER, headline=False),
+    LoadInfo("sag_tension_required", "tension the allowed sag asks for", units.FORCE, headline=False),
+    LoadInfo("slack_side_tension_required", "slack-side tension the grip asks for", units.FORCE, headline=False),
+    LoadInfo("takeup_travel", "way the take-up needs", units.LENGTH, headline=False),
+    LoadInfo("takeup_movement", "movement of the take-up in the scene", units.LENGTH, headline=False),
+    LoadInfo("takeup_mass", "take-up weight on two falls", units.MASS, headline=False),
+    LoadInfo("belt_cycle_time", "time of the belt once round", units.TIME, headline=False),
+    LoadInfo("natural_frequency", "natural frequency of the belt", units.ANGULAR_FREQUENCY, headline=False),
     LoadInfo("static_resistance", "static resistance at the rim", units.FORCE),
     LoadInfo("starting_force", "mean starting force at the rim", units.FORCE),
     LoadInfo("starting_force_needed", "force needed at the rim to start", units.FORCE),
     LoadInfo("starting_reserve", "available over needed force", units.RATIO),
     LoadInfo("rim_force_excess", "force over the static resistance", units.FORCE),
     LoadInfo("acceleration_rigid", "acceleration, rigid body", units.ACCELERATION),
+    LoadInfo("start_time", "start time", units.TIME, headline=False),
     LoadInfo("start_time_rigid", "start time, rigid body", units.TIME),
     LoadInfo("first_wave_time_max", "time of the textbook peak", units.TIME, headline=False),
     LoadInfo("reduced_drive_mass", "drive reduced to the rim", units.MASS),
@@ -49,3 +75,66 @@ AT_DRUM = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tensio
 
 OF_BELT = AT_DRUM.union(TENSIONS, {"belt_safety_min", "sag_relative_max"})
 """Loads that depend on how the belt moves."""
+
+PER_DRIVE = frozenset(
+    {
+        "tension_run_on_max",
+        "tension_run_off_min",
+        "slip_utilisation_max",
+        "slip_reserve_min",
+        "slip_distance",
+        "slip_heat",
+    }
+)
+"""Families: loads that each drive has."""
+
+OF_STOP = frozenset({"stop_time", "stop_distance", "coast_distance"})
+"""Loads of a belt that comes to rest."""
+
+OF_START = frozenset(
+    {
+        "natural_frequency",
+        "static_resistance",
+        "starting_force",
+        "rim_force_excess",
+        "acceleration_rigid",
+        "start_time",
+        "start_time_rigid",
+        "first_wave_time_max",
+        "reduced_drive_mass",
+        "wave_speed_carry",
+        "wave_speed_return",
+        "impedance_carry",
+        "impedance_return",
+    }
+)
+"""Closed forms of a start."""
+
+OF_NETWORK = OF_BELT.union(OF_STOP, {"takeup_movement"})
+"""Loads that a march over the whole belt gives, besides those of each drive."""
+
+CHANGED_BY_MOTION = OF_NETWORK | PER_DRIVE
+"""Loads, and families of them, that depend on how the belt moves."""
+
+FREQUENCIES = 3
+"""How many natural frequencies are reported."""
+
+
+def parts(spec: Conveyor) -> Iterator[LoadInfo]:
+    """The loads of one conveyor: those of the belt, and of each drive; in the table a single drive is not named."""
+    several = len(spec.all_drives) > 1
+    for info in LOADS:
+        if info.name == "natural_frequency":
+            yield from (info.of(str(number)) for number in range(1, FREQUENCIES + 1))
+            continue
+        if info.name not in {"slip_distance", "slip_heat"}:
+            yield info
+        if info.name in PER_DRIVE:
+            for name in spec.all_drives:
+                one = info.of(name)
+                yield one if several or info.name in {"slip_distance", "slip_heat"} else quiet(one)
+
+
+def quiet(info: LoadInfo) -> LoadInfo:
+    """The same load, not in the table."""
+    return replace(info, headline=False)

@@ -6,14 +6,16 @@ these are given as a force.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import inertia, motor, resistance, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Start
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Section, Start, Stopping
 
 FloatArray = NDArray[np.float64]
 
@@ -26,13 +28,45 @@ def filled(value: float | None) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Strand:
-    """One strand: its length [m], moving mass per length [kg/m], rise of static tension per length [N/m], and the
-    weight of belt and load on one idler pitch [N], None when the pitch is not given."""
+    """One strand: moving mass per length [kg/m] (the mean where only some sections are loaded), the weight of belt and
+    load on one idler pitch [N], None when the pitch is not given, and, summed up from its upstream end at `marks` [m],
+    idler friction [N] and the tension that gravity asks for [N]; `masses` [kg/m] lie between the marks."""
 
-    length: float
     line_mass: float
-    tension_rise: float
     span_weight: float | None
+    marks: tuple[float, ...]
+    friction: tuple[float, ...]
+    climb: tuple[float, ...]
+    masses: tuple[float, ...]
+
+    @property
+    def length(self) -> float:
+        """[m]"""
+        return self.marks[-1]
+
+    @property
+    def rises(self) -> FloatArray:
+        """Static tension over that of the upstream end, at the marks [N]."""
+        sums: FloatArray = np.add(self.friction, self.climb)
+        return sums
+
+    @property
+    def rise(self) -> float:
+        """Static tension of the downstream end over that of the upstream end [N]."""
+        return self.friction[-1] + self.climb[-1]
+
+    @property
+    def mean_rise(self) -> float:
+        """Mean over the strand of what the static tension has risen [N]."""
+        rises = self.rises
+        return float(np.sum(np.diff(self.marks) * (rises[1:] + rises[:-1]) / 2)) / self.length
+
+    @property
+    def even(self) -> bool:
+        """Whether mass and static rise are the same all along."""
+        return len(set(self.masses)) == 1 and bool(
+            np.allclose(self.rises, self.rise * np.array(self.marks) / self.length, rtol=1e-12, atol=0)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,23 +87,27 @@ class BeltLine:
     grip_exponent: float | None
     breaking_force: float | None
     slack_sag: float
+    tail_pull: float = 0.0
+    """what drives at the tail pull in steady motion [N]"""
+
+    @property
+    def tail_step(self) -> float:
+        """Static tension behind the tail over that before it [N]."""
+        return self.tail_force - self.tail_pull
 
     @property
     def static_resistance(self) -> float:
-        """Static resistance at the rim of the drive drum [N]."""
-        return self.carry.tension_rise * self.carry.length + self.back.tension_rise * self.back.length + self.tail_force
+        """Static resistance left for the drums at the head, at the rim [N]."""
+        return self.carry.rise + self.back.rise + self.tail_step
 
     @property
     def run_off(self) -> float:
         """Static tension at the drive's run-off [N]: the take-up's, or what keeps the mean of a fixed loop."""
         if not self.fixed_length:
             return self.takeup_tension
-        rise_back = self.back.tension_rise * self.back.length
-        rise_carry = self.carry.tension_rise * self.carry.length
-        mean_rise = (
-            rise_back / 2 * self.back.length + (rise_back + self.tail_force + rise_carry / 2) * self.carry.length
-        )
-        return self.takeup_tension - mean_rise / (self.back.length + self.carry.length)
+        before = self.back.rise + self.tail_step
+        rises = self.back.mean_rise * self.back.length + (before + self.carry.mean_rise) * self.carry.length
+        return self.takeup_tension - rises / (self.back.length + self.carry.length)
 
     @property
     def run_on(self) -> float:
@@ -79,13 +117,16 @@ class BeltLine:
     def static_ends(self, strand: int) -> tuple[float, float]:
         """Static tension at the upstream and the downstream end of a strand [N]."""
         if strand == RETURN:
-            return self.run_off, self.run_off + self.back.tension_rise * self.back.length
-        return self.run_on - self.carry.tension_rise * self.carry.length, self.run_on
+            return self.run_off, self.run_off + self.back.rise
+        return self.run_on - self.carry.rise, self.run_on
 
     def static(self, strand: int, x: ArrayLike) -> FloatArray:
         """Static tension at fractions x of a strand [N]."""
         start, end = self.static_ends(strand)
-        return start + (end - start) * np.asarray(x, float)
+        part = self.strand(strand)
+        if part.even:
+            return start + (end - start) * np.asarray(x, float)
+        return start + np.interp(np.asarray(x, float) * part.length, part.marks, part.rises)
 
     def strand(self, which: int) -> Strand:
         """The return or the carry strand."""
@@ -117,28 +158,48 @@ class BeltLine:
 def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
     """The conveyor in the load state of a scene; a start has the start's resistance."""
     g, route = spec.gravity, spec.route
-    sine = route.lift / route.length
-    cosine = 1.0 if route.inclination == "small_angle" else math.sqrt(1 - sine**2)
-    load = load_line_mass(spec) if scene.load == "full" else 0.0
+    flat = route.inclination == "small_angle"
     given = spec.resistance
-    coefficient = filled(given.coefficient) * (filled(given.start_factor) if isinstance(scene, Start) else 1.0)
+    coefficient = filled(given.coefficient)
+    if isinstance(scene, Start):
+        coefficient *= filled(given.start_factor)
+    elif isinstance(scene, Stopping):
+        coefficient *= given.stop_factor
     factor = 1.0 if given.secondary_force is not None else filled(given.secondary)
 
-    def strand(idler_line_mass: float, on_it: float, pitch: float | None, downhill: float) -> Strand:
-        main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
-        span = on_it * g * cosine * pitch if pitch is not None else None
-        return Strand(route.length, on_it + idler_line_mass, factor * main + downhill * on_it * g * sine, span)
+    parts = route.parts
+    cosines = [1.0 if flat else math.sqrt(1 - (part.lift / part.length) ** 2) for part in parts]
+    loads = [load_line_mass(spec) if _is_loaded(scene, part) else 0.0 for part in parts]
 
-    drum = spec.drive.drum
+    def strand(idler_line_mass: float, pitch: float | None, uphill: float, loads: Sequence[float]) -> Strand:
+        marks, friction, climb, masses = [0.0], [0.0], [0.0], []
+        for part, cosine, load in zip(parts[:: int(uphill)], cosines[:: int(uphill)], loads, strict=True):
+            on_it = spec.belt.mass + load
+            main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
+            marks.append(marks[-1] + part.length)
+            friction.append(friction[-1] + factor * main * part.length)
+            climb.append(climb[-1] + uphill * on_it * g * part.lift)
+            masses.append(on_it + idler_line_mass)
+        mean = sum(mass * part.length for mass, part in zip(masses, parts[:: int(uphill)], strict=True)) / marks[-1]
+        heaviest = max(
+            (spec.belt.mass + load) * cosine for load, cosine in zip(loads, cosines[:: int(uphill)], strict=True)
+        )
+        span = heaviest * g * pitch if pitch is not None else None
+        masses_all_one = len(set(masses)) == 1
+        return Strand(
+            masses[0] if masses_all_one else mean, span, tuple(marks), tuple(friction), tuple(climb), tuple(masses)
+        )
+
+    drum = spec.main_drive.drum
     return BeltLine(
         gravity=g,
         speed=spec.speed,
         stiffness=belt_stiffness(spec),
         belt_line_mass=spec.belt.mass,
-        carry=strand(spec.idlers.carry.rotating_line_mass, spec.belt.mass + load, spec.idlers.carry.pitch, 1.0),
-        back=strand(spec.idlers.back.rotating_line_mass, spec.belt.mass, spec.idlers.back.pitch, -1.0),
+        carry=strand(spec.idlers.carry.rotating_line_mass, spec.idlers.carry.pitch, 1.0, loads),
+        back=strand(spec.idlers.back.rotating_line_mass, spec.idlers.back.pitch, -1.0, [0.0] * len(parts)),
         tail_force=given.secondary_force or 0.0,
-        drive_mass=drive_mass(spec),
+        drive_mass=sum(drive_mass(drive) for drive in spec.all_drives.values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid",
         takeup_tension=spec.takeup.tension,
@@ -146,6 +207,40 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
         breaking_force=breaking_force(spec),
         slack_sag=spec.checks.slack_sag,
     )
+
+
+def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether a scene is a start of a uniform belt on one slope by one drive."""
+    return not plainness(spec, scene).exceeded
+
+
+def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
+    """Whether strands that are pure delays carry all of a start: nothing sticks on the way, and no weight swings."""
+    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None
+
+
+def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Whether a solver of the plain start can take the machine.
+
+        n = slopes and loads along a strand + drives + 1 for an aborted start
+
+    A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
+
+    **Range** any start.
+    **Error** exact: a count.
+    **Source** the plain start has one of each, n = 2.
+    """
+    line = belt_line(spec, scene)
+    parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
+    aborted = isinstance(scene, Start) and scene.aborted is not None
+    count = parts + len(spec.all_drives) + aborted
+    meaning = "slopes, drives and aborted starts: 2 for one slope and one drive"
+    return Criterion("n", count, 3, meaning, "count")
+
+
+def _is_loaded(scene: ConveyorScene, part: Section) -> bool:
+    """Whether a section carries load in a scene."""
+    return {"full": True, "empty": False, "uphill": part.lift > 0, "downhill": part.lift < 0}[scene.load]
 
 
 def load_line_mass(spec: Conveyor) -> float:
@@ -169,9 +264,8 @@ def breaking_force(spec: Conveyor) -> float | None:
     return belt.breaking_force
 
 
-def drive_mass(spec: Conveyor) -> float:
-    """Motors, couplings and drive drum reduced to the rim [kg]."""
-    drive = spec.drive
+def drive_mass(drive: Drive) -> float:
+    """Motors, couplings and drum of a drive reduced to the rim [kg]."""
     per_motor = drive.motor.inertia + filled(drive.coupling_inertia)
     return inertia.reduced_drive_mass(
         drive.motor.count * per_motor,
@@ -182,13 +276,18 @@ def drive_mass(spec: Conveyor) -> float:
     )
 
 
-def starting_force(spec: Conveyor) -> float:
-    """Mean starting force of all motors at the rim [N]."""
-    drive, one = spec.drive, spec.drive.motor
+def drive_force(drive: Drive) -> float:
+    """Mean starting force of all motors of a drive at the rim [N]."""
+    one = drive.motor
     torque = one.mean_starting_torque
     if torque is None:
         torque = motor.mean_starting_torque(filled(one.largest_starting_torque), filled(one.smallest_starting_torque))
     return motor.rim_force(one.count * torque, drive.gear.ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
+
+
+def starting_force(spec: Conveyor) -> float:
+    """Mean starting force of all drives at the rim [N]."""
+    return sum(drive_force(drive) for drive in spec.all_drives.values())
 
 
 @dataclass(frozen=True, slots=True)

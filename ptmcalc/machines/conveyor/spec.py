@@ -5,11 +5,13 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import FACTOR
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.spec.fields import (
     Efficiency,
     Force,
+    Fraction,
     Height,
     Inertia,
     LineMass,
@@ -18,17 +20,20 @@ from ptmcalc.spec.fields import (
     Measure,
     PositiveAngle,
     PositiveAngularSpeed,
+    PositiveEnergy,
     PositiveForce,
     PositiveInertia,
     PositiveLength,
     PositiveLineForce,
     PositiveLineMass,
     PositiveLineStiffness,
+    PositiveMass,
     PositiveRatio,
     PositiveSpan,
     PositiveSpeed,
     PositiveTime,
     PositiveTorque,
+    Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
@@ -37,22 +42,63 @@ from ptmcalc.spec.scene import Scene
 RatioFromOne = Annotated[float, Measure(FACTOR, at_least=1)]
 
 
-class Route(Fragment):
-    """Where the belt runs: from the tail drum to the drive drum at the head."""
+class Section(Fragment):
+    """A part of the route with one slope."""
 
     length: PositiveSpan
-    """distance between tail and drive drum, along the belt"""
+    """along the belt"""
     lift: Height = 0.0
     """height the load is raised by; negative when it is lowered"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The belt cannot rise further than it is long."""
+        yield from _too_steep(given)
+
+
+class Route(Fragment):
+    """Where the belt runs: from the tail drum to the drum at the head."""
+
+    length: PositiveSpan | None = None
+    """distance between tail and head drum, along the belt; or give `sections`"""
+    lift: Height = 0.0
+    """height the load is raised by; negative when it is lowered"""
+    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
+    """parts of different slope from the tail to the head, instead of `length` and `lift`"""
     inclination: Literal["exact", "small_angle"] = "exact"
     """`small_angle` sets the cosine of the slope to 1, as ISO 5048 allows below 18 degrees"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The belt cannot rise further than it is long."""
-        lift, length = given.number("lift"), given.number("length")
-        if lift is not None and length is not None and abs(lift) >= length:
-            yield Conflict(("lift",), "the lift is not smaller than the length along the belt", "check both values")
+        """The route is one slope or several; the belt cannot rise further than it is long."""
+        yield from exactly_one(given, "length", "sections")
+        if "lift" in given and "sections" in given:
+            yield Conflict(("lift",), "the `sections` say how high the belt climbs", "delete `lift`")
+        yield from _too_steep(given)
+
+    @property
+    def parts(self) -> tuple[Section, ...]:
+        """The sections from the tail to the head, one where the slope is even."""
+        if self.sections is not None:
+            return self.sections
+        assert self.length is not None
+        return (Section.model_construct(length=self.length, lift=self.lift),)
+
+    @property
+    def span(self) -> float:
+        """Distance between tail and head along the belt [m]."""
+        return sum(part.length for part in self.parts)
+
+    @property
+    def climb(self) -> float:
+        """Height from tail to head [m]."""
+        return sum(part.lift for part in self.parts)
+
+
+def _too_steep(given: Given) -> Iterator[Conflict]:
+    lift, length = given.number("lift"), given.number("length")
+    if lift is not None and length is not None and abs(lift) >= length:
+        yield Conflict(("lift",), "the lift is not smaller than the length along the belt", "check both values")
 
 
 class Belt(Fragment):
@@ -143,6 +189,8 @@ class Resistance(Fragment):
     """secondary resistances as a force at the loading point, instead of `secondary`"""
     start_factor: RatioFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
+    stop_factor: PositiveRatio = 1.0
+    """resistance while it runs out over resistance in motion; below 1 for a warm, light-running belt"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -218,6 +266,40 @@ class Drive(Fragment):
     """the drive drum"""
 
 
+class PlacedDrive(Drive):
+    """One of several drives, each with a drum of its own."""
+
+    at: Literal["head", "tail"] = "head"
+    """where its drum is; those at the head stand in the order in which the belt meets them, the first on the tight
+    side"""
+    delay: Time = 0.0
+    """how much later than the first it is switched on in a start"""
+
+
+class Brake(Fragment):
+    """A brake on a drum or on the motor shaft of its drive."""
+
+    at: Literal["head", "tail"] = "head"
+    """where it acts; on the last drum there"""
+    torque: PositiveTorque
+    """braking torque when fully applied"""
+    shaft: Literal["drum", "motor"] = "drum"
+    """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
+    delay: Time = 0.0
+    """from the command until it begins to act"""
+    rise_time: Time = 0.0
+    """from then until its full torque, rising straight"""
+
+
+class Backstop(Fragment):
+    """A device that keeps a loaded conveyor from running back."""
+
+    torque: PositiveTorque
+    """what it holds, on the drum shaft of the head"""
+    reserve: RatioFromOne = 1.25
+    """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
+
+
 class TakeUp(Fragment):
     """What keeps the belt taut."""
 
@@ -225,6 +307,18 @@ class TakeUp(Fragment):
     """`gravity`: a weight beside the drive keeps the run-off tension; `rigid`: a screw or locked winch"""
     tension: PositiveForce
     """belt tension: at the run-off (gravity), or the mean round the loop when it was set (rigid)"""
+    mass: PositiveMass | None = None
+    """of the take-up weight with its carriage (gravity, on two falls); without it the tension stays constant"""
+    stroke: PositiveLength | None = None
+    """way the take-up can go; needed to check it"""
+    permanent_elongation: Fraction = 0.0
+    """of the belt over its life, as a share of its length; adds to the way the take-up needs"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Only a weight has a mass, and what hangs on two falls pulls with half of it."""
+        if given.word("type") == "rigid" and "mass" in given:
+            yield Conflict(("mass",), "a rigid take-up does not move", "delete `mass`, or write `type: gravity`")
 
 
 class TailDrum(Fragment):
@@ -258,6 +352,14 @@ class ConveyorChecks(CheckSettings):
     """largest sag of the belt over the idler pitch, in steady running"""
     slack_sag: PositiveRatio = DEEPEST
     """sag over idler pitch at which the belt counts as slack, in every scene"""
+    stop_distance: PositiveSpan | None = None
+    """longest way of the belt in a `stop`"""
+    emergency_stop_distance: PositiveSpan | None = None
+    """longest way of the belt in an `emergency_stop`"""
+    stop_time: PositiveTime | None = None
+    """longest time of any stop"""
+    slip_heat: PositiveEnergy | None = None
+    """largest heat a drum may burn off by slip in one scene"""
 
 
 class Profile(Fragment):
@@ -292,11 +394,11 @@ class Profile(Fragment):
 class ConveyorScene(Scene):
     """Base of the scenes of a conveyor."""
 
-    load: Literal["full", "empty"] = "full"
-    """whether the carry strand is loaded"""
+    load: Literal["full", "empty", "uphill", "downhill"] = "full"
+    """the carry strand: all loaded, empty, or loaded only on the sections that climb or that fall"""
 
     def default_name(self) -> str:
-        return f"{self.type}_{'loaded' if self.load == 'full' else 'empty'}"
+        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
 
 
 class Run(ConveyorScene):
@@ -305,19 +407,90 @@ class Run(ConveyorScene):
     type: Literal["run"] = "run"
 
 
+class Aborted(Fragment):
+    """A start that is broken off before the start proper."""
+
+    run: PositiveTime
+    """how long the drives pull"""
+    pause: Time = 0.0
+    """how long they are off before they start again"""
+
+
 class Start(ConveyorScene):
-    """A start from rest, with the friction of the running belt frozen in it."""
+    """A start from rest."""
 
     type: Literal["start"] = "start"
     profile: Profile = Profile()
     """how the drive comes up; a torque step when left out"""
+    belt: Literal["frozen", "relaxed"] = "frozen"
+    """how the belt lies: with the friction of the running belt frozen in it, or without any after a long rest"""
+    aborted: Aborted | None = None
+    """a first try that is broken off"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Only a torque can be broken off."""
+        yield from super().conflicts(given)
+        profile = given.block("profile")
+        if "aborted" not in given or profile is None or profile.word("shape") not in ("ramp", "cosine"):
+            return
+        if profile.word("control") != "torque":
+            yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")
 
 
-AnyScene = Annotated[Run | Start, Field(discriminator="type")]
+class Stopping(ConveyorScene):
+    """Base of the scenes in which a running belt comes to rest."""
+
+
+class Stop(Stopping):
+    """The drives are switched off at full speed; the belt runs out, or is braked."""
+
+    type: Literal["stop"] = "stop"
+    brakes: Literal["on", "off"] = "on"
+    """whether the brakes of the file act"""
+
+
+class EmergencyStop(Stopping):
+    """The drives fall out at full speed and all brakes come in."""
+
+    type: Literal["emergency_stop"] = "emergency_stop"
+
+
+class Coast(Stopping):
+    """The drives are switched off and no brake acts; a measured way tells the resistance."""
+
+    type: Literal["coast"] = "coast"
+    measured_distance: PositiveSpan | None = None
+    """way of a real run-out from rated speed, from which the resistance coefficient is computed"""
+
+
+class Jam(ConveyorScene):
+    """A drum is blocked at full speed, from one moment to the next."""
+
+    type: Literal["jam"] = "jam"
+    at: Literal["head", "tail"] = "head"
+    """the drum that jams; the drives at the other end go on"""
+    duration: PositiveTime | None = None
+    """how long the belt is looked at; twice round the belt for a wave when left out"""
+
+
+class Hold(ConveyorScene):
+    """A loaded belt stands still with its drives off."""
+
+    type: Literal["backstop"] = "backstop"
+
+
+IN_MOTION: frozenset[type[Scene]] = frozenset({Start, Stop, EmergencyStop, Coast, Jam})
+"""Scenes in which the belt does not run evenly."""
+
+AnyScene = Annotated[
+    Run | Start | Stop | EmergencyStop | Coast | Jam | Hold,
+    Field(discriminator="type"),
+]
 
 
 class Conveyor(MachineSpec):
-    """A belt conveyor with one drive drum at the head."""
+    """A belt conveyor with drive drums at the head, at the tail or at both."""
 
     kind: Literal["conveyor"]
     route: Route
@@ -332,8 +505,14 @@ class Conveyor(MachineSpec):
     """resistance to motion"""
     speed: PositiveSpeed
     """belt speed"""
-    drive: Drive
-    """motors, gear and drum"""
+    drive: Drive | None = None
+    """motors, gear and drum at the head; or give `drives`"""
+    drives: Annotated[dict[str, PlacedDrive], Field(min_length=1, max_length=8)] | None = None
+    """several drives by name, instead of `drive`"""
+    brakes: dict[str, Brake] = Field(default_factory=dict)
+    """brakes by name"""
+    backstop: Backstop | None = None
+    """what keeps it from running back"""
     takeup: TakeUp
     """the take-up"""
     tail_drum: TailDrum = TailDrum()
@@ -347,10 +526,20 @@ class Conveyor(MachineSpec):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The secondary resistances of a short conveyor are not in the table."""
+        """The machine has one drive or several, one of them at the head; the secondary resistances of a short conveyor
+        are not in the table."""
         yield from super().conflicts(given)
+        yield from exactly_one(given, "drive", "drives")
+        drives = given.raw.get("drives")
+        if (
+            isinstance(drives, dict)
+            and drives
+            and all(isinstance(drive, dict) and drive.get("at") == "tail" for drive in drives.values())
+        ):
+            reason = "no drive is at the head: take-up and tension are counted from there"
+            yield Conflict(("drives",), reason, "turn the route round, so that the drive is at its head")
         route, resistance = given.block("route"), given.block("resistance")
-        length = route.number("length") if route else None
+        length = _whole_length(route) if route else None
         if length is None or length >= 80 or resistance is None:
             return
         if "secondary" not in resistance and "secondary_force" not in resistance:
@@ -359,9 +548,40 @@ class Conveyor(MachineSpec):
             yield Conflict(("resistance",), reason, hint)
 
     @property
-    def all_scenes(self) -> Sequence[Run | Start]:
+    def all_scenes(self) -> Sequence[ConveyorScene]:
         return self.scenes or self.DEFAULT_SCENES
+
+    @property
+    def all_drives(self) -> dict[str, PlacedDrive]:
+        """Every drive by its name; a single one is called `head`."""
+        if self.drives is not None:
+            return self.drives
+        assert self.drive is not None
+        given = {name: getattr(self.drive, name) for name in Drive.model_fields}
+        return {"head": PlacedDrive.model_construct(at="head", delay=0.0, **given)}
+
+    @property
+    def main_drive(self) -> PlacedDrive:
+        """The first drive at the head."""
+        return next(drive for drive in self.all_drives.values() if drive.at == "head")
+
+    def drive_path(self, name: str) -> KeyPath:
+        """Where a drive stands in the file."""
+        return ("drive",) if self.drives is None else ("drives", name)
+
+    @property
+    def main_path(self) -> KeyPath:
+        """Where the first drive at the head stands in the file."""
+        return self.drive_path(next(name for name, drive in self.all_drives.items() if drive.at == "head"))
 
     @property
     def settings(self) -> ConveyorChecks:
         return self.checks
+
+
+def _whole_length(route: Given) -> float | None:
+    """Length of a route as far as it is given."""
+    if "sections" not in route:
+        return route.number("length")
+    parts = [part.number("length") if part else None for part in route.blocks("sections")]
+    return sum(part for part in parts if part is not None) if None not in parts else None

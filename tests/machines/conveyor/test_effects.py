@@ -35,19 +35,28 @@ STIFF_AND_LOOSE = changed(
     accuracy="1 %",
     checks={"slack_sag": "1.01 %"},
 )
+RELAXED = changed(
+    template(),
+    scenes=[{"type": "start", "belt": "relaxed"}],
+    effects={"sag": "off"},
+    checks={"belt_safety_starting": 9},
+)
+SWINGING_WEIGHT = changed(ONE_START, takeup__mass="6.1 t", effects={"sag": "off"})
 CHANGED_VERDICTS = [
     ("belt_wave", changed(ONE_START, checks={"slip": {"reserve": 1.35}}), "CNV101"),
     ("tail_jump", changed(ONE_START, checks={"slip": {"reserve": 1.28}}), "CNV101"),
     ("tail_mass", HEAVY_TAIL, "CNV101"),
     ("slip", WEAK_GRIP, "CNV102"),
     ("sag", STIFF_AND_LOOSE, "CNV105"),
+    ("coulomb_idlers", RELAXED, "CNV102"),
+    ("takeup_mass", SWINGING_WEIGHT, "CNV101"),
 ]
 
 
 def _criteria() -> dict[str, list[tuple[float, float]]]:
     """(number, threshold) of every effect over all scenes of all design files."""
     found: dict[str, list[tuple[float, float]]] = {}
-    for path in sorted(SPECS.glob("*.yaml")):
+    for path in sorted(SPECS.rglob("*conveyor*.yaml")):
         spec = load_file(path, path.name).spec
         assert spec is not None
         for scene in plan(KIND, spec).scenes:

@@ -2,8 +2,21 @@
 
 from ptmcalc.machines.conveyor.solvers.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.solvers.first_wave import FIRST_WAVE
+from ptmcalc.machines.conveyor.solvers.network import NETWORK
 from ptmcalc.machines.conveyor.solvers.rigid import RIGID
+from ptmcalc.machines.conveyor.solvers.standing import BRAKING, HOLDING, IDENTIFY, RIGID_STOP
 from ptmcalc.machines.conveyor.solvers.statics import STATICS
 from ptmcalc.machines.conveyor.solvers.two_interval import TWO_INTERVAL
 
-SOLVERS = (STATICS, RIGID, FIRST_WAVE, TWO_INTERVAL, CHARACTERISTICS)
+SOLVERS = (
+    STATICS,
+    HOLDING,
+    BRAKING,
+    IDENTIFY,
+    RIGID_STOP,
+    RIGID,
+    FIRST_WAVE,
+    TWO_INTERVAL,
+    CHARACTERISTICS,
+    NETWORK,
+)

@@ -15,7 +15,7 @@ from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
-from ptmcalc.machines.conveyor.model import StartCase, start_case
+from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, sagging, strand
 
@@ -383,6 +383,9 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
     **Error** exact.
     **Source** the belt moves when the drive's force exceeds the static resistance.
     """
+    plain = plainness(spec, scene)
+    if plain.exceeded:
+        return plain
     case = start_case(spec, scene)
     return Criterion(
         "W/F",

@@ -8,7 +8,7 @@ from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.model import start_case
+from ptmcalc.machines.conveyor.model import plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
 
@@ -50,6 +50,9 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
     **Error** none: a yes or no.
     **Source** lecture notes Kramatorsk 2007.
     """
+    plain = plainness(spec, scene)
+    if plain.exceeded:
+        return plain
     case = start_case(spec, scene)
     step = scene.profile.shape == "step" and case.moves
     return Criterion(

@@ -1,11 +1,15 @@
 """A start of the rigid body: closed form. Its error bar is the bound of the belt's waves."""
 
+import math
+
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import belt_modes
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.loads import LOADS
-from ptmcalc.machines.conveyor.model import start_case
+from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_START
+from ptmcalc.machines.conveyor.model import is_plain, start_case
+from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
 
@@ -22,6 +26,12 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     """
     case = start_case(spec, scene)
     loads = bounds.scalar_loads(case) | bounds.rigid_loads(case)
+    if not is_plain(spec, scene):
+        loads["start_time_rigid"] = moving(spec, scene).rigid_time if case.moves else math.inf
+    loads["start_time"] = loads["start_time_rigid"]
+    weight = spec.takeup.mass or 0.0
+    for number, frequency in enumerate(belt_modes.natural_frequencies(case.masses, weight, FREQUENCIES), 1):
+        loads[of("natural_frequency", str(number))] = float(frequency)
     window = (0.0, case.held + case.window)
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1, window=window)
 
@@ -32,7 +42,7 @@ RIGID: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=frozenset(info.name for info in LOADS),
+    gives=OF_BELT.union(DRIVE, OF_START),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-4,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",

@@ -1,49 +1,143 @@
-"""Steady running: tensions strand by strand."""
+"""Steady running: tensions strand by strand, power, and what tension the belt asks for."""
 
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.loads import OF_BELT
-from ptmcalc.machines.conveyor.model import belt_line
+from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, filled, load_line_mass
+from ptmcalc.machines.conveyor.moving import running, share
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
+
+_OF_RUNNING = frozenset(
+    {
+        "static_resistance",
+        "effective_tension",
+        "effective_tension_worst",
+        "power_drive_running",
+        "power_drive_empty",
+        "power_motor_running",
+        "sag_tension_required",
+        "slack_side_tension_required",
+        "takeup_travel",
+        "takeup_mass",
+        "belt_cycle_time",
+    }
+)
 
 
 def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Tensions of a steadily running belt from the drum's run-off round the loop.
+    """Tensions of a steadily running belt from the head's run-off round the loop.
 
         S(s) = S_off + integral of (resistance + gradient) ds;   S_on = S_off + W
 
     with S_off the take-up's (gravity) or such that the mean round the loop is the mounting tension (rigid: the
-    total elongation of the belt does not change when it runs).
+    total elongation of the belt does not change when it runs). Several drives share W as their torques do.
 
-    **Range** one drive drum at the head; take-up beside it; friction independent of speed.
+    **Range** the take-up behind the head's drums; friction independent of speed.
     **Error** exact for that model: a sum of the given resistances.
     **Source** ISO 5048:1989; DIN 22101; mean tension of a fixed loop derived from constant elongation.
     """
-    line = belt_line(spec, scene)
-    ends = line.static_ends(RETURN) + line.static_ends(CARRY)
+    line = running(spec, scene)
+    places, tensions = _round_the_loop(line)
+    high, low = int(np.argmax(tensions)), int(np.argmin(tensions))
     loads = {
         "static_resistance": line.static_resistance,
         "tension_run_on_max": line.run_on,
         "tension_run_off_min": line.run_off,
-        "tension_max": max(ends),
-        "tension_min": min(ends),
+        "tension_max": float(tensions[high]),
+        "tension_min": float(tensions[low]),
     }
-    loads |= bounds.derived_loads(line, max(ends), (min(line.static_ends(RETURN)), min(line.static_ends(CARRY))))
-    if line.grip_exponent is not None:
-        loads |= bounds.slip_loads(
-            line.grip_exponent, [bounds.Sides(line.run_on, line.run_off, line.centrifugal_at_speed)]
-        )
-    position = np.array([0.0, line.back.length, line.back.length, line.back.length + line.carry.length])
-    places = {
-        "tension_max": {"position": float(position[int(np.argmax(ends))])},
-        "tension_min": {"position": float(position[int(np.argmin(ends))])},
+    back = len(line.back.marks)
+    lows = float(tensions[:back].min()), float(tensions[back:].min())
+    loads |= bounds.derived_loads(line, float(tensions[high]), lows)
+    loads |= _of_drives(spec, line)
+    loads |= _of_running(spec, scene, line, places, tensions)
+    at = {"tension_max": {"position": float(places[high])}, "tension_min": {"position": float(places[low])}}
+    return Result({name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}, work=1)
+
+
+def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:
+    """Places from the head's run-off on [m] and the tensions there [N]; the tail is there twice."""
+    back, carry = line.static_ends(RETURN)[0] + line.back.rises, line.static_ends(CARRY)[0] + line.carry.rises
+    places = np.concatenate([line.back.marks, np.add(line.back.length, line.carry.marks)])
+    return places, np.concatenate([back, carry])
+
+
+def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
+    """Tensions and grip of every drive, and the worst of them."""
+    shares, whole = share(spec), line.static_resistance + line.tail_pull
+    loads: dict[str, float] = {}
+    worst: list[dict[str, float]] = []
+    for at, behind in (("head", line.run_off), ("tail", line.static_ends(CARRY)[0])):
+        drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
+        for name, drive in reversed(drives):
+            above = behind + shares[name] * whole
+            loads[of("tension_run_on_max", name)], loads[of("tension_run_off_min", name)] = above, behind
+            if drive.drum.friction is not None:
+                sides = [bounds.Sides(above, behind, line.centrifugal_at_speed)]
+                worst.append(bounds.slip_loads(drive.drum.friction * drive.drum.wrap, sides))
+                loads |= {of(load, name): value for load, value in worst[-1].items()}
+            behind = above
+    if len(worst) == len(spec.all_drives):
+        loads["slip_utilisation_max"] = max(one["slip_utilisation_max"] for one in worst)
+        loads["slip_reserve_min"] = min(one["slip_reserve_min"] for one in worst)
+    return loads
+
+
+def _of_running(
+    spec: Conveyor, scene: Run, line: BeltLine, places: FloatArray, tensions: FloatArray
+) -> dict[str, float]:
+    """Power, worst part loaded, tensions asked for, take-up."""
+    pull = line.static_resistance + line.tail_pull
+    empty = running(spec, scene.model_copy(update={"load": "empty"}))
+    nothing = empty.static_resistance + empty.tail_pull
+    efficiency = filled(spec.main_drive.gear.efficiency)
+    mean = belt_resistance.mean_tension(np.diff(places), tensions)
+    mounting = spec.takeup.tension
+    loads = {
+        "effective_tension": pull,
+        "effective_tension_worst": nothing + _worst_load(spec),
+        "power_drive_running": float(belt_resistance.shaft_power(pull, line.speed)),
+        "power_drive_empty": float(belt_resistance.shaft_power(nothing, line.speed)),
+        "power_motor_running": float(belt_resistance.motor_power(pull * line.speed, efficiency)),
+        "belt_cycle_time": belt_resistance.cycle_time(line.back.length + line.carry.length, line.speed),
+        "takeup_travel": float(
+            belt_resistance.takeup_travel(
+                line.back.length + line.carry.length,
+                mean,
+                mounting,
+                line.stiffness,
+                spec.takeup.permanent_elongation,
+                2,
+            )
+        ),
     }
-    return Result({name: Found(Estimate.exact(value), places.get(name, {})) for name, value in loads.items()}, work=1)
+    if not line.fixed_length:
+        loads["takeup_mass"] = float(belt_resistance.takeup_mass(mounting, 2, spec.gravity))
+    spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span is not None]
+    if len(spans) == 2:
+        loads["sag_tension_required"] = max(float(sag.tension_at_sag(span, spec.checks.sag)) for span in spans)
+    at_head = [drive.drum for drive in spec.all_drives.values() if drive.at == "head"]
+    grips = [drum.friction * drum.wrap for drum in at_head if drum.friction is not None]
+    if len(grips) == len(at_head):
+        needed = max(line.static_resistance, 0.0) * spec.checks.slip.reserve
+        loads["slack_side_tension_required"] = needed / float(np.expm1(sum(grips)))
+    return loads
+
+
+def _worst_load(spec: Conveyor) -> float:
+    """Pull of the load when only those sections are full where it pulls back [N]."""
+    parts, given = spec.route.parts, spec.resistance
+    factor = 1.0 if given.secondary_force is not None else filled(given.secondary)
+    length, lift = np.array([part.length for part in parts]), np.array([part.lift for part in parts])
+    coefficient = filled(given.coefficient) * factor
+    pulls = strand_tension.load_pull(length, lift, load_line_mass(spec), coefficient, spec.gravity)
+    return float(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
 
 
 STATICS: Solver[Conveyor, Run] = Solver(
@@ -52,7 +146,7 @@ STATICS: Solver[Conveyor, Run] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=OF_BELT - {"tension_dynamic_run_on_max"} | {"static_resistance"},
+    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(_OF_RUNNING, PER_DRIVE - {"slip_distance", "slip_heat"}),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-5,
     source="ISO 5048:1989; DIN 22101",

@@ -10,7 +10,7 @@ from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
 from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.model import StartCase, start_case
+from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 
 
@@ -62,6 +62,9 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
     **Error** none: the range of a closed form.
     **Source** `laws.wave.two_interval_force`; thresholds of the effects `tail_jump` and `tail_mass`.
     """
+    plain = plainness(spec, scene)
+    if plain.exceeded:
+        return plain
     case = start_case(spec, scene)
     ratio = math.inf
     if case.shape == "step" and not case.line.fixed_length and case.moves:

@@ -1,0 +1,301 @@
+"""The whole belt in cells: any route and load, several drives, brakes, jams, idlers that stick and slide.
+
+Bars come from three grids, each with twice the cells of the one before, load by load. With d the last difference of a
+load and r its ratio to the one before, the differences still to come sum up to d r/(1 - r); the bar is three times
+that, with r not taken below 1/4 (second order; two grids may agree by chance) nor above 0.9. Of all tensions, which
+share their waves, none has a bar below a quarter of the largest. On a front of sticking or slipping the order is one.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Event, Finding, Found, Result, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import capstan
+from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
+from ptmcalc.machines.conveyor.moving import Moving, Set, moving, set_up
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
+from ptmcalc.numerics import peaks
+from ptmcalc.numerics.belt.march import Drawn, march
+from ptmcalc.numerics.belt.station import Seen, Station
+
+_CELLS = 60
+_MARGIN, _SECOND_ORDER, _SLOWEST = 3.0, 0.25, 0.9
+_ROUNDING = 1e-12
+_TENSION_LIKE = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tension_max", "tension_min"})
+_SECONDS_PER_STEP, _SECONDS_PER_CELL = 4e-5, 1.2e-8
+
+Values = dict[str, tuple[float, dict[str, float]]]
+"""Loads of one grid: the value, and where and when."""
+
+
+def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene in which the belt moves, from three grids.
+
+    **Range** any scene in motion; a belt whose tension falls below 0 is not what this computes, and says so.
+    **Error** as the module says: an estimate from three grids, held on the seeded sample of the coverage tests.
+    **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
+    """
+    case = moving(spec, scene)
+    runs = [_once(case, carried, (_CELLS << level) << refined) for refined in range(3)]
+    coarsest, coarse, fine = (loads for loads, _ in runs)
+    drawn, ready = runs[-1][1]
+    bars = _bars(coarsest, coarse, fine)
+    found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
+    health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
+    return Result(
+        found,
+        work=sum(part[1][0].updates for part in runs),
+        window=(0.0, float(drawn.times[-1])),
+        health=health,
+        findings=tuple(_findings(case, drawn)),
+        events=tuple(_events(drawn, ready)),
+    )
+
+
+def _once(case: Moving, carried: frozenset[str], cells: int) -> tuple[Values, tuple[Drawn, Set]]:
+    ready = set_up(case, carried, cells)
+    drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, _still(case))
+    return _loads(case, drawn, ready), (drawn, ready)
+
+
+def _still(case: Moving) -> Callable[[float, Seen], bool] | None:
+    """Ends the march of a stop: so long after the first drum at the head came to rest."""
+    if not case.brings_to_rest:
+        return None
+    rested: list[float] = []
+
+    def still(time: float, head: Seen) -> bool:
+        if not rested and head.belt <= 0:
+            rested.append(time)
+        return bool(rested) and time >= rested[0] + 2 * case.line.contour_time
+
+    return still
+
+
+# -- loads of one grid ----------------------------------------------------------------------------------------------
+
+
+def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
+    line, step = case.line, ready.course.step
+    head, belt = drawn.head, np.array([seen.belt for seen in drawn.head])
+    values: Values = {}
+    for station, history in ((ready.head, head), (ready.tail, drawn.tail)):
+        values |= _of_drives(case, station, history, step)
+    on = np.array([seen.tensions[0] for seen in head])
+    off = np.array([seen.tensions[-1] for seen in head])
+    top, top_at = peaks.largest(on, step)
+    low, low_at = peaks.smallest(off, step)
+    values["tension_run_on_max"] = top, {"time": top_at}
+    values["tension_dynamic_run_on_max"] = top - line.run_on, {"time": top_at}
+    values["tension_run_off_min"] = low, {"time": low_at}
+    length = ready.course.places[-1]
+    ends_high = [(top, top_at, length), *((e.value, e.time, e.place) for e in (drawn.back_max, drawn.carry_max))]
+    ends_low = [(low, low_at, 0.0), *((e.value, e.time, e.place) for e in (drawn.back_min, drawn.carry_min))]
+    high, lowest = max(ends_high), min(ends_low)
+    values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
+    values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
+    smallest = min(drawn.back_min.value, low), min(drawn.carry_min.value, float(on.min()))
+    for name, value in bounds.derived_loads(line, high[0], smallest).items():
+        values[name] = value, {}
+    used = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_utilisation_max[")]
+    left = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_reserve_min[")]
+    if used and len(left) == len(used):
+        values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
+        values["slip_reserve_min"] = min(left, key=lambda one: one[0])
+    if not line.fixed_length:
+        apart = belt - np.array([seen.behind for seen in head])
+        way = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
+        values["takeup_movement"] = float(way.max() - way.min()), {}
+    if case.brings_to_rest:
+        values |= _rest(case, belt, drawn.times)
+    if case.imposed is not None and isinstance(case.scene, Start):
+        values |= _asked(case, drawn, ready)
+    return values
+
+
+def _asked(case: Moving, drawn: Drawn, ready: Set) -> Values:
+    """Force that an imposed speed asks of the drives together, sum (m v' + S_on - S_off), over the available one."""
+    step = ready.course.step
+    force = np.zeros(len(drawn.times))
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        if station.imposed is None:
+            continue
+        speed = np.array([seen.belt for seen in history])
+        mass = sum(drum.mass for drum in station.drums)
+        force += np.array([seen.tensions[0] - seen.tensions[-1] for seen in history]) + mass * np.gradient(speed, step)
+    needed, at = peaks.largest(force, step)
+    available = starting_force(case.spec)
+    reserve = available / needed if needed > 0 else math.inf
+    return {"starting_force_needed": (needed, {"time": at}), "starting_reserve": (reserve, {})}
+
+
+def _rest(case: Moving, belt: FloatArray, times: FloatArray) -> Values:
+    """When and where the belt at the head comes to rest for the first time."""
+    stopped = np.flatnonzero(belt <= 0)
+    if not len(stopped):
+        return {name: (math.inf, {}) for name in ("stop_time", "stop_distance")}
+    last = int(stopped[0])
+    step = float(times[1])
+    way = float((belt[1:last] + belt[: last - 1]).sum()) / 2 * step if last > 1 else 0.0
+    before = float(belt[last - 1])
+    slope = (float(belt[last - 2]) - before) / step if last > 1 else 0.0
+    part = min(before / slope, step) if slope > 0 else step
+    name = "coast_distance" if case.scene.type == "coast" else "stop_distance"
+    return {"stop_time": (float(times[last - 1]) + part, {}), name: (way + before * part / 2, {})}
+
+
+def _of_drives(case: Moving, station: Station, history: tuple[Seen, ...], step: float) -> Values:
+    """Loads of the drums that have a drive."""
+    values: Values = {}
+    names = case.spec.all_drives
+    for index, drum in enumerate(station.drums):
+        if drum.name not in names:
+            continue
+        on = np.array([seen.tensions[index] for seen in history])
+        off = np.array([seen.tensions[index + 1] for seen in history])
+        top, top_at = peaks.largest(on, step)
+        low, low_at = peaks.smallest(off, step)
+        values[of("tension_run_on_max", drum.name)] = top, {"time": top_at}
+        values[of("tension_run_off_min", drum.name)] = low, {"time": low_at}
+        given = names[drum.name].drum
+        if given.friction is None:
+            continue
+        belt = np.array([seen.belt for seen in history])
+        tight, slack = np.maximum(on, off), np.minimum(on, off)
+        lift = case.line.belt_line_mass * belt**2
+        exponent = given.friction * given.wrap
+        slipped = any(seen.slips[index] for seen in history)
+        if slipped:
+            first = next(k for k, seen in enumerate(history) if seen.slips[index])
+            used, at = math.nextafter(1, 2), first * step
+            reserve = math.nextafter(1, 0)
+        else:
+            used, at = _largest(capstan.slip_utilisation(tight, slack, lift, exponent), step)
+            ratio, _ = _largest(capstan.slip_utilisation(tight, slack, 0.0, exponent), step)
+            reserve = capstan.slip_reserve_ratio(ratio, exponent)
+        values[of("slip_utilisation_max", drum.name)] = used, {"time": at}
+        values[of("slip_reserve_min", drum.name)] = reserve, {"time": at}
+        values[of("slip_distance", drum.name)] = float(station.slid[index]), {}
+        values[of("slip_heat", drum.name)] = float(station.heat[index]), {}
+    return values
+
+
+def _largest(history: FloatArray, step: float) -> tuple[float, float]:
+    """Largest value of a history and its time; the first infinite sample where there is one."""
+    if np.isfinite(history).all():
+        return peaks.largest(history, step)
+    at = int(np.argmax(history))
+    return float(history[at]), at * step
+
+
+# -- bars -----------------------------------------------------------------------------------------------------------
+
+
+def _bars(coarsest: Values, coarse: Values, fine: Values) -> dict[str, float]:
+    """Bars of all loads of the finest grid."""
+    bars = {}
+    for name, (value, _) in fine.items():
+        known = [grid[name][0] if name in grid else math.inf for grid in (coarsest, coarse)]
+        bars[name] = _still_to_come(known[0], known[1], value)
+    shared = [name for name in fine if name.partition("[")[0] in _TENSION_LIKE | {"tension_run_off_min"}]
+    least = max((bars[name] for name in shared), default=0.0) / 4
+    for name in shared:
+        exact = fine[name][0] == coarse.get(name, (math.nan,))[0] == coarsest.get(name, (math.nan,))[0]
+        bars[name] = max(bars[name], 0.0 if exact else least) + _ROUNDING * abs(fine[name][0])
+    return bars
+
+
+def _still_to_come(one: float, two: float, three: float) -> float:
+    if one == two == three:
+        return 0.0
+    if not all(map(math.isfinite, (one, two, three))):
+        return math.inf
+    before, last = abs(two - one), abs(three - two)
+    last = max(last, _SECOND_ORDER * before)
+    ratio = min(max(last / before, _SECOND_ORDER), _SLOWEST) if before > 0 else _SECOND_ORDER
+    return _MARGIN * last * ratio / (1 - ratio)
+
+
+def _estimate(name: str, value: float, bar: float) -> Estimate:
+    if not math.isfinite(value):
+        return Estimate.exact(value)
+    if not math.isfinite(bar):
+        return Estimate(value, -math.inf, math.inf, numerical=math.inf)
+    return Estimate.within(value, bar)
+
+
+# -- what is said besides -------------------------------------------------------------------------------------------
+
+
+def _findings(case: Moving, drawn: Drawn) -> Iterator[Finding]:
+    for low in (drawn.back_min, drawn.carry_min):
+        if low.value < 0:
+            yield Finding(
+                "NUM102",
+                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off; what the"
+                " simulation says of the time after that is not trusted",
+            )
+
+
+def _events(drawn: Drawn, ready: Set) -> Iterator[Event]:
+    words = {0: "sticks", 1: "slips, ahead of the belt", -1: "slips, behind the belt"}
+    found = []
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        for index, drum in enumerate(station.drums):
+            before = 0
+            for k, seen in enumerate(history):
+                if seen.slips[index] != before:
+                    found.append(Event(float(drawn.times[k]), drum.name, words[before], words[seen.slips[index]]))
+                    before = seen.slips[index]
+    yield from sorted(found, key=lambda event: event.time)
+
+
+def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from steps and cells of the three grids."""
+    case = moving(spec, scene)
+    cells = _CELLS << level
+    steps = case.window / case.line.contour_time * cells
+    return 1e-3 + 7 * steps * _SECONDS_PER_STEP + 21 * steps * cells * _SECONDS_PER_CELL
+
+
+def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+    """Whether there is a motion to simulate that the cheaper and sharper delay lines do not carry.
+
+        W/F, static resistance over available force: at 1 the belt stays at rest;   1 for a plain start
+
+    **Range** any scene in motion.
+    **Error** exact.
+    **Source** the belt moves when the drives' force exceeds the static resistance; `solvers.characteristics` is exact
+    between drum and tail where a start is plain.
+    """
+    if not isinstance(scene, Start):
+        return None
+    if delay_lines_do(spec, scene):
+        return Criterion("plain", 1.0, 1.0, "a plain start, which the delay lines carry", "solvers.characteristics")
+    case = moving(spec, scene)
+    if case.imposed is None and case.window <= 0:
+        return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+    return None
+
+
+NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
+    name="network",
+    title="the whole belt in cells: drives, brakes, idlers that stick and slide",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=IN_MOTION,
+    represents=frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers", "takeup_mass"}),
+    gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
+    run=run,
+    cost=cost,
+    source="method of characteristics with lumped idlers; derived in ptmcalc.numerics.belt",
+    valid=valid,
+    always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
+    levels=3,
+)

@@ -1,0 +1,153 @@
+"""Stops and standstill of the rigid conveyor: what the brakes and the backstop have to hold, what a run-out tells."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import stopping
+from ptmcalc.machines.conveyor.loads import OF_STOP
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filled
+from ptmcalc.machines.conveyor.moving import moving, moving_mass, running
+from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
+
+
+def _exactly(loads: dict[str, float]) -> Result:
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+
+
+def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Torque on the drum shaft that stops the rigid conveyor within the way of the file, and its pull on the belt.
+
+        M = (m v^2/(2 s) - W) R,  not below 0;   S_ov = m_belt v^2/(2 s)
+
+    W > 0 opposes the motion and helps; downhill it may drive. m holds everything that moves, rotors included.
+
+    **Range** uniform deceleration, the brake at full torque from the first moment.
+    **Error** exact for the rigid conveyor; delay, rise and waves are in the simulated way.
+    **Source** lecture notes Kramatorsk 2007, signed form.
+    """
+    key = "emergency_stop_distance" if isinstance(scene, EmergencyStop) else "stop_distance"
+    way = getattr(spec.checks, key)
+    if way is None:
+        return Result({}, work=1)
+    line = running(spec, scene)
+    resistance = line.static_resistance + line.tail_pull
+    force = float(stopping.braking_force(moving_mass(line), line.speed, way)) - resistance
+    belt = moving_mass(line) - line.drive_mass
+    return _exactly(
+        {
+            "brake_torque_required": max(force, 0.0) * spec.main_drive.drum.diameter / 2,
+            "tension_overload_braking": float(stopping.braking_force(belt, line.speed, way)),
+        }
+    )
+
+
+def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) -> Result:
+    """Resistance coefficient that a measured run-out tells.
+
+        m v^2/2 = s (f N + H),   f = (m v^2/(2 s) - H)/N
+
+    N s f is the idlers' work with the factor C of the file, H the lift.
+
+    **Range** a run-out from rated speed without brakes, gears engaged; secondary forces taken off H.
+    **Error** twice that of the speed, once that of the way.
+    **Source** lecture notes Kramatorsk 2007: energy of the run-out.
+    """
+    way = scene.measured_distance
+    if way is None:
+        return Result({}, work=1)
+    line = belt_line(spec, scene)
+    friction, lift = _friction_per_coefficient(spec, line)
+    found, _ = stopping.coast_down_coefficient(moving_mass(line), lift, friction, 1.0, line.speed, way, 0.0, 0.0)
+    return _exactly({"resistance_coefficient_identified": float(found)})
+
+
+def _friction_per_coefficient(spec: Conveyor, line: BeltLine) -> tuple[float, float]:
+    """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
+    used = filled(spec.resistance.coefficient) * spec.resistance.stop_factor
+    friction = line.back.friction[-1] + line.carry.friction[-1]
+    return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force
+
+
+def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Result:
+    """Torque on the head's drum shaft with which the stopped belt wants to run back.
+
+        M = (H - W_idlers) D/2,  not below 0
+
+    Only climbing sections are loaded (the worst part), the resistance is the running one, lowered by `stop_factor`.
+
+    **Range** standstill; not the blow of a backstop that engages with play.
+    **Error** exact but for the coefficient.
+    **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
+    """
+    worst = scene.model_copy(update={"load": "uphill"}) if scene.load == "full" else scene
+    lines = [belt_line(spec, one) for one in (scene, worst)]
+    force = max(-_rest(spec, line) for line in lines)
+    return _exactly({"backstop_torque": float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))})
+
+
+def _rest(spec: Conveyor, line: BeltLine) -> float:
+    """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
+    lowest = spec.resistance.stop_factor
+    friction = line.back.friction[-1] + line.carry.friction[-1]
+    return lowest * (friction + line.tail_force) - line.back.climb[-1] - line.carry.climb[-1]
+
+
+def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Time and way of the rigid conveyor to rest, brakes with delay and rise.
+
+        M v' = -(W + B(t))
+
+    **Range** any stop; infinite where nothing stops it.
+    **Error** none of its own; the belt at the head of a long conveyor stops earlier or later than its mean.
+    **Source** Newton's law.
+    """
+    case = moving(spec, scene)
+    name = "coast_distance" if isinstance(scene, Coast) else "stop_distance"
+    return _exactly({"stop_time": case.rigid_time, name: case.rigid_way})
+
+
+BRAKING: Solver[Conveyor, ConveyorScene] = Solver(
+    name="brake_statics",
+    title="brake torque for the way of the file",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Stop, EmergencyStop}),
+    represents=frozenset(),
+    gives=frozenset({"brake_torque_required", "tension_overload_braking"}),
+    run=brake,
+    cost=lambda spec, scene, carried, level: 5e-5,
+    source="lecture notes Kramatorsk 2007, signed form",
+)
+IDENTIFY: Solver[Conveyor, Coast] = Solver(
+    name="run_out",
+    title="resistance coefficient of the measured way",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Coast}),
+    represents=frozenset(),
+    gives=frozenset({"resistance_coefficient_identified"}),
+    run=identify,
+    cost=lambda spec, scene, carried, level: 5e-5,
+    source="lecture notes Kramatorsk 2007",
+)
+HOLDING: Solver[Conveyor, Hold] = Solver(
+    name="holding",
+    title="what wants to run back",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Hold}),
+    represents=frozenset(),
+    gives=frozenset({"backstop_torque"}),
+    run=hold,
+    cost=lambda spec, scene, carried, level: 5e-5,
+    source="lecture notes Kramatorsk 2007",
+)
+RIGID_STOP: Solver[Conveyor, ConveyorScene] = Solver(
+    name="rigid_stop",
+    title="textbook stop of the rigid conveyor",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Stop, EmergencyStop, Coast}),
+    represents=frozenset(),
+    gives=OF_STOP,
+    run=rigid_stop,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="Newton's law",
+    decides=False,
+)

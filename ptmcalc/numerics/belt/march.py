@@ -1,0 +1,218 @@
+"""The whole belt in time: transport along the cells, friction at the nodes, the stations at head and tail.
+
+At a node between cells the arriving waves give the belt speed with friction that sticks or slides, event-free:
+
+    q = P - N,   v = sgn q max(|q| - W, 0)/(Z_u + Z_d + K),   N + 2 Z_u v goes upstream, P - 2 Z_d v downstream
+
+**Error** exact transport; second order in the step while all of the belt slides, first order where a front of sticking
+or slipping moves.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.belt.course import Course, FloatArray
+from ptmcalc.numerics.belt.station import Place, Seen, Station
+
+MOST_UPDATES = 4_000_000_000
+_BLOCK = 64
+_ROUNDING = 1e-9
+"""Share of the energy in a belt below which what it exchanges is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A value [N], its time [s] and its place along the belt from the head's run-off [m]."""
+
+    value: float
+    time: float
+    place: float
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """What a belt did: histories at the stations, extremes of the tension on both strands, sums."""
+
+    times: FloatArray
+    head: tuple[Seen, ...]
+    tail: tuple[Seen, ...]
+    back_max: Extreme
+    back_min: Extreme
+    carry_max: Extreme
+    carry_min: Extreme
+    friction_work: float
+    """what friction and drag took, those lumped at head and tail included [J]"""
+    energy_residual: float
+    stretched: float
+    """change of the elongation of the belt from start to end [m]"""
+    updates: int
+
+
+def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
+    """The place of a station: at the tail's node, or at the head (node 0), where the first and the last node meet."""
+    if node == 0:
+        return Place(
+            float(course.before[-1]),
+            float(course.after[0]),
+            float(course.climb[-1]),
+            0.0,
+            float(course.friction[-1]),
+            float(course.friction[0]),
+            float(course.drag[-1]),
+            float(course.drag[0]),
+            belt_line_mass,
+        )
+    before, after, climb = float(course.before[node]), float(course.after[node]), float(course.climb[node])
+    friction, drag = float(course.friction[node]), float(course.drag[node])
+    return Place(before, after, climb, climb, friction, 0.0, drag, 0.0, belt_line_mass)
+
+
+def march(
+    course: Course,
+    head: Station,
+    tail: Station,
+    tension: FloatArray,
+    speed: float,
+    window: float,
+    still: Callable[[float, Seen], bool] | None = None,
+) -> Drawn:
+    """Carry the belt from its tensions in every cell (without gravity's part) and one speed through the window [s].
+
+    Args:
+        course: cells of the belt.
+        head: drums at the head.
+        tail: drums at the tail.
+        tension: tension of every cell less that of gravity, shape (cells,) [N].
+        speed: belt speed at the start [m/s].
+        window: time to march [s].
+        still: ends the march early.
+
+    Raises:
+        NumericsError: NUM101 when the window needs too many cell updates.
+    """
+    step, cells = course.step, course.cells
+    steps = int(np.ceil(window / step - 1e-9))
+    if steps * cells > MOST_UPDATES:
+        raise NumericsError("NUM101", f"the belt would need {steps} steps of {cells} cells")
+    impedance = course.cell_impedance
+    against, along = tension + impedance * speed, tension - impedance * speed
+    before, after = 2 * course.before[1:-1], 2 * course.after[1:-1]
+    friction = course.friction[1:-1].copy()
+    at = course.tail - 1
+    friction[at] = 0.0  # the tail's own station has it, and its drag
+    yields = 1 / (course.before[1:-1] + course.after[1:-1] + course.drag[1:-1])
+    drag = course.drag[1:-1].copy()
+    drag[at] = 0.0
+    tops, bottoms = _Watch(course, 1), _Watch(course, -1)
+    block = np.empty((_BLOCK, cells))
+    seen_head = [head.begin(speed, along[-1], against[0])]
+    seen_tail = [tail.begin(speed, along[at], against[at + 1])]
+    stored = _energy(against, along, impedance, step)
+    first = float(((against + along) / 2 / impedance).sum())
+    swings = float(((against - along) ** 2 / (8 * impedance)).sum()) * step
+    lost = rubbed = flow = exchanged = 0.0
+    np.add(against, along, out=block[0])
+    filled, k, time = 1, 0, 0.0
+    rest = np.zeros(cells - 1)
+    for k in range(1, steps + 1):
+        time = k * step
+        n_on, p_off = along[-1], against[0]
+        into, out = along[:-1], against[1:]
+        q = out - into
+        v = np.copysign(np.maximum(np.abs(q) - friction, rest), q)
+        v *= yields
+        now = tail.advance(time, float(into[at]), float(out[at]), step)
+        seen_tail.append(now)
+        v[at] = now.belt
+        top = head.advance(time, float(n_on), float(p_off), step)
+        seen_head.append(top)
+        moved = np.abs(v)
+        lost += float(friction @ moved) + float(drag @ (moved * moved))
+        rubbed += _rubbed(top, head.place) + _rubbed(now, tail.place)
+        given = _flow(top, now, head.place, tail.place, (float(n_on), float(p_off), float(into[at]), float(out[at])))
+        flow, exchanged = flow + given, exchanged + abs(given)
+        new_against, new_along = np.empty(cells), np.empty(cells)
+        np.multiply(before, v, out=new_against[:-1])
+        new_against[:-1] += into
+        np.multiply(after, v, out=new_along[1:])
+        np.subtract(out, new_along[1:], out=new_along[1:])
+        new_against[-1] = n_on + 2 * head.place.before * top.belt
+        new_along[0] = p_off - 2 * head.place.after * top.behind
+        against, along = new_against, new_along
+        np.add(against, along, out=block[filled])
+        filled += 1
+        if filled == _BLOCK:
+            tops.see(block, k - filled + 1)
+            bottoms.see(block, k - filled + 1)
+            filled = 0
+        if still is not None and still(time, top):
+            break
+    if filled:
+        tops.see(block[:filled], k - filled + 1)
+        bottoms.see(block[:filled], k - filled + 1)
+    change = _energy(against, along, impedance, step) - stored
+    turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
+    residual = abs(change + lost * step - flow * step) / turnover if turnover else 0.0
+    stretched = (float(((against + along) / 2 / impedance).sum()) - first) * step
+    return Drawn(
+        times=np.arange(len(seen_head), dtype=np.float64) * step,
+        head=tuple(seen_head),
+        tail=tuple(seen_tail),
+        back_max=tops.extreme(slice(0, course.tail)),
+        back_min=bottoms.extreme(slice(0, course.tail)),
+        carry_max=tops.extreme(slice(course.tail, cells)),
+        carry_min=bottoms.extreme(slice(course.tail, cells)),
+        friction_work=(lost + rubbed) * step,
+        energy_residual=residual,
+        stretched=stretched,
+        updates=k * cells,
+    )
+
+
+def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float) -> float:
+    """Kinetic and elastic energy of the belt: sum (P^2 + N^2)/(4 Z) dt."""
+    return float(((against**2 + along**2) / (4 * impedance)).sum()) * step
+
+
+def _flow(top: Seen, low: Seen, head: Place, tail: Place, waves: tuple[float, float, float, float]) -> float:
+    """Power the drums and the take-up give to the belt, by the waves that leave and arrive."""
+    n_on, p_off, n_tail, p_tail = waves
+    given = (n_on + head.before * top.belt) * top.belt - (p_off - head.after * top.behind) * top.behind
+    given += (n_tail + tail.before * low.belt) * low.belt - (p_tail - tail.after * low.belt) * low.belt
+    return given
+
+
+def _rubbed(seen: Seen, place: Place) -> float:
+    """Power that friction and drag lumped at a station take."""
+    on, off = abs(seen.belt), abs(seen.behind)
+    return (place.friction_on + place.drag_on * on) * on + (place.friction_off + place.drag_off * off) * off
+
+
+class _Watch:
+    """Largest (or smallest) tension of every cell so far, and when."""
+
+    def __init__(self, course: Course, sense: int) -> None:
+        self.course, self.sense = course, sense
+        self.best = np.full(course.cells, -np.inf)
+        self.when = np.zeros(course.cells, dtype=np.intp)
+
+    def see(self, block: FloatArray, first: int) -> None:
+        """Take in twice the tensions of cells, shape (steps, cells)."""
+        signed = block if self.sense > 0 else -block
+        at = signed.argmax(axis=0)
+        value = signed[at, np.arange(block.shape[1])]
+        better = value > self.best
+        self.best[better] = value[better]
+        self.when[better] = first + at[better]
+
+    def extreme(self, part: slice) -> Extreme:
+        """The extreme of some cells, gravity's part included."""
+        course = self.course
+        value = self.best[part] / 2 + self.sense * course.climb_within[part]
+        cell = int(value.argmax())
+        index = (part.start or 0) + cell
+        time = (float(self.when[index]) + 0.5) * course.step
+        return Extreme(self.sense * float(value[cell]), time, float(course.middles[index]))

@@ -1,0 +1,413 @@
+"""A place where drums act on the belt: the head or the tail, with the take-up behind the head's drums.
+
+Belt speed v and tensions follow from the waves that arrive, N from upstream and P from downstream:
+
+    S_on = N + Z_u v + R_u sgn v        S_off = P - Z_d v - R_d sgn v   (no take-up)   or   T   (take-up)
+
+Drums stand in a row from the tight side to the slack side. A drum that sticks adds its mass; one that slips passes
+on e = exp(+-mu alpha) times what is behind it, both less the centrifugal tension l:
+
+    S_above - l = e (S_behind - l)          m_j v' = F_j + S_behind - S_above - B_j sgn v   (sticking)
+
+Multiplied up from the slack side this is one equation for the belt,
+
+    sum E_j m_j v' = sum E_j (F_j - B_j sgn v) + E S_off + (1 - E) l - S_on,   E_j the product of e above drum j
+
+of first order in v and advanced by the exponential step for forcing linear in time; without a sticking drum it is
+algebraic. Brakes B and friction R are set-valued: a belt at rest stays so while the forces on it are within them.
+"""
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.strand import weights
+
+Torque = Callable[[float, float], tuple[float, float]]
+"""Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""
+
+_ALTERNATIONS = 12
+
+
+def no_force(time: float, speed: float) -> tuple[float, float]:
+    """A drum without a motor."""
+    return 0.0, 0.0
+
+
+def no_brake(time: float) -> float:
+    """A drum without a brake."""
+    return 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Drum:
+    """A drum: mass at the rim [kg], drive, brake capacity over time [N], grip exponent mu alpha (None: never slips)."""
+
+    name: str
+    mass: float
+    force: Torque = no_force
+    brake: Callable[[float], float] = no_brake
+    exponent: float | None = None
+    one_way: bool = False
+    """held by a backstop: never turns back"""
+
+
+@dataclass(frozen=True, slots=True)
+class TakeUp:
+    """A weight behind the head's drums: belt tension it asks for [N], and its mass [kg], 0 for a constant tension."""
+
+    tension: float
+    mass: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where drums stand: impedances [N*s/m], gravity's tensions [N], friction lumps [N] and drags [N*s/m] on both
+    sides, and the mass per length of the bare belt [kg/m]."""
+
+    before: float
+    after: float
+    climb_on: float
+    climb_off: float
+    friction_on: float
+    friction_off: float
+    drag_on: float
+    drag_off: float
+    belt_line_mass: float
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A station at a time: tensions before, between and behind its drums [N], speeds [m/s], slip of each drum."""
+
+    tensions: tuple[float, ...]
+    belt: float
+    behind: float
+    drums: tuple[float, ...]
+    slips: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Slack:
+    """Tension behind the drums over a step: from `first` to `last` less `yields` times the belt speed."""
+
+    first: float
+    last: float
+    yields: float
+    friction: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """One try of a step: belt speed and acceleration at its end, force of every drive at its start and end, how
+    friction acts (1 against forward motion, between -1 and 1 at rest), and what a backstop holds."""
+
+    belt: float
+    acceleration: float
+    forces: tuple[tuple[float, float], ...]
+    held: float
+    holds: float = 0.0
+
+
+class Station:
+    """Drums at one place, in the order in which the belt meets them.
+
+    `imposed` is a speed over time [m/s] where the drives control it, and `shares` how they then share the force.
+    """
+
+    def __init__(
+        self,
+        place: Place,
+        drums: Sequence[Drum],
+        takeup: TakeUp | None = None,
+        imposed: Callable[[float], float] | None = None,
+        shares: Sequence[float] = (),
+    ) -> None:
+        self.place, self.drums, self.takeup, self.imposed = place, tuple(drums), takeup, imposed
+        count = len(self.drums)
+        self.shares = tuple(shares) or (1 / max(count, 1),) * count
+        self.grips = [math.exp(drum.exponent) if drum.exponent is not None else math.inf for drum in self.drums]
+        self.slid, self.heat = [0.0] * count, [0.0] * count
+        """way [m] and heat [J] of slip so far"""
+        self.work = 0.0
+        """done by drives less what brakes took [J]"""
+
+    def begin(self, speed: float, n_on: float, p_off: float) -> Seen:
+        """Everything at one speed at time 0."""
+        count = len(self.drums)
+        self.belt = float(self.imposed(0.0) if self.imposed else speed)
+        self.behind, self.tension = float(speed), math.nan
+        self.speeds, self.slips = [self.belt] * count, [0] * count
+        self.pulls: list[float] | None = None
+        self.arrived: tuple[float, float] | None = None
+        return self.advance(0.0, float(n_on), float(p_off), 0.0)
+
+    def advance(self, time: float, n_on: float, p_off: float, step: float) -> Seen:
+        """The state at a time, `step` after the last one, where the waves `n_on` and `p_off` arrive."""
+        slack = self._slack(p_off, step)
+        old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
+        for _ in range(_ALTERNATIONS):
+            move = self._moved(time, n_on, slack, old, step)
+            tensions = self._tensions(time, n_on, slack, move)
+            change = self._breaks_loose(tensions, move.belt)
+            if change is None:
+                break
+            self.slips[change[0]] = change[1]
+        else:
+            raise NumericsError("NUM101", f"stick and slip of the drums alternate without end at {time:.4g} s")
+        speeds, forces = self._turned(time, tensions, move, drums, step)
+        caught = [j for j, sense in enumerate(slips) if sense and sense * (speeds[j] - move.belt) <= 0 and step]
+        for j in caught:
+            move = self._caught(j, move, speeds[j], (old, drums[j]), time, n_on, slack, step)
+        if caught:
+            tensions = self._tensions(time, n_on, slack, move)
+            speeds = [move.belt if not sense else speed for speed, sense in zip(speeds, self.slips, strict=True)]
+        self._account(time, tensions, move, forces, speeds, (old, drums), step)
+        self.belt, self.speeds, self.arrived = move.belt, speeds, (n_on, p_off)
+        self.pulls = [above - behind for above, behind in itertools.pairwise(tensions)]
+        if self.takeup:
+            self._settle(self.takeup, p_off, tensions[-1])
+        return Seen(tensions, move.belt, self.behind if self.takeup else move.belt, tuple(speeds), tuple(self.slips))
+
+    # -- the belt ---------------------------------------------------------------------------------------------
+
+    def _moved(self, time: float, n_on: float, slack: _Slack, old: float, step: float, share: float = 0.0) -> _Move:
+        """Try a step with the present choice of what slips; `share` of the waves' step is over when it begins."""
+        place, lift, start = self.place, self.place.belt_line_mass * old * old, time - step
+        grip, mass, slope = 1.0, 0.0, 0.0
+        push, friction = [0.0, 0.0], [place.friction_on, place.friction_on]
+        given: list[tuple[float, float, float]] = []
+        held_by, sticks = 0.0, False
+        for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)):
+            at = self.speeds[j] if sense else old
+            force, rate = drum.force(time, at)
+            first = drum.force(start, at)[0] if step else force
+            given.append((first, force, rate))
+            if sense:
+                grip *= self.grips[j] ** sense
+                continue
+            sticks = True
+            held_by = held_by or grip * drum.one_way
+            mass += grip * drum.mass
+            slope += grip * rate
+            for end, (now, value) in enumerate(((start if step else time, first), (time, force))):
+                push[end] += grip * (value - rate * at)
+                friction[end] += grip * drum.brake(now)
+        against = place.before + place.drag_on - slope + grip * slack.yields
+        before = n_on if self.arrived is None else self.arrived[0]
+        waves = before + share * (n_on - before), n_on
+        behind = slack.first + share * (slack.last - slack.first), slack.last
+        early, late = (
+            push[end] + grip * behind[end] + (1 - grip) * lift - waves[end] - place.climb_on for end in (0, 1)
+        )
+        rubs, grinds = (friction[end] + grip * slack.friction for end in (0, 1))
+        holds = 0.0
+        if self.imposed is not None and (sticks or not self.drums):
+            belt = self.imposed(time)
+            acceleration = (belt - old) / step if step else 0.0
+            held = math.copysign(1.0, belt) if belt else 0.0
+        else:
+            belt = _velocity(old, mass, against, (rubs, grinds), (early, late), step)
+            if held_by and belt < 0:
+                belt = 0.0
+            held = math.copysign(1.0, belt) if belt else (max(-1.0, min(1.0, late / grinds)) if grinds else 0.0)
+            left = late - against * belt - held * grinds
+            if held_by and not belt and left < 0:
+                holds, left = -left / held_by, 0.0
+            acceleration = left / mass if mass > 0 else 0.0
+        forces = tuple(
+            (first, force if sense else force + rate * (belt - old))
+            for (first, force, rate), sense in zip(given, self.slips, strict=True)
+        )
+        return _Move(belt, acceleration, forces, held, holds)
+
+    def _slack(self, p_off: float, step: float) -> _Slack:
+        """What is behind the drums over the coming step.
+
+        A weight on two falls goes with half of y = v - v_r, the speed the belt loses to it:
+
+            M/4 y' = T0 - T,   T = P - R - Z v_r
+
+        by the exponential step for forcing linear in time, which leaves T linear in the belt speed at its end.
+        """
+        place, takeup = self.place, self.takeup
+        impedance, arriving = place.after + place.drag_off, p_off + place.climb_off
+        if not takeup:
+            before = p_off if self.arrived is None else self.arrived[1]
+            return _Slack(before + place.climb_off, arriving, impedance, place.friction_off)
+        weight = takeup.mass / 4
+        if weight <= 0:
+            return _Slack(takeup.tension, takeup.tension, 0.0, 0.0)
+        friction = math.copysign(place.friction_off, self.behind) if self.behind else 0.0
+        apart, calm = self.belt - self.behind, (arriving - friction - takeup.tension) / impedance
+        if not step:
+            return _Slack(arriving, arriving - friction + impedance * apart, impedance, 0.0)
+        decay, early, late = weights(impedance / weight * step)
+        settled = self.belt - self.calm
+        last = arriving - friction + impedance * (decay * apart + early * settled - late * calm)
+        yields = impedance * (1 - late)
+        return _Slack(self.tension + yields * self.belt, last, yields, 0.0)
+
+    def _settle(self, takeup: TakeUp, p_off: float, tension: float) -> None:
+        """Belt speed behind the take-up: Z v_r = P - T - R."""
+        place = self.place
+        impedance, left = place.after + place.drag_off, p_off + place.climb_off - tension
+        pull = abs(left) - place.friction_off
+        self.behind = math.copysign(pull / impedance, left) if pull > 0 else 0.0
+        friction = math.copysign(place.friction_off, self.behind) if self.behind else 0.0
+        self.tension, self.calm = tension, (p_off + place.climb_off - friction - takeup.tension) / impedance
+
+    # -- the drums --------------------------------------------------------------------------------------------
+
+    def _tensions(self, time: float, n_on: float, slack: _Slack, move: _Move) -> tuple[float, ...]:
+        """Tensions before, between and behind the drums."""
+        place, belt = self.place, move.belt
+        on = n_on + place.climb_on + (place.before + place.drag_on) * belt + move.held * place.friction_on
+        found = [slack.last - slack.yields * belt - move.held * slack.friction]
+        lift = place.belt_line_mass * belt * belt
+        needed = on - found[0] + move.acceleration * sum(drum.mass for drum in self.drums)
+        stuck = [j for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)) if not sense]
+        holding = next((j for j in stuck if self.drums[j].one_way), None)
+        for j in range(len(self.drums) - 1, 0, -1):
+            drum, sense = self.drums[j], self.slips[j]
+            if sense:
+                above = lift + self.grips[j] ** sense * (found[-1] - lift)
+            elif self.imposed is not None:
+                above = found[-1] + self.shares[j] * needed - drum.mass * move.acceleration
+            else:
+                braked = move.held * drum.brake(time)
+                above = found[-1] + move.forces[j][1] - drum.mass * move.acceleration - braked
+                above += move.holds if j == holding else 0.0
+            found.append(above)
+        found.append(on)
+        return tuple(reversed(found))
+
+    def _breaks_loose(self, tensions: tuple[float, ...], belt: float) -> tuple[int, int] | None:
+        """A drum that sticks though its tensions ask for more than its grip, and the sense in which it slips."""
+        lift = self.place.belt_line_mass * belt * belt
+        for j, sense in enumerate(self.slips):
+            if sense or math.isinf(self.grips[j]):
+                continue
+            above, behind = tensions[j] - lift, tensions[j + 1] - lift
+            if above > self.grips[j] * behind and above > behind:
+                return j, 1
+            if behind > self.grips[j] * above and behind > above:
+                return j, -1
+        return None
+
+    def _turned(
+        self, time: float, tensions: tuple[float, ...], move: _Move, before: tuple[float, ...], step: float
+    ) -> tuple[list[float], list[tuple[float, float]]]:
+        """Speeds of the drums at the end, and their drives' forces at start and end.
+
+        Either the belt's speed, or their own where they slip: m v' = F - pull - B sgn v.
+        """
+        speeds, forces = [], list(move.forces)
+        for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)):
+            if not sense:
+                speeds.append(move.belt)
+                continue
+            if self.imposed is not None:
+                speeds.append(self.imposed(time))
+                continue
+            pull, rate = tensions[j] - tensions[j + 1], drum.force(time, before[j])[1]
+            first, force = move.forces[j]
+            pulled = first - rate * before[j] - (self.pulls[j] if self.pulls else pull)
+            brakes = drum.brake(time - step if step else time), drum.brake(time)
+            new = _velocity(before[j], drum.mass, -rate, brakes, (pulled, force - rate * before[j] - pull), step)
+            new = 0.0 if new < 0 and drum.one_way else new
+            forces[j] = first, force + rate * (new - before[j])
+            speeds.append(new)
+        return speeds, forces
+
+    def _caught(
+        self,
+        j: int,
+        move: _Move,
+        drum: float,
+        before: tuple[float, float],
+        time: float,
+        n_on: float,
+        slack: _Slack,
+        step: float,
+    ) -> _Move:
+        """A slipping drum comes to the belt's speed inside the step: from there on they move as one."""
+        apart, ends = before[1] - before[0], drum - move.belt
+        share = apart / (apart - ends) if apart != ends else 0.0
+        share = min(max(share, 0.0), 1.0)
+        meets = before[1] + share * (drum - before[1])
+        self.slips[j] = 0
+        return self._moved(time, n_on, slack, meets, (1 - share) * step, share)
+
+    def _account(
+        self,
+        time: float,
+        tensions: tuple[float, ...],
+        move: _Move,
+        forces: list[tuple[float, float]],
+        speeds: list[float],
+        before: tuple[float, tuple[float, ...]],
+        step: float,
+    ) -> None:
+        """Add up slip, its heat, and the work of drives and brakes over the step, by the trapezium rule."""
+        if not step:
+            return
+        for j, drum in enumerate(self.drums):
+            apart = (abs(speeds[j] - move.belt) + abs(before[1][j] - before[0])) / 2
+            pull = tensions[j] - tensions[j + 1]
+            earlier = self.pulls[j] if self.pulls else pull
+            self.slid[j] += apart * step
+            self.heat[j] += apart * (abs(pull) + abs(earlier)) / 2 * step
+            turned = (speeds[j] + before[1][j]) / 2
+            if self.imposed is not None:  # what the drum passes on and what it takes to turn it so
+                self.work += step * (pull + earlier) / 2 * turned + drum.mass * (speeds[j] - before[1][j]) * turned
+                continue
+            brake = (drum.brake(time) + drum.brake(time - step)) / 2
+            self.work += step * (sum(forces[j]) / 2 * turned - brake * abs(turned))
+
+
+def _velocity(
+    old: float,
+    mass: float,
+    against: float,
+    friction: tuple[float, float],
+    forcing: tuple[float, float],
+    step: float,
+) -> float:
+    """Speed at the end of a step of m v' + Z v + R sgn v = g, with R and g linear over the step.
+
+    Without mass it is that of balance at the end.
+
+    Raises:
+        NumericsError: NUM101 when nothing but mass could keep the speed finite, and there is none.
+    """
+    if mass <= 0:
+        rest = abs(forcing[1]) - friction[1]
+        if rest <= 0:
+            return 0.0
+        if against <= 0:
+            raise NumericsError("NUM101", "a drum without mass is driven by more than can hold it at any speed")
+        return math.copysign(rest / against, forcing[1])
+    if step == 0 or (not old and abs(forcing[1]) <= friction[1]):
+        return old
+    way = math.copysign(1.0, old or forcing[1])
+    begins, ends = (g - way * r for g, r in zip(forcing, friction, strict=True))
+    if not old and friction[0] and way * begins < 0:  # it breaks loose within the step
+        begins = 0.0
+    decay, early, late = _exponential(against / mass * step)
+    new = decay * old + (early * begins + late * ends) * step / mass
+    if new * way >= 0 or not friction[1]:
+        return new
+    stops = old / (old - new)  # there friction holds it, or it turns back
+    there = [first + stops * (last - first) for first, last in (friction, forcing)]
+    return _velocity(0.0, mass, against, (there[0], friction[1]), (there[1], forcing[1]), (1 - stops) * step)
+
+
+def _exponential(x: float) -> tuple[float, float, float]:
+    """exp(-x), and by what the forcing at the start and the end of a step counts in m v/dt; a drive whose force rises
+    with speed makes x negative."""
+    grown = 1 - x / 2 * (1 - x / 3 * (1 - x / 4)) if abs(x) < 1e-3 else -math.expm1(-x) / x
+    late = 1 / 2 - x / 6 * (1 - x / 4 * (1 - x / 5)) if abs(x) < 1e-3 else (1 - grown) / x
+    return math.exp(-x), grown - late, late
