@@ -59,6 +59,8 @@ def decode(
 
     angle = _option("--from", start, units.ANGLE)
     length = _option("--window", window, units.TIME) if window else None
+    if length is not None and length <= 0:
+        raise UsageError(f"`--window`: `{window}` is out of range: it must be greater than 0 s", "write e.g. `50 ms`")
     loaded = load_file(Path(path), Path(path).as_posix())
     if loaded.spec is None:
         report = FileReport(loaded.document.name, diagnostics=loaded.diagnostics)

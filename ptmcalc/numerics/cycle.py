@@ -143,7 +143,7 @@ def solve(grid: Grid, rate: Rate, guess: FloatArray, start: float | None = None)
     if not np.all(guess > 0):
         return None
     weights = h[:, None, None] * rule.integral
-    identity, ones = np.eye(grid.order), np.ones((len(h), grid.order))
+    identity = np.eye(grid.order)
     e = np.array(guess, float)
     begin = np.empty(len(h))
     multiplier, change = np.nan, np.inf
@@ -151,16 +151,16 @@ def solve(grid: Grid, rate: Rate, guess: FloatArray, start: float | None = None)
         f, g = rate(e)
         if not (np.all(np.isfinite(f)) and np.all(np.isfinite(g))):
             return None
-        matrix = identity - weights * g[:, None, :]
+        pull = weights * g[:, None, :]
         known = np.einsum("mij,mj->mi", weights, f - g * e)
         try:
-            solved = np.linalg.solve(matrix, np.stack([known, ones], axis=-1))
+            solved = np.linalg.solve(identity - pull, np.stack([known, pull.sum(axis=-1)], axis=-1))
         except np.linalg.LinAlgError:
             return None
         begin, multiplier = _chained(solved[:, -1, 0], solved[:, -1, 1], start)
         if not np.all(np.isfinite(begin)):
             return None
-        wanted = solved[..., 0] + solved[..., 1] * begin[:, None]
+        wanted = solved[..., 0] + solved[..., 1] * begin[:, None] + begin[:, None]
         following = np.maximum(wanted, _SMALLEST_FALL * e)
         before, change = change, float(np.max(np.abs(following - e)) / np.max(following))
         e = following
@@ -174,15 +174,18 @@ def solve(grid: Grid, rate: Rate, guess: FloatArray, start: float | None = None)
     return Orbit(grid, begin, slopes, multiplier)
 
 
-def _chained(offset: FloatArray, factor: FloatArray, start: float | None) -> tuple[FloatArray, float]:
-    """The values at the beginning of each stretch, from the affine map of each, and the factor of all of them."""
-    shifts, factors = offset.tolist(), factor.tolist()
-    p, q = 0.0, 1.0
-    for a, b in zip(shifts, factors, strict=True):
-        p, q = a + b * p, b * q
+def _chained(offset: FloatArray, growth: FloatArray, start: float | None) -> tuple[FloatArray, float]:
+    """The values at the beginning of each stretch, from the affine map of each, and the factor of all of them.
+
+    The maps are known by their factors less 1, which keep their digits where a heavy shaft hardly changes its speed.
+    """
+    shifts, growths = offset.tolist(), growth.tolist()
+    p, more = 0.0, 0.0
+    for a, b in zip(shifts, growths, strict=True):
+        p, more = a + b * p + p, more + b + more * b
     if start is None:
-        start = p / (1 - q) if q != 1 else np.nan
+        start = -p / more if more != 0 else np.nan
     begin = [start]
-    for a, b in zip(shifts[:-1], factors[:-1], strict=True):
-        begin.append(a + b * begin[-1])
-    return np.array(begin), q
+    for a, b in zip(shifts[:-1], growths[:-1], strict=True):
+        begin.append(a + b * begin[-1] + begin[-1])
+    return np.array(begin), 1 + more

@@ -207,6 +207,7 @@ def flywheel(cycle: Held, wanted: float, irregularity: Callable[[Held], Interval
 # -- run-up ---------------------------------------------------------------------------------------------------------
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_HALVINGS, _MOST_PANELS = 50, 1000
 
 
 def start_integrals(
@@ -216,7 +217,8 @@ def start_integrals(
 
         t = integral of J dw/(D(w) - R - J' w^2/2),   phi = integral of w dt
 
-    Panels between the corners of the motor's curves, divided until both integrals stand still to ten digits.
+    Panels between the corners of the motor's curves, halved until both integrals over each stand still: next to a speed
+    that the motor does not exceed they are as short as it takes.
     """
     drive = machine.drive
     corners = {0.0, target}
@@ -225,32 +227,51 @@ def start_integrals(
         if stage.until_speed is not None and 0 < stage.until_speed / drive.ratio < target:
             corners.add(stage.until_speed / drive.ratio)
     edges = np.array(sorted(corners))
-    found = (math.nan, math.nan)
-    for panels in (8, 16, 32, 64, 128, 256):
-        before, found = found, _integrals(machine, edges, panels, inertia, resistance, slope)
-        if not all(math.isfinite(one) for one in found):
-            return math.inf, math.inf
-        if all(abs(one - other) <= 1e-10 * one for one, other in zip(found, before, strict=True)):
-            break
-    return found
-
-
-def _integrals(
-    machine: Machine, edges: FloatArray, panels: int, inertia: float, resistance: float, slope: float
-) -> tuple[float, float]:
-    drive = machine.drive
     time = angle = 0.0
     for low, high in pairwise(edges):
-        ends = np.linspace(low, high, panels + 1)
-        half = np.diff(ends)[:, None] / 2
-        w = (ends[1:] + ends[:-1])[:, None] / 2 + half * _NODES
-        torque = drive.torque(stage_at_speed(machine, (low + high) / 2), w)
-        net = drive.ratio * drive.efficiency * torque - machine.viscous * w - resistance - slope * w**2 / 2
-        if not np.all(net > 0):
-            return math.inf, math.inf
-        dt = inertia / net * half * _WEIGHTS
-        time, angle = time + float(dt.sum()), angle + float((w * dt).sum())
+        number = stage_at_speed(machine, (low + high) / 2)
+
+        def net(w: FloatArray, number: int = number) -> FloatArray:
+            torque = drive.ratio * drive.efficiency * drive.torque(number, w)
+            return np.asarray(torque - machine.viscous * w - resistance - slope * w**2 / 2)
+
+        turned, revolved = _integrals(net, low, high)
+        time, angle = time + inertia * turned, angle + inertia * revolved
     return time, angle
+
+
+def _integrals(net: Callable[[FloatArray], FloatArray], low: float, high: float) -> tuple[float, float]:
+    """Integrals of 1/net and w/net between two speeds; infinite where the net torque is not above 0 all the way."""
+    ends = np.linspace(low, high, 9)
+    begin, end = ends[:-1], ends[1:]
+    known = np.zeros(2)
+    for _ in range(_HALVINGS):
+        middle = (begin + end) / 2
+        if not np.all(net(np.concatenate([begin, middle, end])) > 0):
+            return math.inf, math.inf
+        whole, halves = _panels(net, begin, end), _panels(net, begin, middle) + _panels(net, middle, end)
+        if not np.all(np.isfinite(halves)):
+            return math.inf, math.inf
+        off = np.any(np.abs(whole - halves) > 1e-12 * np.abs(halves) + 1e-16 * known[:, None], axis=0)
+        known += halves[:, ~off].sum(axis=1)
+        if not off.any():
+            break
+        if len(off) > _MOST_PANELS:  # what is left is rounding of the net torque
+            known += halves[:, off].sum(axis=1)
+            break
+        begin, end = np.concatenate([begin[off], middle[off]]), np.concatenate([middle[off], end[off]])
+    else:
+        known += halves[:, off].sum(axis=1)
+    return float(known[0]), float(known[1])
+
+
+def _panels(net: Callable[[FloatArray], FloatArray], begin: FloatArray, end: FloatArray) -> FloatArray:
+    """The two integrals over panels by Gauss's rule, shape (2, panels); infinite where the net torque is not > 0."""
+    half = (end - begin)[:, None] / 2
+    w = (end + begin)[:, None] / 2 + half * _NODES
+    torque = net(w)
+    dt = np.where(torque > 0, half * _WEIGHTS / np.where(torque > 0, torque, 1.0), np.inf)
+    return np.array([dt.sum(axis=1), np.sum(w * dt, axis=1)])
 
 
 def stage_at_speed(machine: Machine, speed: float) -> int:

@@ -17,6 +17,8 @@ PHASES = ("run_up", "run_out", "brake")
 _ROWS = 25
 _TWO = 2.0
 """Standard deviations in an uncertainty: 95 % of normally distributed errors."""
+_LARGEST = 1e15
+"""Seconds and rad/s, as of every number of a design file: no record has more, and squares would overflow."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,25 +72,38 @@ def decoded(
     """
     if len(time) < decode.FEWEST:
         raise UsageError(f"the record has {len(time)} samples, too few for a fit", f"at least {decode.FEWEST}")
+    if max(float(np.abs(time).max()), float(np.abs(speed).max())) > _LARGEST:
+        raise UsageError(f"the record has a time or speed above {_LARGEST:.0e}", "check the units of its columns")
     samples = None if window is None else max(round(window / float(np.median(np.diff(time)))) + 1, 5)
     fitted = decode.fit(time, speed, samples)
-    place = (angle + fitted.angle) % machine.period
-    low, high = np.zeros(place.shape), np.full(place.shape, machine.period)
-    mechanism, slope, static = machine.fields(place, low, high)
-    side = machine.drive.efficiency * machine.drive.ratio**2 * machine.drive.motor_inertia
-    total, deviation = decode.torque(fitted, mechanism + side, slope)
-    known = static + machine.viscous * fitted.speed
+    total, deviation, known, potential = _on_shaft(machine, fitted, angle)
     length = float(np.median(time[fitted.last] - time[fitted.first]))
     if phase == "run_up":
         rows, values = _run_up(machine, fitted, total + known, deviation)
         return Decoded(phase, "motor", rows, values, fitted.noise, length)
     if phase == "run_out":
-        torque = -total - machine.potential_torque(place)
-        values = _losses(fitted, torque, deviation)
+        torque = -total - potential
+        shorter = decode.fit(
+            time, speed, max(round(float(np.median(fitted.last - fitted.first)) / 2), decode.DEGREE + 2)
+        )
+        of_shorter, deviations, _, weights = _on_shaft(machine, shorter, angle)
+        values = _losses(_line(fitted, torque, deviation), _line(shorter, -of_shorter - weights, deviations))
     else:
         torque = -total - known
         values = _brake(machine, fitted, torque, deviation)
     return Decoded(phase, "main", _rows(fitted, fitted.speed, torque, deviation), values, fitted.noise, length)
+
+
+def _on_shaft(
+    machine: Machine, fitted: decode.Fitted, angle: float
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Sum of all torques over the record with its deviation, all that the file knows of it, and the weights alone."""
+    place = (angle + fitted.angle) % machine.period
+    low, high = np.zeros(place.shape), np.full(place.shape, machine.period)
+    mechanism, slope, static = machine.fields(place, low, high)
+    side = machine.drive.efficiency * machine.drive.ratio**2 * machine.drive.motor_inertia
+    total, deviation = decode.torque(fitted, mechanism + side, slope)
+    return total, deviation, static + machine.viscous * fitted.speed, machine.potential_torque(place)
 
 
 def _rows(fitted: decode.Fitted, speed: FloatArray, torque: FloatArray, deviation: FloatArray) -> tuple[Row, ...]:
@@ -111,14 +126,21 @@ def _run_up(
     )
 
 
-def _losses(fitted: decode.Fitted, loss: FloatArray, deviation: FloatArray) -> tuple[Value, ...]:
+def _line(fitted: decode.Fitted, loss: FloatArray, deviation: FloatArray) -> decode.Line:
     picked = fitted.apart(0, len(loss) - 1)
     if len(picked) < 3:
         raise UsageError("the record is too short for its noise: no line can be put through the losses", "a longer one")
-    line = decode.line(fitted.speed[picked], loss[picked], deviation[picked])
+    return decode.line(fitted.speed[picked], loss[picked], deviation[picked])
+
+
+def _losses(line: decode.Line, shorter: decode.Line) -> tuple[Value, ...]:
+    """The line through the losses. What it differs by from that of stretches half as long is added to its uncertainty:
+    a cubic that does not follow the motion errs the same way at every turn, which no scatter tells."""
+    offset = _TWO * line.offset_deviation + abs(line.offset - shorter.offset)
+    slope = _TWO * line.slope_deviation + abs(line.slope - shorter.slope)
     return (
-        Value("friction", "constant losses", line.offset, _TWO * line.offset_deviation, units.TORQUE),
-        Value("viscous", "losses per speed", line.slope, _TWO * line.slope_deviation, units.TORQUE_SLOPE),
+        Value("friction", "constant losses", line.offset, offset, units.TORQUE),
+        Value("viscous", "losses per speed", line.slope, slope, units.TORQUE_SLOPE),
     )
 
 

@@ -257,13 +257,13 @@ class Machine:
 
     @cached_property
     def tried_speeds(self) -> FloatArray:
-        """Speeds at which torques are compared: dense where the torque of a motor changes fast, over nine decades."""
+        """Speeds at which torques are compared: dense where the torque of a motor changes fast, over twenty decades."""
         free = self.drive.free_speed
         knots = np.concatenate([self.drive.knots(k) for k in range(len(self.drive.stages))])
         knots = knots[knots > 0]
         scale = free or (float(knots.max()) if knots.size else 1.0)
         near = np.geomspace(1e-7, 0.99, 120)
-        tried = np.concatenate([scale * (1 - near), scale * (1 + near), scale * np.geomspace(1e-4, 1e5, 200), knots])
+        tried = np.concatenate([scale * (1 - near), scale * (1 + near), scale * np.geomspace(1e-15, 1e5, 280), knots])
         return np.unique(tried[tried > 0])
 
     def surplus(self, speed: FloatArray) -> FloatArray:
@@ -348,6 +348,7 @@ class Survey:
         inertia_low, inertia_high = _extremes(machine.mechanism(inside)[0])
         slope_low, slope_high = _extremes(machine.mechanism(inside)[1])
         static_low, static_high = _extremes(machine.static(inside, low, high))
+        static_mean = min(max(float(np.sum(static * weight)) / machine.period, static_low), static_high)
         return cls(
             inertia_mean=float(np.sum(inertia * weight)) / machine.period,
             inertia_least=float(machine.mechanism(inside)[0].min()),
@@ -355,12 +356,12 @@ class Survey:
             inertia_high=inertia_high,
             slope_low=slope_low,
             slope_high=slope_high,
-            static_mean=float(np.sum(static * weight)) / machine.period,
+            static_mean=static_mean,
             static_low=static_low,
             static_high=static_high,
             useful_work=float(np.sum(useful * weight)),
             share_work=machine.share * float(np.sum(np.abs(useful) * weight)),
-            work_swing=_work_swing(machine, edges, float(np.sum(static * weight)) / machine.period),
+            work_swing=_work_swing(machine, edges, static_mean),
         )
 
 

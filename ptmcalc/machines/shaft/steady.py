@@ -147,7 +147,7 @@ def light_cycle(machine: Machine, near: Orbit) -> Cycle | None:
 def surely_stalls(machine: Machine) -> bool:
     """Whether the largest torque of the motor all over a cycle does less work than the load and constant losses."""
     drive = machine.drive
-    most = float(np.max(drive.torque(len(drive.stages) - 1, machine.tried_speeds)))
+    most = float(np.max(drive.torque(len(drive.stages) - 1, np.append(machine.tried_speeds, 0.0))))
     if drive.breakdown_torque is not None:
         most = max(most, drive.breakdown_torque)
     gained = drive.ratio * drive.efficiency * max(most, 0.0)
@@ -266,6 +266,7 @@ def _better_edges(machine: Machine, law: Law, orbit: Orbit) -> FloatArray | None
     edges, lengths = grid.edges.copy(), grid.lengths
     crossings = _crossings(machine, law, orbit)
     new: list[float] = []
+    cut: set[int] = set()  # a stretch with a corner on its edge may hold another one that is not seen yet
     changed = False
     for k, place in crossings:
         at = float(edges[k] + place * lengths[k])
@@ -281,7 +282,7 @@ def _better_edges(machine: Machine, law: Law, orbit: Orbit) -> FloatArray | None
         else:
             continue
         changed = True
-    cut = {k for k, _ in crossings}
+        cut.add(k)
     tails = orbit.tail()
     bad = tails > _TOLERANCE * float(np.abs(orbit.rates).max()) + _ROUNDING * float(orbit.start.max())
     for k in np.flatnonzero(bad & (lengths > _SHORTEST * machine.period)).tolist():

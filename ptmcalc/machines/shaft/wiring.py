@@ -1,4 +1,7 @@
-"""What must hold between the blocks of a main shaft."""
+"""What must hold between the blocks of a main shaft.
+
+A path into a block that there are several types of names its type, as pydantic does.
+"""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -23,12 +26,11 @@ def needing_a_crank(given: Given) -> Iterator[Conflict]:
         return
     hint = "write `inertia: {type: slider_crank, ...}`, or give the load over the angle"
     if "load" in given and _type_of(given.block("load")) == "tool_force":
-        yield Conflict(("load", "type"), "only a slider-crank has a tool that a force can act on", hint)
+        yield Conflict(("load", "tool_force", "type"), "only a slider-crank has a tool that a force can act on", hint)
     for index, one in enumerate(given.blocks("potential")):
         if _type_of(one) == "tool_spring":
-            yield Conflict(
-                ("potential", index, "type"), "only a slider-crank has a tool that a spring can act on", hint
-            )
+            path = ("potential", index, "tool_spring", "type")
+            yield Conflict(path, "only a slider-crank has a tool that a spring can act on", hint)
 
 
 def not_repeated(given: Given) -> Iterator[Conflict]:
@@ -49,7 +51,7 @@ def not_repeated(given: Given) -> Iterator[Conflict]:
     for index, sector in enumerate(load.blocks("sectors") if load and _type_of(load) == "sectors" else ()):
         ends = (sector.number("from"), sector.number("to")) if sector else (None, None)
         if None not in ends and ends[1] - ends[0] > period * (1 + _SAME):  # type: ignore[operator]
-            yield Conflict(("load", "sectors", index), f"the sector is wider than a cycle of {shown}", hint)
+            yield Conflict(("load", "sectors", "sectors", index), f"the sector is wider than a cycle of {shown}", hint)
     for what, order in _orders(given, inertia):
         if not _whole(order * period / FULL_TURN):
             yield Conflict(("cycle_angle",), f"{what} does not come again after {shown}", hint)
@@ -57,15 +59,15 @@ def not_repeated(given: Given) -> Iterator[Conflict]:
 
 
 def _tables(given: Given, inertia: Given | None) -> Iterator[tuple[tuple[str | int, ...], Given]]:
-    """Tables over the angle with their keys."""
+    """Tables over the angle with their paths."""
     if inertia and _type_of(inertia) == "table":
-        yield ("inertia",), inertia
+        yield ("inertia", "table"), inertia
     load = given.block("load") if "load" in given else None
     if load and _type_of(load) == "table":
-        yield ("load",), load
+        yield ("load", "table"), load
     for index, one in enumerate(given.blocks("potential")):
         if one and _type_of(one) == "energy":
-            yield ("potential", index), one
+            yield ("potential", index, "energy"), one
 
 
 def _orders(given: Given, inertia: Given | None) -> Iterator[tuple[str, int]]:
@@ -103,7 +105,7 @@ def falling_below_zero(given: Given) -> Iterator[Conflict]:
     if lowest <= 0:
         reason = f"the smooth curve through the points falls to {units.show(lowest, units.INERTIA)} between them"
         hint = "give more points where the inertia changes fast: an inertia is above 0 at every angle"
-        yield Conflict(("inertia", "points"), reason, hint)
+        yield Conflict(("inertia", "table", "points"), reason, hint)
 
 
 def scenes_that_lack(given: Given) -> Iterator[Conflict]:
@@ -117,9 +119,8 @@ def scenes_that_lack(given: Given) -> Iterator[Conflict]:
         if endless and _type_of(scene) == "run_up" and scene and "to" not in scene:
             yield Conflict(("scenes", index), reason, "add `to: 60 rpm`, a speed of the main shaft")
         if _type_of(scene) == "run_out" and scene and scene.raw.get("brake") == "on" and "brake" not in given:
-            yield Conflict(
-                ("scenes", index, "brake"), "the machine has no brake", "add a `brake:` block, or write `off`"
-            )
+            path = ("scenes", index, "run_out", "brake")
+            yield Conflict(path, "the machine has no brake", "add a `brake:` block, or write `off`")
     if endless and "scenes" not in given:
         hint = "add `scenes: [{type: run_up, to: 60 rpm}, {type: steady}, {type: run_out}]`"
         yield Conflict((), reason, hint)

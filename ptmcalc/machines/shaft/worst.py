@@ -165,12 +165,16 @@ class _Root:
         self.start, self.which, self.limit = start, which, limit
         self.work, self.fall = 0, 0.0
 
-    def _excess(self, angle: float, torque: float, setting: tuple[int, float]) -> float:
-        """The limit over the value less 1: nearly a straight line over the torque."""
+    def _measured(self, angle: float, torque: float, setting: tuple[int, float]) -> float:
+        """Time or angle of the run-out with a torque."""
         machine = self.start.machine.with_brake_torque(torque)
         run = run_out(machine, angle, self.start.cycle.speed_at(angle), setting)
         self.work += run.work
-        value = measured(run, self.which)
+        return measured(run, self.which)
+
+    def _excess(self, angle: float, torque: float, setting: tuple[int, float]) -> float:
+        """The limit over the value less 1: nearly a straight line over the torque."""
+        value = self._measured(angle, torque, setting)
         return self.limit / value - 1 if math.isfinite(value) and value > 0 else -1.0
 
     def guess(self, angle: float) -> float:
@@ -179,7 +183,7 @@ class _Root:
         stop = bounds.Stop(self.start.machine, energy, True)
         present = self.start.machine.brake_most
         closed = stop.ended(0, changing=False)[self.which]
-        factor = self.limit / (1 + self._excess(angle, present, _QUICK)) / closed if present > 0 else 1.0
+        factor = self._measured(angle, present, _QUICK) / closed if present > 0 and closed > 0 else 1.0
         usable = math.isfinite(closed) and 0 < factor < math.inf
         wanted = {_NAMES[self.which]: self.limit / (factor if usable else 1.0)}
         return bounds.torque_needed(stop, wanted, 0, changing=False)
