@@ -68,3 +68,9 @@ def smallest(values: FloatArray, step: float) -> tuple[float, float]:
     """Smallest value of a continuous, piecewise smooth signal and its time; see `largest`."""
     value, place = largest(-values, step)
     return -value, place
+
+
+def gap(values: FloatArray, others: FloatArray, reach: int) -> float:
+    """Largest distance of a value from the range of the others within so many samples."""
+    around = np.lib.stride_tricks.sliding_window_view(np.pad(others, reach, mode="edge"), 2 * reach + 1)
+    return float(np.maximum(values - around.max(axis=1), around.min(axis=1) - values).max(initial=0.0))

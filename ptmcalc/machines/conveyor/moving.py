@@ -275,7 +275,7 @@ def _rigid_start(
 ) -> tuple[float, float]:
     """When the mean speed of all that moves is the rated one, and the way by then, by the trapezium rule.
 
-    The mean follows Newton's law of the whole whatever waves there are, as long as the belt slides forward.
+    v = x - min(x so far),  x = integral of (F - W)/M dt: the mean of all that moves, whatever waves there are
     """
     mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
     full = sum(drive_force(drive) for drive in spec.all_drives.values())
@@ -286,20 +286,12 @@ def _rigid_start(
     end = latest + mass * line.speed / (full - resistance)
     times = np.linspace(0.0, end, 20_001)
     force = sum((pull(times) for pull in pulls.values()), np.zeros_like(times)) - resistance
-    speed = way = 0.0
-    for begin, before, after in zip(times, force, force[1:], strict=False):
-        step = times[1]
-        net = (before + after) / 2
-        if speed <= 0 and net <= 0:
-            speed = 0.0
-            continue
-        new = max(speed + net * step / mass, 0.0)
-        if new >= line.speed:
-            part = (line.speed - speed) / (new - speed) * step
-            return float(begin) + part, way + (speed + line.speed) / 2 * part
-        way += (speed + new) / 2 * step
-        speed = new
-    return end, way
+    gained = np.concatenate([[0.0], np.cumsum(force[1:] + force[:-1])]) * (times[1] / 2 / mass)
+    speed = gained - np.minimum.accumulate(gained)  # it never turns back: what would pull it back is held
+    fast = int(np.argmax(speed >= line.speed)) or len(times) - 1
+    part = min((line.speed - speed[fast - 1]) / (speed[fast] - speed[fast - 1]), 1.0) * times[1]
+    way = float((speed[1:fast] + speed[: fast - 1]).sum()) * times[1] / 2
+    return float(times[fast - 1] + part), way + float((speed[fast - 1] + line.speed) / 2 * part)
 
 
 # -- cells and stations ---------------------------------------------------------------------------------------------

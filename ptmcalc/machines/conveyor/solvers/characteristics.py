@@ -17,7 +17,7 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.numerics import loop, sagging, strand
+from ptmcalc.numerics import loop, peaks, sagging, strand
 
 FloatArray = NDArray[np.float64]
 
@@ -190,7 +190,7 @@ def _sagging_bars(case: StartCase, coarsest: loop.Motion, coarse: loop.Motion, f
     def end(name: str) -> float:
         one, other = getattr(coarse, name), getattr(fine, name)
         again = np.interp(fine.times, coarse.times, one)
-        apart = max(_gap(other, again, reach), _gap(again, other, reach))
+        apart = max(peaks.gap(other, again, reach), peaks.gap(again, other, reach))
         errors = map(still_to_come, _end_errors(coarsest, coarse, name), _end_errors(coarse, fine, name))
         return max(_MARGIN * apart, *errors)
 
@@ -210,12 +210,6 @@ def _bend(history: FloatArray) -> float:
 
 def _inside(motion: loop.Motion) -> tuple[loop.Extreme, ...]:
     return motion.carry_max, motion.carry_min, motion.back_max, motion.back_min
-
-
-def _gap(values: FloatArray, others: FloatArray, reach: int) -> float:
-    """Largest distance of a value from the range of the others within so many samples."""
-    around = np.lib.stride_tricks.sliding_window_view(np.pad(others, reach, mode="edge"), 2 * reach + 1)
-    return float(np.maximum(values - around.max(axis=1), around.min(axis=1) - values).max(initial=0.0))
 
 
 def _wave_error(coarse: loop.Motion, fine: loop.Motion) -> float:

@@ -1,9 +1,10 @@
 """The whole belt in cells: any route and load, several drives, brakes, jams, idlers that stick and slide.
 
 Bars come from three grids, each with twice the cells of the one before, load by load. With d the last difference of a
-load and r its ratio to the one before, the differences still to come sum up to d r/(1 - r); the bar is three times
-that, with r not taken below 1/4 (second order; two grids may agree by chance) nor above 0.9. Of all tensions, which
-share their waves, none has a bar below a quarter of the largest. On a front of sticking or slipping the order is one.
+load, not taken below a quarter of the one before (two grids may agree by chance), and r the ratio of both, the
+differences still to come sum up to d r/(1 - r); the bar is three times that, with r not taken below 1/2, the first
+order of a front of sticking or slipping, nor above 0.9. All tensions are sums of the same waves: the largest of their
+bars is that of each, and what it makes of any other load (`bounds.moved`) is the least bar of that one.
 """
 
 import math
@@ -13,22 +14,26 @@ import numpy as np
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Event, Finding, Found, Result, of
+from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
-from ptmcalc.machines.conveyor.moving import Moving, Set, moving, set_up
+from ptmcalc.machines.conveyor.moving import Moving, Set, deceleration, moving, set_up
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen, Station
 
 _CELLS = 60
-_MARGIN, _SECOND_ORDER, _SLOWEST = 3.0, 0.25, 0.9
-_ROUNDING = 1e-12
-_TENSION_LIKE = frozenset({"tension_run_on_max", "tension_dynamic_run_on_max", "tension_max", "tension_min"})
+_MARGIN, _SECOND_ORDER, _FIRST_ORDER, _SLOWEST = 3.0, 0.25, 0.5, 0.9
+_ROUNDING = 1e-11
+_SHIFT_STEPS = 3
+_SHARING = frozenset(
+    {"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", "tension_max", "tension_min"}
+)
+"""Tensions, which are sums of the same waves."""
 _SECONDS_PER_STEP, _SECONDS_PER_CELL = 4e-5, 1.2e-8
 
 Values = dict[str, tuple[float, dict[str, float]]]
@@ -46,7 +51,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     runs = [_once(case, carried, (_CELLS << level) << refined) for refined in range(3)]
     coarsest, coarse, fine = (loads for loads, _ in runs)
     drawn, ready = runs[-1][1]
-    bars = _bars(coarsest, coarse, fine)
+    bars = _bars(case, (coarsest, coarse, fine), _apart(runs[1][1][0], drawn))
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
     health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
     return Result(
@@ -198,18 +203,44 @@ def _largest(history: FloatArray, step: float) -> tuple[float, float]:
 # -- bars -----------------------------------------------------------------------------------------------------------
 
 
-def _bars(coarsest: Values, coarse: Values, fine: Values) -> dict[str, float]:
-    """Bars of all loads of the finest grid."""
+def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float) -> dict[str, float]:
+    """Bars of all loads of the finest grid: what is still to come of the load itself, and what the largest error of any
+    tension makes of it."""
+    coarsest, coarse, fine = grids
     bars = {}
     for name, (value, _) in fine.items():
         known = [grid[name][0] if name in grid else math.inf for grid in (coarsest, coarse)]
         bars[name] = _still_to_come(known[0], known[1], value)
-    shared = [name for name in fine if name.partition("[")[0] in _TENSION_LIKE | {"tension_run_off_min"}]
-    least = max((bars[name] for name in shared), default=0.0) / 4
-    for name in shared:
-        exact = fine[name][0] == coarse.get(name, (math.nan,))[0] == coarsest.get(name, (math.nan,))[0]
-        bars[name] = max(bars[name], 0.0 if exact else least) + _ROUNDING * abs(fine[name][0])
+    change = max(*(bars[name] for name in fine if family(name) in _SHARING), _MARGIN / 2 * moved_most)
+    line, slowing = case.line, deceleration(case.spec, case.scene, case.line)
+    values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
+    for name, offsets in bounds.moved(line, values, change, slowing, off=case.spec.takeup.mass is not None).items():
+        follows = max(abs(offsets.low), abs(offsets.high))
+        slid = family(name) in ("slip_distance", "slip_heat") and fine[name][0] > 0
+        if not slid:
+            bars[name] = max(bars[name], follows)
+    for name, (value, _) in fine.items():
+        size = fine["tension_max"][0] if family(name) in _SHARING else value
+        bars[name] += _ROUNDING * abs(size) if math.isfinite(size) else 0.0
     return bars
+
+
+def _apart(coarse: Drawn, fine: Drawn) -> float:
+    """Largest gap between the tensions at head and tail on both grids [N]: how far any value of one history is from all
+    values of the other within a few coarse steps; and the highest front, the change within one step. A front that comes
+    a little later is no gap, but where it meets another one, they add up for a moment that only a finer grid sees."""
+    reach = math.ceil(_SHIFT_STEPS * coarse.times[1] / fine.times[1])
+    most = 0.0
+    for side in ("head", "tail"):
+        for end in (0, -1):
+            one, other = (
+                np.array([seen.tensions[end] for seen in getattr(drawn, side)]) for drawn in (coarse, fine)
+            )
+            until = min(coarse.times[-1], fine.times[-1])
+            again = np.interp(fine.times, coarse.times, one)[fine.times <= until]
+            front = float(np.abs(np.diff(other)).max(initial=0.0))
+            most = max(most, peaks.gap(other[fine.times <= until], again, reach), front)
+    return most
 
 
 def _still_to_come(one: float, two: float, three: float) -> float:
@@ -219,7 +250,7 @@ def _still_to_come(one: float, two: float, three: float) -> float:
         return math.inf
     before, last = abs(two - one), abs(three - two)
     last = max(last, _SECOND_ORDER * before)
-    ratio = min(max(last / before, _SECOND_ORDER), _SLOWEST) if before > 0 else _SECOND_ORDER
+    ratio = min(max(last / before, _FIRST_ORDER), _SLOWEST) if before > 0 else _FIRST_ORDER
     return _MARGIN * last * ratio / (1 - ratio)
 
 
