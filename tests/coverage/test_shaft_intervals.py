@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.machines import changed
 from support.shaft_samples import Truth, gentle_shaft, lively_shaft, text
-from support.shafts import changed, spec_of
+from support.shafts import spec_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError

@@ -8,8 +8,8 @@ divides by it; its values stand beside, from an integration of their own.
 import math
 
 import pytest
-from support.machines import load_of, scene_of
-from support.shafts import C23, Reference, changed, report_of
+from support.machines import changed, load_of, report_of, scene_of
+from support.shafts import C23, Reference
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 import yaml
 from pydantic import BaseModel
-from support.shafts import loaded, report_of, spec_of
+from support.machines import loaded, report_of
+from support.shafts import spec_of
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.span import KeyPath, dotted, key_path

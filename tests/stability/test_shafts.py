@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
-from support.machines import check_of, load_of, scene_of
-from support.shafts import C23, Reference, changed, report_of
+from support.machines import changed, check_of, load_of, report_of, scene_of
+from support.shafts import C23, Reference
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate

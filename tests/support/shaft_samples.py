@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from support.shafts import Reference, changed, number, random_shaft, text
+from support.machines import changed
+from support.shafts import Reference, number, random_shaft, text
 
 TOLERANCE = 1e-13
 """Of the integration of its own."""

@@ -4,7 +4,6 @@
 textbook, and integrates them with scipy's DOP853 from break to break.
 """
 
-import copy
 import math
 from collections.abc import Callable
 from itertools import pairwise
@@ -16,11 +15,9 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
-from ptmcalc.contract.report import FileReport
-from ptmcalc.engine.check import Options, check
-from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.shaft.spec import Shaft
+from support.machines import loaded
 
 TURN = 2 * math.pi
 
@@ -60,38 +57,11 @@ def template() -> dict[str, Any]:
     return data
 
 
-def changed(data: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    """A deep copy with values set by paths whose steps are joined by `__`; None deletes a key."""
-    data = copy.deepcopy(data)
-    for path, value in changes.items():
-        *parents, key = (int(step) if step.isdigit() else step for step in path.split("__"))
-        node: Any = data
-        for step in parents:
-            node = node[step] if isinstance(node, list) else node.setdefault(step, {})
-        if value is None:
-            node.pop(key, None)
-        else:
-            node[key] = value
-    return data
-
-
-def loaded(data: dict[str, Any]) -> Loaded:
-    """A machine through the loader; fails the test when the file is faulty."""
-    result = load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml")
-    assert result.spec is not None, [(d.code, d.message) for d in result.diagnostics]
-    return result
-
-
 def spec_of(data: dict[str, Any]) -> Shaft:
     """The filled-in spec of a shaft."""
     spec = loaded(data).spec
     assert isinstance(spec, Shaft)
     return spec
-
-
-def report_of(data: dict[str, Any], **options: Any) -> FileReport:
-    """The whole report of a machine."""
-    return check(loaded(data), Options(**options))
 
 
 def text(value: float, unit: str) -> str:

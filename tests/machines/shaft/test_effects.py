@@ -4,8 +4,8 @@ import math
 from typing import Any
 
 import pytest
-from support.machines import check_of, load_of, scene_of
-from support.shafts import C23, Reference, changed, report_of, spec_of
+from support.machines import changed, check_of, load_of, report_of, scene_of
+from support.shafts import C23, Reference, spec_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.effect import EffectState

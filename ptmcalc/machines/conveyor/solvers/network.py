@@ -21,7 +21,7 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import Moving, Set, deceleration, moving, set_up
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Start
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen, Station
@@ -51,7 +51,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     runs = [_once(case, carried, (_CELLS << level) << refined) for refined in range(3)]
     coarsest, coarse, fine = (loads for loads, _ in runs)
     drawn, ready = runs[-1][1]
-    bars = _bars(case, (coarsest, coarse, fine), _apart(runs[1][1][0], drawn))
+    bars = _bars(case, (coarsest, coarse, fine), _apart(runs[1][1][0], drawn, not isinstance(scene, Jam)))
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
     health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
     return Result(
@@ -225,10 +225,11 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float)
     return bars
 
 
-def _apart(coarse: Drawn, fine: Drawn) -> float:
+def _apart(coarse: Drawn, fine: Drawn, smooth: bool) -> float:
     """Largest gap between the tensions at head and tail on both grids [N]: how far any value of one history is from all
     values of the other within a few coarse steps; and the highest front, the change within one step. A front that comes
-    a little later is no gap, but where it meets another one, they add up for a moment that only a finer grid sees."""
+    a little later is no gap, but where it meets another one, they add up for a moment that only a finer grid sees. The
+    steps of a jam, which is not `smooth`, are sharp on every grid and count as gaps only."""
     reach = math.ceil(_SHIFT_STEPS * coarse.times[1] / fine.times[1])
     most = 0.0
     for side in ("head", "tail"):
@@ -238,7 +239,7 @@ def _apart(coarse: Drawn, fine: Drawn) -> float:
             )
             until = min(coarse.times[-1], fine.times[-1])
             again = np.interp(fine.times, coarse.times, one)[fine.times <= until]
-            front = float(np.abs(np.diff(other)).max(initial=0.0))
+            front = float(np.abs(np.diff(other)).max(initial=0.0)) if smooth else 0.0
             most = max(most, peaks.gap(other[fine.times <= until], again, reach), front)
     return most
 
