@@ -225,6 +225,11 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             " computed, not beyond it.",
             "Give the link damping, or the load that keeps it closed; look at the events.",
         ),
+        "NUM107": CodeText(
+            "a textbook formula far from the computed value",
+            "A formula used within its own range differs from the computed load by more than a tenth and the bar.",
+            "Design by the computed load; the formula leaves out an effect that matters here.",
+        ),
     }
 )
 """Every code that is not a check of a machine. Codes are never reused."""

@@ -31,6 +31,7 @@ from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import solve, variants
+from ptmcalc.engine.textbook import far_from_textbook
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
@@ -99,6 +100,7 @@ def check(loaded: Loaded, options: Options) -> FileReport:
         for f in dict.fromkeys(findings)
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options.histories).scene() for scene in settled)
+    diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
 
 

@@ -1,5 +1,6 @@
 """`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep."""
 
+from ptmcalc.base.diagnostic import Severity
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement, count
 from ptmcalc.report import words
@@ -16,6 +17,8 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
 def _lines(report: FileReport) -> list[str]:
     lines = []
     for diagnostic in report.diagnostics:
+        if diagnostic.severity is Severity.NOTE:  # of the table and the JSON, which show what it is about
+            continue
         where = f"{report.path}:{words.place(diagnostic.span)}" if diagnostic.span else report.path
         hint = f"; {diagnostic.hint}" if diagnostic.hint else ""
         lines.append(f"{where}: {diagnostic.severity.value} {diagnostic.code} {diagnostic.message}{hint}")
