@@ -1,8 +1,8 @@
 """How a drive brings a machine up to speed, and how far an undamped mode can stray from the quasi-static answer.
 
 A profile is a factor that rises from 0 to 1 in the time `rise`: `step` at once, `ramp` linearly, `cosine` as
-(1 - cos(pi t/t_s))/2 (Harrison). Imposed on the torque it is the force; imposed on the speed its rate is the
-acceleration.
+(1 - cos(pi t/t_s))/2 (Harrison), `parabolic` as two parabolas that meet in the middle (Nordell). Imposed on the
+torque it is the force; imposed on the speed its rate is the acceleration.
 """
 
 from dataclasses import dataclass
@@ -12,16 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
-STEP, RAMP, COSINE = "step", "ramp", "cosine"
+STEP, RAMP, COSINE, PARABOLIC = "step", "ramp", "cosine", "parabolic"
 
 
 def rise(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     """The factor of a start profile.
 
-        step: 1      ramp: t/t_s      cosine: (1 - cos(pi t/t_s))/2      each 1 after t_s
+        step: 1      ramp: u = t/t_s      cosine: (1 - cos(pi u))/2      each 1 after t_s
+        parabolic: 2 u^2 up to the middle, then 1 - 2 (1 - u)^2
 
     Args:
-        shape: `step`, `ramp` or `cosine`.
+        shape: `step`, `ramp`, `cosine` or `parabolic`.
         rise_time: t_s [s].
         time: t [s].
 
@@ -30,12 +31,14 @@ def rise(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
 
     **Range** t >= 0.
     **Error** exact.
-    **Source** A. Harrison's cosine profile and the linear ramp, as used for controlled conveyor starts.
+    **Source** A. Harrison's cosine, L. Nordell's parabolas and the linear ramp, as used for controlled starts.
     """
     times = np.asarray(time, float)
     if shape == STEP:
         return np.ones_like(times)
     share = np.clip(times / rise_time, 0.0, 1.0)
+    if shape == PARABOLIC:
+        return np.where(share < 0.5, 2 * share**2, 1 - 2 * (1 - share) ** 2)
     return share if shape == RAMP else np.asarray(np.sin(np.pi / 2 * share) ** 2)
 
 
@@ -43,9 +46,10 @@ def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     """Time integral of `rise` from 0.
 
         step: t    ramp: t^2/(2 t_s)    cosine: t/2 - t_s sin(pi t/t_s)/(2 pi)    each + (t - t_s) after t_s
+        parabolic: 2 t^3/(3 t_s^2) up to the middle, then t - t_s/2 + 2 (t_s - t)^3/(3 t_s^2)
 
     Args:
-        shape: `step`, `ramp` or `cosine`.
+        shape: `step`, `ramp`, `cosine` or `parabolic`.
         rise_time: t_s [s].
         time: t [s].
 
@@ -62,6 +66,10 @@ def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     inside = np.minimum(times, rise_time)
     if shape == RAMP:
         area = inside**2 / (2 * rise_time)
+    elif shape == PARABOLIC:
+        u = inside / rise_time
+        late = u - 0.5 + 2 / 3 * (1 - u) ** 3
+        area = rise_time * np.where(u < 0.5, 2 / 3 * u**3, late)
     else:
         angle = np.pi * inside / rise_time
         area = rise_time / (2 * np.pi) * _angle_less_sine(angle)
@@ -77,10 +85,10 @@ def _angle_less_sine(y: FloatArray) -> FloatArray:
 def rise_rate(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     """Slope of `rise`.
 
-        ramp: 1/t_s      cosine: pi/(2 t_s) sin(pi t/t_s)      each 0 after t_s
+        ramp: 1/t_s      cosine: pi/(2 t_s) sin(pi t/t_s)      parabolic: 4 min(t, t_s - t)/t_s^2      0 after t_s
 
     Args:
-        shape: `ramp` or `cosine`.
+        shape: `ramp`, `cosine` or `parabolic`.
         rise_time: t_s [s].
         time: t [s].
 
@@ -96,16 +104,18 @@ def rise_rate(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     slope = np.full_like(times, 1 / rise_time)
     if shape == COSINE:
         slope = np.pi / (2 * rise_time) * np.sin(np.pi * np.minimum(times / rise_time, 1.0))
+    elif shape == PARABOLIC:
+        slope = 4 / rise_time * np.minimum(times / rise_time, 1 - times / rise_time)
     return np.where(inside, slope, 0.0)
 
 
 def peak_rate(shape: str, rise_time: float) -> float:
     """Steepest slope of `rise`.
 
-        ramp: 1/t_s      cosine: pi/(2 t_s)
+        ramp: 1/t_s      cosine: pi/(2 t_s)      parabolic: 2/t_s
 
     Args:
-        shape: `ramp` or `cosine`.
+        shape: `ramp`, `cosine` or `parabolic`.
         rise_time: t_s [s].
 
     Returns:
@@ -115,7 +125,7 @@ def peak_rate(shape: str, rise_time: float) -> float:
     **Error** exact.
     **Source** derivative of `rise`.
     """
-    return (np.pi / 2 if shape == COSINE else 1.0) / rise_time
+    return {RAMP: 1.0, COSINE: np.pi / 2, PARABOLIC: 2.0}[shape] / rise_time
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,14 +146,16 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
         torque step    |x - 1| <= 1
         torque ramp    |x - q| <= 1/(w t_s) in the ramp, then |x - 1| <= 2/(w t_s)
         torque cosine  |x - q| <= b^2/(1 - b^2) in and after the rise
+        torque parab.  |x - q| <= 16/(w t_s)^2 in and after the rise
         speed ramp     |x - 1| <= 1 in the ramp, then |x| <= 2
         speed cosine   |x - q| <= b/(1 - b) in the rise, then |x| <= 2 b/(1 - b^2)
+        speed parab.   |x - q| <= 6/(w t_s) in the rise, then |x| <= 8/(w t_s)
 
     each capped by the response to its increases one by one: 1 for a torque (it only rises), 2 for a speed (the
     acceleration rises and falls by its peak). All decrease with w, so the lowest frequency bounds every mode.
 
     Args:
-        shape: `step`, `ramp` or `cosine`.
+        shape: `step`, `ramp`, `cosine` or `parabolic`.
         imposed_speed: True when the speed is imposed, False for the torque.
         rise_time: t_s [s].
         lowest_frequency: w, a lower bound of the natural frequencies [rad/s].
@@ -170,6 +182,12 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
         return Phase(0.0, 1.0, _capped(1 / x if x > 0 else np.inf, 1)), Phase(
             1.0, 1.0, _capped(2 / x if x > 0 else np.inf, 1)
         )
+    if shape == PARABOLIC:  # every corner of q'' (torque) or of q (speed) leaves its own swing behind
+        if imposed_speed:
+            late = _capped(8 / x if x > 0 else np.inf, 2)
+            return Phase(0.0, 1.0, _capped(6 / x if x > 0 else np.inf, 2)), Phase(0.0, 0.0, late)
+        stray = _capped(16 / x**2 if x > 0 else np.inf, 1)
+        return Phase(0.0, 1.0, stray), Phase(1.0, 1.0, stray)
     if imposed_speed:
         return (
             Phase(0.0, 1.0, _capped(b / (1 - b) if b < 1 else np.inf, 2)),

@@ -119,6 +119,8 @@ CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
+SHAPES = ("step", "ramp", "cosine", "parabolic")
+
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     capstan.slip_utilisation: [(9e3, 3e3, 400.0, 1.3), (9e3, 300.0, 400.0, 1.3)],
     capstan.slip_reserve_force: [(9e3, 3e3, 1.3), (2e3, 3e3, 1.3), (3e3, -1.0, 1.3)],
@@ -258,13 +260,14 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     sag.sag_ratio: [(900.0, 5e4), (900.0, -1.0)],
     sag.tension_at_sag: [(900.0, 0.015)],
     sag.softening: [(1.2e8, 900.0, 5e4), (1.2e8, 900.0, 0.0)],
-    start_profile.rise: [(shape, 4.0, t) for shape in ("step", "ramp", "cosine") for t in (0.0, 1.3, 9.0)],
-    start_profile.rise_integral: [(shape, 4.0, t) for shape in ("step", "ramp", "cosine") for t in (0.0, 1.3, 9.0)],
-    start_profile.rise_rate: [(shape, 4.0, t) for shape in ("ramp", "cosine") for t in (1.3, 9.0)],
-    start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0)],
+    start_profile.rise: [(shape, 4.0, t) for shape in SHAPES for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_integral: [(shape, 4.0, t) for shape in SHAPES for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_rate: [(shape, 4.0, t) for shape in SHAPES[1:] for t in (1.3, 9.0)],
+    start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0), ("parabolic", 4.0)],
     start_profile.phases: [
         ("step", False, 4.0, 3.0), ("ramp", False, 4.0, 3.0), ("cosine", False, 4.0, 3.0), ("ramp", True, 4.0, 3.0),
-        ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0),
+        ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0), ("parabolic", False, 4.0, 3.0),
+        ("parabolic", True, 4.0, 3.0),
     ],
     shaft.acceleration: [(90.0, 30.0, -8.0, 12.0)],
     shaft.torque_of_motion: [(30.0, -8.0, 12.0, 3.0)],
