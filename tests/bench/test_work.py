@@ -23,6 +23,9 @@ MOST_EVALUATIONS = {
     "crusher_shaft.yaml": 2_500_000,
     "short_conveyor.yaml": 10,
     "reference/bw_02.yaml": 2_000_000,
+    "conveyor/decline_conveyor.yaml": 8_000_000,
+    "conveyor/two_drive_conveyor.yaml": 15_000_000,
+    "conveyor/screw_takeup_conveyor.yaml": 10_000_000,
 }
 
 
