@@ -19,7 +19,7 @@ from ptmcalc.numerics.belt.station import Place, Seen, Station
 
 MOST_UPDATES = 4_000_000_000
 _BLOCK = 64
-_ROUNDING = 1e-9
+_ROUNDING = 1e-8
 """Share of the energy in a belt below which what it exchanges is rounding."""
 
 

@@ -29,6 +29,10 @@ Torque = Callable[[float, float], tuple[float, float]]
 """Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""
 
 _ALTERNATIONS = 12
+_HELD = 1 + 1e-9
+"""Friction of a belt at rest holds no more than this share of itself: its tension is a difference of large ones."""
+_STEEPEST = 100.0
+"""Time constants of growth in one step, where a drive pulls harder the faster it turns."""
 
 
 def no_force(time: float, speed: float) -> tuple[float, float]:
@@ -139,6 +143,7 @@ class Station:
         count = len(self.drums)
         self.belt = float(self.imposed(0.0) if self.imposed else speed)
         self.behind, self.tension = float(speed), math.nan
+        self.gives = math.copysign(1.0, speed) if speed else 0.0
         self.speeds, self.slips = [self.belt] * count, [0] * count
         self.pulls: list[float] | None = None
         self.arrived: tuple[float, float] | None = None
@@ -146,15 +151,16 @@ class Station:
 
     def advance(self, time: float, n_on: float, p_off: float, step: float) -> Seen:
         """The state at a time, `step` after the last one, where the waves `n_on` and `p_off` arrive."""
-        slack = self._slack(p_off, step)
         old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
         for _ in range(_ALTERNATIONS):
+            slack = self._slack(p_off, step)
             move = self._moved(time, n_on, slack, old, step)
             tensions = self._tensions(time, n_on, slack, move)
             change = self._breaks_loose(tensions, move.belt)
-            if change is None:
+            if change is not None:
+                self.slips[change[0]] = change[1]
+            elif not self._gives_way(p_off, tensions[-1], 0.0 if step else move.belt - old):
                 break
-            self.slips[change[0]] = change[1]
         else:
             raise NumericsError("NUM101", f"stick and slip of the drums alternate without end at {time:.4g} s")
         speeds, forces = self._turned(time, tensions, move, drums, step)
@@ -240,24 +246,43 @@ class Station:
         weight = takeup.mass / 4
         if weight <= 0:
             return _Slack(takeup.tension, takeup.tension, 0.0, 0.0)
-        friction = math.copysign(place.friction_off, self.behind) if self.behind else 0.0
-        apart, calm = self.belt - self.behind, (arriving - friction - takeup.tension) / impedance
+        friction, apart = self.gives * place.friction_off, self.belt - self.behind
         if not step:
-            return _Slack(arriving, arriving - friction + impedance * apart, impedance, 0.0)
+            if (
+                self.gives or not place.friction_off
+            ):  # whatever the belt does at once, it does to both sides of the weight
+                return _Slack(arriving, arriving - friction + impedance * apart, impedance, 0.0)
+            held = min(max(takeup.tension, arriving - place.friction_off), arriving + place.friction_off)
+            return _Slack(held, held, 0.0, 0.0)
+        if not self.gives and place.friction_off:  # the weight goes with the belt alone: it adds to the drums' mass
+            yields = weight / step
+            return _Slack(self.tension + yields * self.belt, takeup.tension + yields * self.belt, yields, 0.0)
+        calm = (arriving - friction - takeup.tension) / impedance
         decay, early, late = weights(impedance / weight * step)
         settled = self.belt - self.calm
         last = arriving - friction + impedance * (decay * apart + early * settled - late * calm)
         yields = impedance * (1 - late)
         return _Slack(self.tension + yields * self.belt, last, yields, 0.0)
 
+    def _gives_way(self, p_off: float, tension: float, jump: float) -> bool:
+        """Whether the belt behind a heavy take-up cannot be held by its friction, or goes with a jump of the belt."""
+        friction, left = self.place.friction_off, p_off + self.place.climb_off - tension
+        if not (self.takeup and self.takeup.mass and friction) or self.gives:
+            return False
+        if not jump and abs(left) <= friction * _HELD:
+            return False
+        self.gives = math.copysign(1.0, jump or left)
+        return True
+
     def _settle(self, takeup: TakeUp, p_off: float, tension: float) -> None:
         """Belt speed behind the take-up: Z v_r = P - T - R."""
-        place = self.place
-        impedance, left = place.after + place.drag_off, p_off + place.climb_off - tension
-        pull = abs(left) - place.friction_off
-        self.behind = math.copysign(pull / impedance, left) if pull > 0 else 0.0
-        friction = math.copysign(place.friction_off, self.behind) if self.behind else 0.0
-        self.tension, self.calm = tension, (p_off + place.climb_off - friction - takeup.tension) / impedance
+        place, arriving = self.place, p_off + self.place.climb_off
+        impedance, friction, left = place.after + place.drag_off, place.friction_off, arriving - tension
+        turns = takeup.mass > 0 and friction > 0 and self.gives * left <= 0
+        pull = 0.0 if turns else max(abs(left) - friction, 0.0)
+        self.behind = math.copysign(pull / impedance, left) if pull else 0.0
+        self.gives = math.copysign(1.0, left) if pull else 0.0
+        self.tension, self.calm = tension, (arriving - self.gives * friction - takeup.tension) / impedance
 
     # -- the drums --------------------------------------------------------------------------------------------
 
@@ -381,7 +406,8 @@ def _velocity(
     Without mass it is that of balance at the end.
 
     Raises:
-        NumericsError: NUM101 when nothing but mass could keep the speed finite, and there is none.
+        NumericsError: NUM101 when nothing but mass could keep the speed finite, and there is none, or so little that
+            the speed would grow beyond all measure within the step.
     """
     if mass <= 0:
         rest = abs(forcing[1]) - friction[1]
@@ -390,13 +416,16 @@ def _velocity(
         if against <= 0:
             raise NumericsError("NUM101", "a drum without mass is driven by more than can hold it at any speed")
         return math.copysign(rest / against, forcing[1])
-    if step == 0 or (not old and abs(forcing[1]) <= friction[1]):
+    if step == 0 or (not old and friction[1] and abs(forcing[1]) <= friction[1]):
         return old
     way = math.copysign(1.0, old or forcing[1])
     begins, ends = (g - way * r for g, r in zip(forcing, friction, strict=True))
-    if not old and friction[0] and way * begins < 0:  # it breaks loose within the step
+    if not old and friction[1] and way * begins < 0:  # it breaks loose within the step
         begins = 0.0
-    decay, early, late = _exponential(against / mass * step)
+    constants = against / mass * step
+    if constants < -_STEEPEST:
+        raise NumericsError("NUM101", "a drive's force rises with speed far too steeply for its drum and the step")
+    decay, early, late = _exponential(constants)
     new = decay * old + (early * begins + late * ends) * step / mass
     if new * way >= 0 or not friction[1]:
         return new

@@ -41,7 +41,7 @@ RELAXED = changed(
     effects={"sag": "off"},
     checks={"belt_safety_starting": 9},
 )
-SWINGING_WEIGHT = changed(ONE_START, takeup__mass="6.1 t", effects={"sag": "off"})
+SWINGING_WEIGHT = changed(ONE_START, takeup__mass="8.2 t", effects={"sag": "off"})
 CHANGED_VERDICTS = [
     ("belt_wave", changed(ONE_START, checks={"slip": {"reserve": 1.35}}), "CNV101"),
     ("tail_jump", changed(ONE_START, checks={"slip": {"reserve": 1.28}}), "CNV101"),
