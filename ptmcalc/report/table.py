@@ -1,6 +1,6 @@
 """The report a designer reads on a terminal: loads by scene, checks worst first, then what was computed and why."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from io import StringIO
 
 from rich import box
@@ -14,6 +14,7 @@ from ptmcalc.base.span import dotted
 from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import EffectReport, FileReport, LoadReport, SceneReport, SolverReport, count
+from ptmcalc.contract.result import LoadInfo
 from ptmcalc.report import words
 
 _STYLE = {
@@ -116,29 +117,67 @@ def _diagnostics(console: Console, report: FileReport) -> None:
 
 
 def _loads(console: Console, scenes: tuple[SceneReport, ...]) -> None:
-    """Loads in rows, scenes in columns; the textbook's value with its ratio beside a simulated one."""
-    table = _table("Loads")
-    table.add_column("", overflow="fold")
-    table.add_column("")
-    cells: list[dict[str, LoadReport]] = []
-    textbook = [any(load.formula for load in scene.loads) for scene in scenes]
-    for scene, has_formula in zip(scenes, textbook, strict=True):
-        table.add_column(scene.name, justify="right", overflow="fold")
-        if has_formula:
-            table.add_column("textbook", justify="right", style="dim", overflow="fold")
-        cells.append({load.info.name: load for load in scene.loads})
+    """Loads in rows, scenes in columns; the textbook's value with its ratio beside a simulated one. As many scenes
+    stand side by side as fit, and a row is there only where one of them has it."""
+    loads = [{load.info.name: load for load in scene.loads} for scene in scenes]
     fullest_first = sorted(scenes, key=lambda scene: -len(scene.loads))
-    names = dict.fromkeys(load.info for scene in fullest_first for load in scene.loads if load.info.headline)
-    for info in names:
-        found = [scene.get(info.name) for scene in cells]
-        unit = words.common_unit((load.estimate.value for load in found if load), info.quantity)
-        row = [info.title, unit.removeprefix("1")]
-        for load, has_formula in zip(found, textbook, strict=True):
-            row.append(words.amount(load.estimate, info.quantity, unit) if load else "")
-            if has_formula:
-                row.append(_formula(load, unit))
-        table.add_row(*row)
-    console.print(table)
+    infos = list(dict.fromkeys(load.info for scene in fullest_first for load in scene.loads if load.info.headline))
+    units = {
+        info.name: words.common_unit(
+            (own[info.name].estimate.value for own in loads if info.name in own), info.quantity
+        )
+        for info in infos
+    }
+    columns = [_columns(scene, own, infos, units) for scene, own in zip(scenes, loads, strict=True)]
+    labels = min(max((len(info.title) + len(units[info.name]) for info in infos), default=0) + 2 * _GAP, _LABELS)
+    title = "Loads"
+    for group in _side_by_side([sum(map(_width, part)) for part in columns], console.width - labels):
+        shown = [column for index in group for column in columns[index]]
+        table = _table(title)
+        table.add_column("", overflow="fold")
+        table.add_column("")
+        for name, style, _ in shown:
+            table.add_column(name, justify="right", overflow="fold", style=style)
+        for row, info in enumerate(infos):
+            if any(cells[row] for _, _, cells in shown):
+                unit = units[info.name].removeprefix("1")
+                table.add_row(info.title, unit, *(cells[row] for _, _, cells in shown))
+        console.print(table)
+        title = ""
+
+
+_Column = tuple[str, str, list[str]]
+"""Heading, style, cells."""
+_LABELS = 40
+"""Width that the titles of loads are given at most before scenes have to part; longer ones go on in a second line."""
+
+
+def _columns(
+    scene: SceneReport, own: Mapping[str, LoadReport], infos: Sequence[LoadInfo], units: Mapping[str, str]
+) -> list[_Column]:
+    """The columns of one scene: its values, and the textbook's where there are any."""
+    found = [own.get(info.name) for info in infos]
+    values = [words.amount(load.estimate, load.info.quantity, units[load.info.name]) if load else "" for load in found]
+    columns = [(scene.name, "", values)]
+    if any(load.formula for load in scene.loads):
+        columns.append(("textbook", "dim", [_formula(load, units[load.info.name]) if load else "" for load in found]))
+    return columns
+
+
+def _width(column: _Column) -> int:
+    heading, _, cells = column
+    return max(len(heading), *map(len, cells), 0) + _GAP
+
+
+def _side_by_side(widths: Sequence[int], room: int) -> Iterator[list[int]]:
+    """Columns in groups that fit into so much room, at least one in each."""
+    group: list[int] = []
+    for index, width in enumerate(widths):
+        if group and sum(widths[one] for one in group) + width > room:
+            yield group
+            group = []
+        group.append(index)
+    yield group
 
 
 def _formula(load: LoadReport | None, unit: str) -> str:
