@@ -148,7 +148,7 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...]) -> None:
 
 _Column = tuple[str, str, list[str]]
 """Heading, style, cells."""
-_LABELS = 40
+_LABELS = 32
 """Width that the titles of loads are given at most before scenes have to part; longer ones go on in a second line."""
 
 
