@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from importlib import resources
 
 from ptmcalc.base import units
+from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import MachineKind
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
@@ -11,25 +12,38 @@ from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 
 _SPEED_TOLERANCE = 0.05
+_WEIGHT_TOLERANCE = 0.05
 _STEEP = 0.309  # sine of 18 degrees
 
 
 def inspect(spec: Conveyor) -> Iterator[Finding]:
     """Values of the file that disagree with each other."""
-    drive = spec.main_drive
-    if drive.motor.speed is not None:
+    for name, drive in spec.all_drives.items():
+        if drive.motor.speed is None:
+            continue
         rim = drive.motor.speed / drive.gear.ratio * drive.drum.diameter / 2
         if abs(rim / spec.speed - 1) > _SPEED_TOLERANCE:
+            whose = f" of `{name}`" if len(spec.all_drives) > 1 else ""
             yield Finding(
                 "SPC201",
-                f"motor speed, gear ratio and drum give {units.show(rim, units.SPEED)} at the rim, the belt runs at"
-                f" {units.show(spec.speed, units.SPEED)}",
+                f"motor speed, gear ratio and drum{whose} give {units.show(rim, units.SPEED)} at the rim, the belt runs"
+                f" at {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio or the diameter",
             )
+    pull = spec.takeup.mass * spec.gravity / 2 if spec.takeup.mass is not None else spec.takeup.tension
+    if abs(pull / spec.takeup.tension - 1) > _WEIGHT_TOLERANCE:
+        yield Finding(
+            "SPC201",
+            f"a take-up weight on two falls pulls with half of it, {units.show(pull, units.FORCE)}; the tension is"
+            f" {units.show(spec.takeup.tension, units.FORCE)}",
+            ("takeup", "mass"),
+            f"write `mass: {units.show(2 * spec.takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
+        )
+    yield from _of_scenes(spec)
     if spec.route.inclination == "small_angle" and abs(spec.route.climb) > _STEEP * spec.route.span:
         yield Finding(
             "SPC201",
@@ -37,6 +51,33 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             ("route", "inclination"),
             "write `inclination: exact`",
         )
+
+
+def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
+    """What a scene asks for and the machine does not have."""
+    late = [name for name, drive in spec.all_drives.items() if drive.delay > 0]
+    for index, scene in enumerate(spec.scenes or ()):
+        path: KeyPath = ("scenes", index)
+        lifts = [part.lift for part in spec.route.parts]
+        if (scene.load == "uphill" and max(lifts) <= 0) or (scene.load == "downhill" and min(lifts) >= 0):
+            does = "climbs" if scene.load == "uphill" else "falls"
+            yield Finding(
+                "SPC201", f"no section of the route {does}: the belt is empty", (*path, "load"), "write `load: empty`"
+            )
+        if isinstance(scene, EmergencyStop) and not spec.brakes:
+            yield Finding(
+                "SPC201",
+                "there are no `brakes`: the belt runs out",
+                (*path, "type"),
+                "add `brakes: {disc: {torque: 3000 N*m}}`, or write `type: coast`",
+            )
+        if isinstance(scene, Start) and scene.profile.imposes_speed and late:
+            yield Finding(
+                "SPC201",
+                f"an imposed speed turns all drums at once: the `delay` of `{late[0]}` does not count",
+                (*path, "profile"),
+                "write `control: torque`",
+            )
 
 
 KIND = MachineKind(

@@ -15,7 +15,7 @@ from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, OF_STOP, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
@@ -410,6 +410,8 @@ def moved(
     holds = all(one * grown < 1 for one in used)
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
+        if kind in OF_STOP and value == np.inf:
+            continue  # a belt that never stops does so whatever its waves are
         if kind in TENSIONS:
             found[name] = Interval(-change, change)
         elif kind == "tension_run_off_min":

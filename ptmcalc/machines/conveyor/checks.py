@@ -9,7 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.moving import brakes_of, braking
+from ptmcalc.machines.conveyor.moving import brakes_of, braking, moving_mass, running
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Coast,
@@ -350,6 +350,24 @@ def _brake_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
     return _brake_key(spec, scene) if brakes_of(spec, scene) else ()
 
 
+def _stop_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    """The latest brake's delay or rise, where full torque from the first moment would stop the rigid body in time; else
+    the strongest brake's torque."""
+    acting, limit = brakes_of(spec, scene), spec.value_at(_distance_key(scene))
+    line = running(spec, scene)
+    force = line.static_resistance + line.tail_pull + sum(braking(spec, brake).force for brake in acting.values())
+    if acting and limit is not None and moving_mass(line) * line.speed**2 <= 2 * force * limit:
+        name = max(acting, key=lambda name: acting[name].delay + acting[name].rise_time / 2)
+        late = acting[name]
+        if late.delay or late.rise_time:
+            return ("brakes", name, "delay" if late.delay >= late.rise_time / 2 else "rise_time")
+    return _brake_key(spec, scene)
+
+
+def _stop_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    return _stop_key(spec, scene) if brakes_of(spec, scene) else ()
+
+
 STOP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV106",
     title="too long a way to stop",
@@ -358,8 +376,8 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
     sense=Sense.AT_MOST,
     limit=_stop_limit,
     needs=_no_needs,
-    blame=lambda spec, scene, loads: _brake_key(spec, scene),
-    repair=_brake_repair,
+    blame=lambda spec, scene, loads: _stop_key(spec, scene),
+    repair=_stop_repair,
     each=_only_with("CNV106", _distance_key),
     what="The belt at the head comes to rest within the way the file allows.",
     why="A belt that runs on overfills the chute below and drags along whoever it has caught.",

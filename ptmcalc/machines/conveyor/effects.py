@@ -16,7 +16,7 @@ from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, belt_line, delay_lines_do, is_plain, start_case
 from ptmcalc.machines.conveyor.moving import deceleration, moving, moving_mass, rough_utilisation, running
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start, Stopping
@@ -33,6 +33,7 @@ COULOMB_THRESHOLD = 0.1
 _JUMP_FACTOR = 2.5
 _TAIL_MASS_FACTOR = 5.0
 _SAG_FACTOR = 0.4
+_SCENE_SAG_FACTOR = 1.0
 _GENTLE_SAG = 0.5
 _COULOMB_FACTOR = 4.0
 
@@ -40,9 +41,15 @@ _X = np.linspace(0.0, 1.0, 33)
 
 
 def _anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
-    """No bound for any load that the motion of the belt can change."""
+    """No bound for any load that the motion of the belt can change; a belt that never stops does so whatever its waves
+    are."""
     drives = isinstance(scene, Start) and scene.profile.imposes_speed
-    return {name: ANYTHING for name in loads if family(name) in CHANGED_BY_MOTION or (drives and name in DRIVE)}
+    return {
+        name: ANYTHING
+        for name, load in loads.items()
+        if (family(name) in CHANGED_BY_MOTION and not (family(name) in OF_STOP and load.low == math.inf))
+        or (drives and name in DRIVE)
+    }
 
 
 def _moved(
@@ -238,12 +245,13 @@ def sag_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when the sagging spans are taken as straight.
 
         d = min(0.4 f sqrt(1 + n), 2) a b_max g,   f at the lowest tension the run found       start
-        d = min(0.4 f sqrt(1 + n), 2) (S_max - S_min)/2                                        stop, jam
+        d = min(1.0 f sqrt(1 + n), 2) (S_max - S_min)/2                                        any other scene
 
     **Range** f below 0.05 (a plain start, where a richer solver carries sag) or 0.5 at the lowest tension of the run;
     unbounded above, and where the run does not know it.
-    **Error** calibrated: the largest value of the sample was 0.17 in place of 0.4.
-    **Source** perturbation of the compliance; coverage sample.
+    **Error** calibrated: the largest value of the sample was 0.17 in place of 0.4; of 218 stops and starts of a relaxed
+    belt, nonlinear elements with Ernst spans against the same without, 0.45 in place of 1.0 (the next one 0.27).
+    **Source** perturbation of the compliance; coverage samples.
     """
     lowest = loads["tension_min"].low if "tension_min" in loads else -math.inf
     line = belt_line(spec, scene)
@@ -258,7 +266,7 @@ def sag_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return bounds.spread(case, loads, _grown(case, _SAG_FACTOR * softest))
     contours = moving(spec, scene).window / line.contour_time
     swing = (loads["tension_max"].value - loads["tension_min"].value) / 2
-    return _moved(spec, scene, line, loads, min(_SAG_FACTOR * softest * math.sqrt(1 + contours), 2.0) * swing)
+    return _moved(spec, scene, line, loads, min(_SCENE_SAG_FACTOR * softest * math.sqrt(1 + contours), 2.0) * swing)
 
 
 def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:

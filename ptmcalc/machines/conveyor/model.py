@@ -347,7 +347,7 @@ class StartCase:
             return (start_profile.Phase(0.0, 0.0, 0.0),)
         if self.imposed_speed or self.shape == start_profile.STEP:
             return start_profile.phases(self.shape, self.imposed_speed, self.rise_time, lowest_frequency)
-        if self.shape == start_profile.COSINE and self.rise < self.rise_time:
+        if self.shape in (start_profile.COSINE, start_profile.PARABOLIC) and self.rise < self.rise_time:
             return (start_profile.Phase(0.0, 1.0, 1.0),)
         at_once = max(-self.line.static_resistance / self.excess, 0.0)
         rising = start_profile.phases(self.shape, False, self.rise, lowest_frequency)
@@ -400,6 +400,8 @@ def _held(shape: str, rise_time: float, share: float) -> float:
     """Time until a rising force reaches a share of its plateau."""
     if shape == start_profile.STEP or share <= 0:
         return 0.0
+    if shape == start_profile.PARABOLIC:
+        return rise_time * (math.sqrt(share / 2) if share < 0.5 else 1 - math.sqrt((1 - share) / 2))
     return rise_time * (share if shape == start_profile.RAMP else math.acos(1 - 2 * share) / math.pi)
 
 

@@ -38,6 +38,8 @@ from ptmcalc.numerics.belt.march import place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp
 
 _FAST = 1e30
+_MOST_GRIP = 700.0
+"""mu alpha above which no tension makes a drum slip: exp of it is the largest number there is."""
 _CONTOURS = 2.0
 """Times a wave goes round the belt that are looked at after it has come to rest, or after a drum has jammed."""
 _LATE = 1.25
@@ -69,19 +71,18 @@ def braking(spec: Conveyor, brake: Brake) -> Braking:
     """A brake at the rim: a brake on the motor shaft is driven through the gear, whose losses add to it.
 
     F = M/R   (drum shaft)        F = M i/(eta R)   (motor shaft)
+
+    It acts on the last drive there; at a tail without one, on the tail drum.
     """
-    drive = drive_of(spec, brake)
-    radius = drive.drum.diameter / 2
-    if brake.shaft == "drum":
-        return Braking(brake.torque / radius, brake.delay, brake.rise_time)
-    force = brake.torque * drive.gear.ratio / (filled(drive.gear.efficiency) * radius)
-    return Braking(force, brake.delay, brake.rise_time)
-
-
-def drive_of(spec: Conveyor, brake: Brake) -> PlacedDrive:
-    """The drive on whose drum a brake acts: the last one there, or the main one where there is none."""
     there = [drive for drive in spec.all_drives.values() if drive.at == brake.at]
-    return there[-1] if there else spec.main_drive
+    if not there:
+        diameter = spec.tail_drum.diameter or spec.main_drive.drum.diameter
+        return Braking(brake.torque * 2 / diameter, brake.delay, brake.rise_time)
+    drive = there[-1]
+    force = brake.torque * 2 / drive.drum.diameter
+    if brake.shaft == "motor":
+        force *= drive.gear.ratio / filled(drive.gear.efficiency)
+    return Braking(force, brake.delay, brake.rise_time)
 
 
 @dataclass(frozen=True, slots=True)
@@ -415,7 +416,7 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
                 mass,
                 _read(forces[name], step),
                 _braked(held, step, brakes if last else ()),
-                exponent if "slip" in carried else None,
+                exponent if "slip" in carried and exponent is not None and exponent < _MOST_GRIP else None,
                 one_way=backstop,
             )
         )

@@ -365,12 +365,12 @@ class ConveyorChecks(CheckSettings):
 class Profile(Fragment):
     """How the drive comes up."""
 
-    shape: Literal["step", "ramp", "cosine"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2"""
+    shape: Literal["step", "ramp", "cosine", "parabolic"] = "step"
+    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas"""
     time: PositiveTime | None = None
-    """duration of a ramp or cosine"""
+    """duration of the rise"""
     control: Literal["torque", "speed"] | None = None
-    """what follows the profile; a step is of torque, ramp and cosine are of speed unless this says `torque`"""
+    """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -432,7 +432,7 @@ class Start(ConveyorScene):
         """Only a torque can be broken off."""
         yield from super().conflicts(given)
         profile = given.block("profile")
-        if "aborted" not in given or profile is None or profile.word("shape") not in ("ramp", "cosine"):
+        if "aborted" not in given or profile is None or profile.word("shape") not in ("ramp", "cosine", "parabolic"):
             return
         if profile.word("control") != "torque":
             yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")
@@ -538,6 +538,7 @@ class Conveyor(MachineSpec):
         ):
             reason = "no drive is at the head: take-up and tension are counted from there"
             yield Conflict(("drives",), reason, "turn the route round, so that the drive is at its head")
+        yield from _no_motor_there(given)
         route, resistance = given.block("route"), given.block("resistance")
         length = _whole_length(route) if route else None
         if length is None or length >= 80 or resistance is None:
@@ -577,6 +578,20 @@ class Conveyor(MachineSpec):
     @property
     def settings(self) -> ConveyorChecks:
         return self.checks
+
+
+def _no_motor_there(given: Given) -> Iterator[Conflict]:
+    """A brake on a motor's shaft needs a motor where it stands."""
+    drives, brakes = given.raw.get("drives"), given.raw.get("brakes")
+    placed = list(drives.values()) if isinstance(drives, dict) else []
+    if not isinstance(brakes, dict) or not all(isinstance(drive, dict) for drive in placed):
+        return
+    if any(drive.get("at", "head") != "head" for drive in placed):
+        return
+    for name, brake in brakes.items():
+        if isinstance(brake, dict) and (brake.get("at"), brake.get("shaft")) == ("tail", "motor"):
+            reason = "no drive is at the tail, and so no motor shaft"
+            yield Conflict(("brakes", name, "shaft"), reason, "write `shaft: drum`, or `at: head`")
 
 
 def _whole_length(route: Given) -> float | None:

@@ -34,6 +34,8 @@ _SHARING = frozenset(
     {"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", "tension_max", "tension_min"}
 )
 """Tensions, which are sums of the same waves."""
+_SLIPPED = frozenset({"slip_distance", "slip_heat"})
+_MOST_ROUNDS = 1000.0
 _SECONDS_PER_STEP, _SECONDS_PER_CELL = 4e-5, 1.2e-8
 
 Values = dict[str, tuple[float, dict[str, float]]]
@@ -51,7 +53,8 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     runs = [_once(case, carried, (_CELLS << level) << refined) for refined in range(3)]
     coarsest, coarse, fine = (loads for loads, _ in runs)
     drawn, ready = runs[-1][1]
-    bars = _bars(case, (coarsest, coarse, fine), _apart(runs[1][1][0], drawn, not isinstance(scene, Jam)))
+    apart = _apart(runs[1][1][0], drawn, not isinstance(scene, Jam))
+    bars = _bars(case, (coarsest, coarse, fine), apart, ready.course.step)
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
     health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
     return Result(
@@ -143,16 +146,16 @@ def _asked(case: Moving, drawn: Drawn, ready: Set) -> Values:
 
 def _rest(case: Moving, belt: FloatArray, times: FloatArray) -> Values:
     """When and where the belt at the head comes to rest for the first time."""
+    name = "coast_distance" if case.scene.type == "coast" else "stop_distance"
     stopped = np.flatnonzero(belt <= 0)
     if not len(stopped):
-        return {name: (math.inf, {}) for name in ("stop_time", "stop_distance")}
+        return {"stop_time": (math.inf, {}), name: (math.inf, {})}
     last = int(stopped[0])
     step = float(times[1])
     way = float((belt[1:last] + belt[: last - 1]).sum()) / 2 * step if last > 1 else 0.0
     before = float(belt[last - 1])
     slope = (float(belt[last - 2]) - before) / step if last > 1 else 0.0
     part = min(before / slope, step) if slope > 0 else step
-    name = "coast_distance" if case.scene.type == "coast" else "stop_distance"
     return {"stop_time": (float(times[last - 1]) + part, {}), name: (way + before * part / 2, {})}
 
 
@@ -203,20 +206,28 @@ def _largest(history: FloatArray, step: float) -> tuple[float, float]:
 # -- bars -----------------------------------------------------------------------------------------------------------
 
 
-def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float) -> dict[str, float]:
+def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float, step: float) -> dict[str, float]:
     """Bars of all loads of the finest grid: what is still to come of the load itself, and what the largest error of any
-    tension makes of it."""
+    tension makes of it.
+
+    Slip comes and goes in phases that join and part as the grid is refined, each known to a step of the belt's way: of
+    slip the larger of both differences counts, and no less than such a step.
+    """
     coarsest, coarse, fine = grids
     bars = {}
     for name, (value, _) in fine.items():
         known = [grid[name][0] if name in grid else math.inf for grid in (coarsest, coarse)]
-        bars[name] = _still_to_come(known[0], known[1], value)
+        slid = family(name) in _SLIPPED and value > 0
+        bars[name] = _still_to_come(known[0], known[1], value, 1.0 if slid else _SECOND_ORDER)
+        if slid:
+            way = fine[name.replace("slip_heat", "slip_distance")][0]
+            bars[name] = max(bars[name], value / way * case.line.speed * step)
     change = max(*(bars[name] for name in fine if family(name) in _SHARING), _MARGIN / 2 * moved_most)
     line, slowing = case.line, deceleration(case.spec, case.scene, case.line)
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     for name, offsets in bounds.moved(line, values, change, slowing, off=case.spec.takeup.mass is not None).items():
         follows = max(abs(offsets.low), abs(offsets.high))
-        slid = family(name) in ("slip_distance", "slip_heat") and fine[name][0] > 0
+        slid = family(name) in _SLIPPED and fine[name][0] > 0
         if not slid:
             bars[name] = max(bars[name], follows)
     for name, (value, _) in fine.items():
@@ -234,9 +245,7 @@ def _apart(coarse: Drawn, fine: Drawn, smooth: bool) -> float:
     most = 0.0
     for side in ("head", "tail"):
         for end in (0, -1):
-            one, other = (
-                np.array([seen.tensions[end] for seen in getattr(drawn, side)]) for drawn in (coarse, fine)
-            )
+            one, other = (np.array([seen.tensions[end] for seen in getattr(drawn, side)]) for drawn in (coarse, fine))
             until = min(coarse.times[-1], fine.times[-1])
             again = np.interp(fine.times, coarse.times, one)[fine.times <= until]
             front = float(np.abs(np.diff(other)).max(initial=0.0)) if smooth else 0.0
@@ -244,22 +253,22 @@ def _apart(coarse: Drawn, fine: Drawn, smooth: bool) -> float:
     return most
 
 
-def _still_to_come(one: float, two: float, three: float) -> float:
+def _still_to_come(one: float, two: float, three: float, least: float) -> float:
     if one == two == three:
         return 0.0
     if not all(map(math.isfinite, (one, two, three))):
         return math.inf
     before, last = abs(two - one), abs(three - two)
-    last = max(last, _SECOND_ORDER * before)
+    last = max(last, least * before)
     ratio = min(max(last / before, _FIRST_ORDER), _SLOWEST) if before > 0 else _FIRST_ORDER
     return _MARGIN * last * ratio / (1 - ratio)
 
 
 def _estimate(name: str, value: float, bar: float) -> Estimate:
-    if not math.isfinite(value):
-        return Estimate.exact(value)
     if not math.isfinite(bar):
         return Estimate(value, -math.inf, math.inf, numerical=math.inf)
+    if not math.isfinite(value):
+        return Estimate.exact(value)
     return Estimate.within(value, bar)
 
 
@@ -301,19 +310,21 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """Whether there is a motion to simulate that the cheaper and sharper delay lines do not carry.
 
         W/F, static resistance over available force: at 1 the belt stays at rest;   1 for a plain start
+        n, rounds of a wave in the time of the scene: at 1000 simulating it takes a minute
 
     **Range** any scene in motion.
     **Error** exact.
     **Source** the belt moves when the drives' force exceeds the static resistance; `solvers.characteristics` is exact
     between drum and tail where a start is plain.
     """
-    if not isinstance(scene, Start):
-        return None
-    if delay_lines_do(spec, scene):
+    if isinstance(scene, Start) and delay_lines_do(spec, scene):
         return Criterion("plain", 1.0, 1.0, "a plain start, which the delay lines carry", "solvers.characteristics")
     case = moving(spec, scene)
-    if case.imposed is None and case.window <= 0:
+    if isinstance(scene, Start) and case.imposed is None and case.window <= 0:
         return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+    rounds = case.window / case.line.contour_time
+    if rounds >= _MOST_ROUNDS:
+        return Criterion("n", rounds, _MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
     return None
 
 

@@ -1,0 +1,108 @@
+"""Bars of the belt in cells are claims: on seeded random machines the same scene in 16 times the cells lies within.
+
+The bars are those of the coarsest level, the reference is the finest grid of a level four steps above. Only the
+discretisation is judged here; the physics of both is the same.
+"""
+
+import math
+from dataclasses import dataclass
+
+import pytest
+from support.conveyor_scenes import SCENES, random_scene
+from support.machines import spec_of
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.machines.conveyor.moving import moving
+from ptmcalc.machines.conveyor.solvers import network
+
+FINER = 16
+MOST_CONTOURS = 8  # longer scenes cost more and say no more
+EFFECTS = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers"})
+SEEDS = range(42)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A machine: what the bars claim of each load, and the load in many more cells."""
+
+    seed: int
+    scene: str
+    claims: dict[str, Estimate]
+    fine: dict[str, float]
+
+    def ratios(self) -> dict[str, float]:
+        """Distance from the finer grid in bars, of the loads with a finite bar."""
+        found = {}
+        for name, claim in self.claims.items():
+            if not math.isfinite(claim.value) or not math.isfinite(claim.bar):
+                continue
+            apart = abs(self.fine[name] - claim.value)
+            found[name] = apart / claim.bar if apart else 0.0
+        return found
+
+
+def cases_of(seeds: range, most_contours: float) -> list[Case]:
+    found = []
+    for seed in seeds:
+        data = random_scene(seed)
+        spec = spec_of(data)
+        (scene,) = spec.all_scenes
+        case = moving(spec, scene)
+        refused = network.valid(spec, scene)
+        if (refused and refused.exceeded) or case.window > most_contours * case.line.contour_time:
+            continue
+        carried = EFFECTS | ({"takeup_mass"} if "mass" in data["takeup"] else set())
+        claims = {name: one.estimate for name, one in network.run(spec, scene, carried, 0).loads.items()}
+        values, _ = network._once(case, carried, network._CELLS * FINER)
+        fine = {name: value for name, (value, _) in values.items()}
+        found.append(Case(seed, scene.type, claims, fine))
+    return found
+
+
+def missed(cases: list[Case]) -> list[tuple[int, str, str, float]]:
+    return [
+        (case.seed, case.scene, name, ratio) for case in cases for name, ratio in case.ratios().items() if ratio > 1
+    ]
+
+
+@pytest.fixture(scope="module")
+def cases() -> list[Case]:
+    return cases_of(SEEDS, MOST_CONTOURS)
+
+
+def test_the_sample_has_every_scene_and_several_drives(cases: list[Case]) -> None:
+    assert {case.scene for case in cases} == {"start", "stop", "coast", "jam", "emergency_stop"}
+    assert len(SCENES) == 6
+    several = [case for case in cases if "slip_utilisation_max[two]" in case.claims]
+    assert len(several) >= 0.2 * len(cases)
+    assert len(cases) >= 25
+
+
+def test_the_bars_are_no_empty_claims(cases: list[Case]) -> None:
+    """Nearly all are finite, and most are small beside the largest tension."""
+    bars = [(claim, case.claims["tension_max"].value) for case in cases for claim in case.claims.values()]
+    finite = [claim for claim, _ in bars if math.isfinite(claim.bar)]
+    assert len(finite) >= 0.9 * len([claim for claim, _ in bars if math.isfinite(claim.value)])
+    tensions = [case.claims["tension_max"] for case in cases if case.scene != "jam"]
+    assert sorted(one.bar / abs(one.value) for one in tensions)[len(tensions) // 2] < 0.03
+
+
+def test_every_bar_holds_the_finer_grid(cases: list[Case]) -> None:
+    assert missed(cases) == []
+
+
+def test_a_third_of_the_bars_would_not(cases: list[Case]) -> None:
+    assert max(max(case.ratios().values()) for case in cases) > 1 / 3
+
+
+def test_a_load_that_never_comes_is_never_there_in_the_finer_grid(cases: list[Case]) -> None:
+    """A belt that does not stop on one grid stops on none."""
+    for case in cases:
+        for name, claim in case.claims.items():
+            if not math.isfinite(claim.value):
+                assert case.fine[name] == claim.value, (case.seed, name)
+
+
+@pytest.mark.study
+def test_every_bar_holds_the_finer_grid_on_a_larger_sample() -> None:
+    assert missed(cases_of(range(1000, 1400), 40)) == []
