@@ -8,8 +8,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.contract.result import of
+from ptmcalc.machines.conveyor.braking import brakes_of, braking
+from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.moving import brakes_of, braking, moving_mass, running
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Coast,
@@ -120,8 +121,8 @@ def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
     """The key of the starting torque the file uses."""
     path = path or spec.main_path
     one = spec.value_at(path).motor
-    key = "mean_starting_torque" if one.mean_starting_torque is not None else "largest_starting_torque"
-    return (*path, "motor", key)
+    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
+    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
 
 
 def _slip_checks(spec: Conveyor, scene: ConveyorScene) -> Iterator[Check[Conveyor, ConveyorScene]]:
@@ -277,7 +278,7 @@ START: Check[Conveyor, Start] = Check(
     limit=_start_limit,
     needs=_no_needs,
     blame=lambda spec, scene, loads: starting_torque_key(spec),
-    repair=lambda spec, scene: starting_torque_key(spec),
+    repair=lambda spec, scene: () if (key := starting_torque_key(spec))[-1] == "curve" else key,
     what="The mean starting force at the rim exceeds the static resistance (torque) or what the profile asks (speed).",
     why="A drive that cannot move the belt stalls, and its motors overheat.",
     formula="n M i eta/R > W   (torque)      n M i eta/R >= max(m a + S_on - S_off)   (imposed speed)",

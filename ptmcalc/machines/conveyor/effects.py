@@ -16,9 +16,19 @@ from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.braking import deceleration
+from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine, StartCase, belt_line, delay_lines_do, is_plain, start_case
-from ptmcalc.machines.conveyor.moving import deceleration, moving, moving_mass, rough_utilisation, running
+from ptmcalc.machines.conveyor.model import (
+    SPEED_SHARE_THRESHOLD,
+    BeltLine,
+    StartCase,
+    belt_line,
+    delay_lines_do,
+    is_plain,
+    start_case,
+)
+from ptmcalc.machines.conveyor.moving import moving, rough_utilisation
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start, Stopping
 
 Loads = Mapping[str, Estimate]
@@ -391,6 +401,40 @@ def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     return _moved(spec, scene, line, loads, line.takeup_tension * (3.4 * drum / (2 * spec.gravity) + kappa), off=True)
 
 
+def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Part of the idlers' resistance at rated speed that is proportional to the speed.
+
+        s = W_v(v_rated)/W(v_rated)
+
+    **Range** any scene in motion; 0 where the file says nothing of it.
+    **Error** exact: an input.
+    **Source** running resistance grows with the speed; the threshold of 5 % is an engineering choice.
+    """
+    share = spec.resistance.speed_share
+    meaning = "part of the idlers' resistance that goes with the speed"
+    return Criterion("s", share, SPEED_SHARE_THRESHOLD, meaning, "an input")
+
+
+def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of any tension when all of the resistance is taken as independent of the speed.
+
+        d = 2 s W_idlers
+
+    At rest W_idlers is too large by s W_idlers; a wave that finds so much less against it may double it.
+
+    **Range** s below 5 %; unbounded above.
+    **Error** calibrated on the sample of the coverage tests.
+    **Source** balance of the belt.
+    """
+    share = spec.resistance.speed_share
+    if share == 0:
+        return {}
+    if share >= SPEED_SHARE_THRESHOLD:
+        return _anything(spec, scene, loads)
+    line = belt_line(spec, scene)
+    return _moved(spec, scene, line, loads, 2 * share * (line.back.friction[-1] + line.carry.friction[-1]))
+
+
 EFFECTS = (
     Effect("belt_wave", "belt elasticity: waves", IN_MOTION, wave_criterion, wave_bound),
     Effect(
@@ -435,6 +479,15 @@ EFFECTS = (
         IN_MOTION,
         takeup_criterion,
         takeup_bound,
+        part_of="belt_wave",
+        calibrated=True,
+    ),
+    Effect(
+        "viscous_idlers",
+        "resistance that goes with the speed",
+        IN_MOTION,
+        speed_criterion,
+        speed_bound,
         part_of="belt_wave",
         calibrated=True,
     ),

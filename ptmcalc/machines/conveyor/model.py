@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import inertia, motor, resistance, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Section, Start, Stopping
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Motor, Section, Start, Stopping
 
 FloatArray = NDArray[np.float64]
 
@@ -87,6 +87,8 @@ class BeltLine:
     grip_exponent: float | None
     breaking_force: float | None
     slack_sag: float
+    speed_share: float = 0.0
+    """part of the idlers' resistance at rated speed that goes with the speed"""
     tail_pull: float = 0.0
     """what drives at the tail pull in steady motion [N]"""
 
@@ -158,6 +160,7 @@ class BeltLine:
 def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
     """The conveyor in the load state of a scene; a start has the start's resistance."""
     g, route = spec.gravity, spec.route
+    extra = extra_forces(spec)
     flat = route.inclination == "small_angle"
     given = spec.resistance
     coefficient = filled(given.coefficient)
@@ -171,13 +174,15 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
     cosines = [1.0 if flat else math.sqrt(1 - (part.lift / part.length) ** 2) for part in parts]
     loads = [load_line_mass(spec) if _is_loaded(scene, part) else 0.0 for part in parts]
 
-    def strand(idler_line_mass: float, pitch: float | None, uphill: float, loads: Sequence[float]) -> Strand:
+    def strand(
+        idler_line_mass: float, pitch: float | None, uphill: float, loads: Sequence[float], extra: float
+    ) -> Strand:
         marks, friction, climb, masses = [0.0], [0.0], [0.0], []
         for part, cosine, load in zip(parts[:: int(uphill)], cosines[:: int(uphill)], loads, strict=True):
             on_it = spec.belt.mass + load
             main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
             marks.append(marks[-1] + part.length)
-            friction.append(friction[-1] + factor * main * part.length)
+            friction.append(friction[-1] + (factor * main + extra / route.span) * part.length)
             climb.append(climb[-1] + uphill * on_it * g * part.lift)
             masses.append(on_it + idler_line_mass)
         mean = sum(mass * part.length for mass, part in zip(masses, parts[:: int(uphill)], strict=True)) / marks[-1]
@@ -196,9 +201,11 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
         speed=spec.speed,
         stiffness=belt_stiffness(spec),
         belt_line_mass=spec.belt.mass,
-        carry=strand(spec.idlers.carry.rotating_line_mass, spec.idlers.carry.pitch, 1.0, loads),
-        back=strand(spec.idlers.back.rotating_line_mass, spec.idlers.back.pitch, -1.0, [0.0] * len(parts)),
-        tail_force=given.secondary_force or 0.0,
+        carry=strand(spec.idlers.carry.rotating_line_mass, spec.idlers.carry.pitch, 1.0, loads, extra["carry"]),
+        back=strand(
+            spec.idlers.back.rotating_line_mass, spec.idlers.back.pitch, -1.0, [0.0] * len(parts), extra["return"]
+        ),
+        tail_force=(given.secondary_force or 0.0) + extra["tail"],
         drive_mass=sum(drive_mass(drive) for drive in spec.all_drives.values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid",
@@ -206,7 +213,16 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
         grip_exponent=drum.friction * drum.wrap if drum.friction is not None else None,
         breaking_force=breaking_force(spec),
         slack_sag=spec.checks.slack_sag,
+        speed_share=given.speed_share,
     )
+
+
+def extra_forces(spec: Conveyor) -> dict[str, float]:
+    """Special resistances at the tail and along each strand [N]."""
+    found = dict.fromkeys(("tail", "carry", "return"), 0.0)
+    for one in spec.resistance.forces.values():
+        found[one.at] += one.force
+    return found
 
 
 def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
@@ -214,15 +230,20 @@ def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
     return not plainness(spec, scene).exceeded
 
 
+SPEED_SHARE_THRESHOLD = 0.05
+"""Part of the resistance that goes with the speed from which on it is simulated; an engineering choice."""
+
+
 def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
     """Whether strands that are pure delays carry all of a start: nothing sticks on the way, and no weight swings."""
-    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None
+    steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
+    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady
 
 
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
-        n = slopes and loads along a strand + drives + 1 for an aborted start
+        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve
 
     A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
 
@@ -232,9 +253,9 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
-    aborted = isinstance(scene, Start) and scene.aborted is not None
-    count = parts + len(spec.all_drives) + aborted
-    meaning = "slopes, drives and aborted starts: 2 for one slope and one drive"
+    unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape == "curve")
+    count = parts + len(spec.all_drives) + unusual
+    meaning = "slopes, drives, aborted starts and motor curves: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")
 
 
@@ -278,11 +299,20 @@ def drive_mass(drive: Drive) -> float:
 
 def drive_force(drive: Drive) -> float:
     """Mean starting force of all motors of a drive at the rim [N]."""
-    one = drive.motor
-    torque = one.mean_starting_torque
-    if torque is None:
-        torque = motor.mean_starting_torque(filled(one.largest_starting_torque), filled(one.smallest_starting_torque))
-    return motor.rim_force(one.count * torque, drive.gear.ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
+    torque = mean_starting_torque(drive.motor)
+    count, ratio = drive.motor.count, drive.gear.ratio
+    return motor.rim_force(count * torque, ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
+
+
+def mean_starting_torque(one: Motor) -> float:
+    """Mean starting torque of one motor [N*m]: as given, between its steps, or of its curve up to rated speed."""
+    if one.mean_starting_torque is not None:
+        return one.mean_starting_torque
+    if one.largest_starting_torque is not None:
+        return motor.mean_starting_torque(one.largest_starting_torque, filled(one.smallest_starting_torque))
+    assert one.curve is not None
+    top = one.speed or one.curve.no_load_speed or 1.0
+    return float(np.mean(one.curve.torque(np.linspace(0.0, top, 401), np.inf)))
 
 
 def starting_force(spec: Conveyor) -> float:
@@ -383,17 +413,17 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
     rise_time = profile.time or 0.0
     available = starting_force(spec)
     if imposed:
-        acceleration = line.speed * start_profile.peak_rate(profile.shape, rise_time)
+        acceleration = line.speed * start_profile.peak_rate(profile.rise, rise_time)
         window = rise_time + 4 * line.contour_time
         held = 0.0
     else:
         acceleration = held = window = 0.0
         if available > line.static_resistance:
-            held = _held(profile.shape, rise_time, line.static_resistance / available)
-            window = _time_to_speed(line, profile.shape, rise_time, available, held, masses.total_mass)
-            reached = available * float(start_profile.rise(profile.shape, rise_time, held + window))
+            held = _held(profile.rise, rise_time, line.static_resistance / available)
+            window = _time_to_speed(line, profile.rise, rise_time, available, held, masses.total_mass)
+            reached = available * float(start_profile.rise(profile.rise, rise_time, held + window))
             acceleration = (reached - line.static_resistance) / masses.total_mass
-    return StartCase(line, masses, profile.shape, rise_time, imposed, available, acceleration, held, window)
+    return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window)
 
 
 def _held(shape: str, rise_time: float, share: float) -> float:

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import FACTOR
+from ptmcalc.components.motor import AnyMotor
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.spec.fields import (
     Efficiency,
@@ -178,6 +179,15 @@ class Load(Fragment):
         yield from exactly_one(given, "mass", "capacity")
 
 
+class ExtraForce(Fragment):
+    """A special resistance: skirt plates, belt scrapers, a tripper."""
+
+    force: PositiveForce
+    """against the motion"""
+    at: Literal["tail", "carry", "return"] = "tail"
+    """where it acts: at the loading point by the tail, or evenly along a strand"""
+
+
 class Resistance(Fragment):
     """Resistance to motion (ISO 5048, DIN 22101)."""
 
@@ -187,6 +197,10 @@ class Resistance(Fragment):
     """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
     secondary_force: Force | None = None
     """secondary resistances as a force at the loading point, instead of `secondary`"""
+    speed_share: Fraction = 0.0
+    """part of the idlers' resistance at rated speed that is proportional to the speed"""
+    forces: dict[str, ExtraForce] = Field(default_factory=dict)
+    """special resistances by name, besides main and secondary ones"""
     start_factor: RatioFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: PositiveRatio = 1.0
@@ -213,13 +227,16 @@ class Motor(Fragment):
     """torque after each step of a rheostat start, one motor"""
     smallest_starting_torque: PositiveTorque | None = None
     """torque before each step of a rheostat start, one motor"""
+    curve: AnyMotor | None = None
+    """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The starting torque is a mean one, or swings between a largest and a smallest."""
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         if largest not in given and smallest not in given:
-            yield from exactly_one(given, mean, largest)
+            if "curve" not in given:
+                yield from exactly_one(given, mean, largest)
         elif mean in given:
             for key in (largest, smallest):
                 yield from at_most_one(given, mean, key)
@@ -365,8 +382,9 @@ class ConveyorChecks(CheckSettings):
 class Profile(Fragment):
     """How the drive comes up."""
 
-    shape: Literal["step", "ramp", "cosine", "parabolic"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas"""
+    shape: Literal["step", "ramp", "cosine", "parabolic", "curve"] = "step"
+    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `curve` as the motors'
+    torque over their speed"""
     time: PositiveTime | None = None
     """duration of the rise"""
     control: Literal["torque", "speed"] | None = None
@@ -376,11 +394,13 @@ class Profile(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A step is at once and of torque; anything else takes its time."""
         shape = given.word("shape")
-        if shape == "step":
+        if shape in ("step", "curve"):
             if "time" in given:
-                yield Conflict(("time",), "a `step` has no `time`", "delete `time`, or write `shape: ramp`")
+                yield Conflict(("time",), f"a `{shape}` has no `time`", "delete `time`, or write `shape: ramp`")
             if given.word("control") == "speed":
                 reason = "a step of speed needs an infinite force"
+                if shape == "curve":
+                    reason = "a motor's curve is of torque"
                 yield Conflict(("control",), reason, "write `shape: ramp` and a `time`")
         elif shape is not None and "time" not in given:
             yield given.missing("time", f"a `{shape}` needs its `time`")
@@ -388,7 +408,12 @@ class Profile(Fragment):
     @property
     def imposes_speed(self) -> bool:
         """Whether the speed follows the profile, not the torque."""
-        return self.shape != "step" and self.control != "torque"
+        return self.shape not in ("step", "curve") and self.control != "torque"
+
+    @property
+    def rise(self) -> str:
+        """How the mean starting torque or the speed rises; on a motor's curve it is there at once."""
+        return "step" if self.shape == "curve" else self.shape
 
 
 class ConveyorScene(Scene):
@@ -530,6 +555,7 @@ class Conveyor(MachineSpec):
         are not in the table."""
         yield from super().conflicts(given)
         yield from exactly_one(given, "drive", "drives")
+        yield from _without_curves(given)
         drives = given.raw.get("drives")
         if (
             isinstance(drives, dict)
@@ -592,6 +618,21 @@ def _no_motor_there(given: Given) -> Iterator[Conflict]:
         if isinstance(brake, dict) and (brake.get("at"), brake.get("shaft")) == ("tail", "motor"):
             reason = "no drive is at the tail, and so no motor shaft"
             yield Conflict(("brakes", name, "shaft"), reason, "write `shaft: drum`, or `at: head`")
+
+
+def _without_curves(given: Given) -> Iterator[Conflict]:
+    """A start along the motors' curves needs the curve of every motor."""
+    several, one = given.raw.get("drives"), given.raw.get("drive")
+    drives = list(several.values()) if isinstance(several, dict) else [one]
+    motors = [drive.get("motor") for drive in drives if isinstance(drive, dict)]
+    if all(isinstance(motor, dict) and "curve" in motor for motor in motors):
+        return
+    for index, scene in enumerate(given.blocks("scenes")):
+        profile = scene.raw.get("profile") if scene else None
+        if isinstance(profile, dict) and profile.get("shape") == "curve":
+            reason = "a motor has no `curve` to follow"
+            hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
+            yield Conflict(("scenes", index, "profile", "shape"), reason, hint)
 
 
 def _whole_length(route: Given) -> float | None:

@@ -42,6 +42,13 @@ RELAXED = changed(
     checks={"belt_safety_starting": 9},
 )
 SWINGING_WEIGHT = changed(ONE_START, takeup__mass="8.2 t", effects={"sag": "off"})
+FASTER_RUN_OUT = changed(
+    template(),
+    scenes=[{"type": "stop"}],
+    resistance__speed_share=0.9,
+    effects={"sag": "off"},
+    checks={"stop_distance": "4.8 m"},
+)
 CHANGED_VERDICTS = [
     ("belt_wave", changed(ONE_START, checks={"slip": {"reserve": 1.35}}), "CNV101"),
     ("tail_jump", changed(ONE_START, checks={"slip": {"reserve": 1.28}}), "CNV101"),
@@ -50,6 +57,7 @@ CHANGED_VERDICTS = [
     ("sag", STIFF_AND_LOOSE, "CNV105"),
     ("coulomb_idlers", RELAXED, "CNV102"),
     ("takeup_mass", SWINGING_WEIGHT, "CNV101"),
+    ("viscous_idlers", FASTER_RUN_OUT, "CNV106"),
 ]
 
 

@@ -18,9 +18,11 @@ from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.braking import deceleration
+from ptmcalc.machines.conveyor.cells import Set, set_up
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
-from ptmcalc.machines.conveyor.moving import Moving, Set, deceleration, moving, set_up
+from ptmcalc.machines.conveyor.moving import Moving, moving
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn, march
@@ -333,7 +335,9 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     title="the whole belt in cells: drives, brakes, idlers that stick and slide",
     fidelity=Fidelity.TRANSIENT,
     scenes=IN_MOTION,
-    represents=frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers", "takeup_mass"}),
+    represents=frozenset(
+        {"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers", "takeup_mass", "viscous_idlers"}
+    ),
     gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
     run=run,
     cost=cost,

@@ -1,12 +1,14 @@
 """A start of the rigid body: closed form. Its error bar is the bound of the belt's waves."""
 
 import math
+from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_modes
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.driving import least_pull
 from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_START
 from ptmcalc.machines.conveyor.model import is_plain, start_case
 from ptmcalc.machines.conveyor.moving import moving
@@ -28,6 +30,10 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads = bounds.scalar_loads(case) | bounds.rigid_loads(case)
     if not is_plain(spec, scene):
         loads["start_time_rigid"] = moving(spec, scene).rigid_time if case.moves else math.inf
+    if scene.profile.shape == "curve":  # the weakest moment of the motors decides whether they start
+        loads |= bounds.drive_loads(replace(case, available_force=least_pull(spec, scene)), case.line.static_resistance)
+        if loads["starting_reserve"] < 1:
+            loads["start_time_rigid"] = math.inf
     loads["start_time"] = loads["start_time_rigid"]
     weight = spec.takeup.mass or 0.0
     for number, frequency in enumerate(belt_modes.natural_frequencies(case.masses, weight, FREQUENCIES), 1):

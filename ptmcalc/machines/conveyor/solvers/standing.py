@@ -4,9 +4,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import stopping
+from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filled
-from ptmcalc.machines.conveyor.moving import moving, moving_mass, running
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line, extra_forces, filled
+from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
 
 
@@ -64,8 +65,10 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
 def _friction_per_coefficient(spec: Conveyor, line: BeltLine) -> tuple[float, float]:
     """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
     used = filled(spec.resistance.coefficient) * spec.resistance.stop_factor
-    friction = line.back.friction[-1] + line.carry.friction[-1]
-    return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force
+    extra = extra_forces(spec)
+    along = extra["carry"] + extra["return"]
+    friction = line.back.friction[-1] + line.carry.friction[-1] - along
+    return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force + along
 
 
 def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Result:

@@ -8,9 +8,9 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.driving import running, share
 from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, filled, load_line_mass
-from ptmcalc.machines.conveyor.moving import running, share
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 
 _OF_RUNNING = frozenset(
