@@ -63,7 +63,8 @@ class Estimate:
         """
         if offset == NOTHING:
             return self
-        low, high = self.low + offset.low, self.high + offset.high
+        low = -math.inf if offset.low == -math.inf else self.low + offset.low  # of an infinite number too
+        high = math.inf if offset.high == math.inf else self.high + offset.high
         return Estimate(
             min(max(self.value, low), high),
             low,

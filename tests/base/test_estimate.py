@@ -76,6 +76,12 @@ def test_widening_twice_is_widening_by_the_sum(number: Estimate, first: Interval
     assert twice.model >= once.model - 1e-3  # two one-sided offsets may lie on different sides
 
 
+@pytest.mark.parametrize("value", [math.inf, -math.inf])
+def test_an_infinite_number_widened_by_anything_is_anything(value: float) -> None:
+    wide = Estimate.exact(value).widened(ANYTHING)
+    assert (wide.value, wide.low, wide.high) == (value, -math.inf, math.inf)
+
+
 def test_a_number_widened_by_anything_is_not_bounded() -> None:
     wide = Estimate.within(5.0, 0.1).widened(ANYTHING)
     assert (wide.low, wide.high) == (-math.inf, math.inf)
