@@ -63,6 +63,7 @@ MACHINES: dict[str, dict[str, Any]] = {
     "three drives, weight": TAIL_TOO | WEIGHT,
     "hardly moving": {"speed": "1e-6 m/s"},
     "as fast as sound": {"speed": "1000 m/s", "drive__drum__friction": None},
+    "lifted off its drums by its speed": {"speed": "90 m/s"},
     "short": {"route": {"length": "1 m", "lift": "0.1 m"}},
     "very long": {"route": {"length": "1e5 m", "lift": "100 m"}},
     "a newton of tension": {"takeup__tension": "1 N"},

@@ -406,8 +406,12 @@ def moved(
     slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
     share = change / slack if slack > change else np.inf
     grown = (1 + share) / (1 - share) if share < 1 else np.inf
-    used = [one.high for name, one in loads.items() if family(name) == "slip_utilisation_max"]
-    holds = all(one * grown < 1 for one in used)
+
+    def holds(name: str) -> bool:
+        """Whether the drum of a load of slip keeps its grip."""
+        used = loads.get(name.replace(family(name), "slip_utilisation_max", 1))
+        return used is not None and used.high * grown < 1
+
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
         if kind in OF_STOP and value == np.inf:
@@ -428,7 +432,7 @@ def moved(
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)
-        elif kind in CHANGED_BY_MOTION and not (kind in ("slip_distance", "slip_heat") and holds):
+        elif kind in CHANGED_BY_MOTION and not (kind in ("slip_distance", "slip_heat") and holds(name)):
             found[name] = ANYTHING
     return found
 

@@ -313,6 +313,7 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
 
         W/F, static resistance over available force: at 1 the belt stays at rest;   1 for a plain start
         n, rounds of a wave in the time of the scene: at 1000 simulating it takes a minute
+        rho v^2/S_off, centrifugal over run-off tension: at 1 the belt lifts off its drums
 
     **Range** any scene in motion.
     **Error** exact.
@@ -324,7 +325,11 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     case = moving(spec, scene)
     if isinstance(scene, Start) and case.imposed is None and case.window <= 0:
         return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
-    rounds = case.window / case.line.contour_time
+    line = case.line
+    lift = line.centrifugal_at_speed / line.run_off if line.run_off > 0 else math.inf
+    if lift >= 1:
+        return Criterion("rho v^2/S", lift, 1.0, "centrifugal tension over that at the run-off", "laws.capstan")
+    rounds = case.window / line.contour_time
     if rounds >= _MOST_ROUNDS:
         return Criterion("n", rounds, _MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
     return None
