@@ -1,14 +1,17 @@
 """Stops and standstill of the rigid conveyor: what the brakes and the backstop have to hold, what a run-out tells."""
 
+from collections.abc import Callable, Iterable
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
-from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import OF_STOP
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, extra_forces, filled
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
+from ptmcalc.spec.scene import Scene
 
 
 def _exactly(loads: dict[str, float]) -> Result:
@@ -109,48 +112,55 @@ def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], le
     return _exactly({"stop_time": case.rigid_time, name: case.rigid_way})
 
 
-BRAKING: Solver[Conveyor, ConveyorScene] = Solver(
-    name="brake_statics",
-    title="brake torque for the way of the file",
-    fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Stop, EmergencyStop}),
-    represents=frozenset(),
-    gives=frozenset({"brake_torque_required", "tension_overload_braking"}),
-    run=brake,
-    cost=lambda spec, scene, carried, level: 5e-5,
-    source="lecture notes Kramatorsk 2007, signed form",
+def _formula(
+    name: str,
+    title: str,
+    run: Callable[..., Result],
+    scenes: set[type[Scene]],
+    gives: Iterable[str],
+    source: str,
+    *,
+    decides: bool = True,
+) -> AnySolver:
+    """A closed form of the rigid conveyor, which represents no effect."""
+    return Solver(
+        name=name,
+        title=title,
+        fidelity=Fidelity.FORMULA,
+        scenes=frozenset(scenes),
+        represents=frozenset(),
+        gives=frozenset(gives),
+        run=run,
+        cost=lambda spec, scene, carried, level: 5e-5,
+        source=source,
+        decides=decides,
+    )
+
+
+_NOTES = "lecture notes Kramatorsk 2007"
+BRAKING = _formula(
+    "brake_statics",
+    "brake torque for the way of the file",
+    brake,
+    {Stop, EmergencyStop},
+    {"brake_torque_required", "tension_overload_braking"},
+    f"{_NOTES}, signed form",
 )
-IDENTIFY: Solver[Conveyor, Coast] = Solver(
-    name="run_out",
-    title="resistance coefficient of the measured way",
-    fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Coast}),
-    represents=frozenset(),
-    gives=frozenset({"resistance_coefficient_identified"}),
-    run=identify,
-    cost=lambda spec, scene, carried, level: 5e-5,
-    source="lecture notes Kramatorsk 2007",
+IDENTIFY = _formula(
+    "run_out",
+    "resistance coefficient of the measured way",
+    identify,
+    {Coast},
+    {"resistance_coefficient_identified"},
+    _NOTES,
 )
-HOLDING: Solver[Conveyor, Hold] = Solver(
-    name="holding",
-    title="what wants to run back",
-    fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Hold}),
-    represents=frozenset(),
-    gives=frozenset({"backstop_torque"}),
-    run=hold,
-    cost=lambda spec, scene, carried, level: 5e-5,
-    source="lecture notes Kramatorsk 2007",
-)
-RIGID_STOP: Solver[Conveyor, ConveyorScene] = Solver(
-    name="rigid_stop",
-    title="textbook stop of the rigid conveyor",
-    fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Stop, EmergencyStop, Coast}),
-    represents=frozenset(),
-    gives=OF_STOP,
-    run=rigid_stop,
-    cost=lambda spec, scene, carried, level: 1e-4,
-    source="Newton's law",
+HOLDING = _formula("holding", "what wants to run back", hold, {Hold}, {"backstop_torque"}, _NOTES)
+RIGID_STOP = _formula(
+    "rigid_stop",
+    "textbook stop of the rigid conveyor",
+    rigid_stop,
+    {Stop, EmergencyStop, Coast},
+    OF_STOP,
+    "Newton's law",
     decides=False,
 )
