@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 import ptmcalc.laws
 from ptmcalc.laws import (
     backlash,
+    belt_damping,
     belt_modes,
     belt_resistance,
     belt_section,
@@ -122,6 +123,8 @@ MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("bal
 SHAPES = ("step", "ramp", "cosine", "parabolic")
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
+    belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
+    belt_damping.zener_change: [(0.7, 0.4, 0.3), (0.0, 0.4, 0.3)],
     capstan.slip_utilisation: [(9e3, 3e3, 400.0, 1.3), (9e3, 300.0, 400.0, 1.3)],
     capstan.slip_reserve_force: [(9e3, 3e3, 1.3), (2e3, 3e3, 1.3), (3e3, -1.0, 1.3)],
     capstan.slip_reserve_ratio: [(0.7, 1.3), (0.1, 1.3)],

@@ -17,6 +17,7 @@ import pytest
 
 from ptmcalc.laws import (
     backlash,
+    belt_damping,
     belt_modes,
     belt_resistance,
     belt_section,
@@ -230,6 +231,8 @@ def row(draw: Draw) -> np.ndarray:
 
 
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
+    "kelvin_voigt_change": (belt_damping.kelvin_voigt_change, lambda d: tuple(d.positive(2))),
+    "zener_change": (belt_damping.zener_change, lambda d: tuple(d.positive(3))),
     "reduced_drive_mass": (inertia.reduced_drive_mass, lambda d: tuple(d.positive(5))),
     "inertia_on_motor_shaft": (
         inertia.inertia_on_motor_shaft,

@@ -60,8 +60,13 @@ def swing(
     sags: bool,
     force: Callable[[float], float] | None = None,
     relaxed: bool = False,
+    retardation: float = 0.0,
 ) -> Swing:
-    """A stop from full speed, or with `force` (rim force over time [N]) a start from rest, of one drive at the head."""
+    """A stop from full speed, or with `force` (rim force over time [N]) a start from rest, of one drive at the head.
+
+    With a retardation time the belt between the spans is of Kelvin and Voigt, S = EA (e + t e'): over a step its
+    strain e = (S dt/EA + t e_old)/(dt + t), which makes it stiffer by t/dt for the step.
+    """
     lengths = rig.lengths(factor=rig.start_factor if force else 1.0)
     counts = counts_of(lengths, elements)
     h = np.concatenate([np.full(n, one.length / n) for one, n in zip(lengths, counts, strict=True)])
@@ -85,7 +90,10 @@ def swing(
     radius = drum.diameter / 2
     brakes = [brake.capacity(radius) for brake in rig.brakes] if force is None else []
     strain = start / rig.stiffness - kappa / start**2
+    own = start / rig.stiffness
     dt = _COURANT * float(np.min(h * np.sqrt(per["line_mass"] / rig.stiffness)))
+    dt = 2 * dt**2 / (retardation + math.hypot(retardation, 2 * dt))  # so much shorter for the stiffer step
+    soft = dt / (dt + retardation)
     speed = 0.0 if force else rig.speed
     u, v, s = np.zeros(len(mass)), np.full(len(mass), speed), start.copy()
     held = pull[-1] + start[-1] - (start[0] if rig.rigid else rig.tension)
@@ -93,7 +101,10 @@ def swing(
     for step in range(math.ceil(window / dt)):
         time = step * dt
         stretch = strain + np.diff(u) / h
-        s = _tension(stretch, rig.stiffness, kappa, s) if sags else stretch * rig.stiffness
+        rest = (1 - soft) * own
+        stiff = rig.stiffness / soft
+        s = _tension(stretch - rest, stiff, kappa, s) if sags else (stretch - rest) * stiff
+        own = s / stiff + rest
         high, low, on = max(high, float(s.max())), min(low, float(s.min())), max(on, float(s[-1]))
         net = np.empty_like(v)
         net[1:-1] = np.diff(s)

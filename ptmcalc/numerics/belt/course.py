@@ -19,7 +19,7 @@ class Reach:
     """A length of belt of uniform mass; what acts along it is given as sums from its start, straight between marks.
 
     `marks` [m] run from 0 to its length; `friction` [N], `drag` [N*s/m] and `climb` [N] (tension that gravity asks
-    for) have their shape.
+    for) have their shape. `span` is the weight of belt and load on one idler pitch [N], 0 for a belt that does not sag.
     """
 
     line_mass: float
@@ -28,6 +28,7 @@ class Reach:
     friction: FloatArray
     drag: FloatArray
     climb: FloatArray
+    span: float = 0.0
 
     @classmethod
     def even(
@@ -59,7 +60,8 @@ class Course:
 
     `before` and `after` are the impedances on either side of a node [N*s/m], `friction` [N] and `drag` [N*s/m] its
     lumps with `share` the part of them that belongs to the cell before it, `climb` gravity's tension at nodes and
-    in the middle of cells [N], `places` and `middles` positions [m], `tail` the node at the tail.
+    in the middle of cells [N], `places` and `middles` positions [m], `sag` what makes the spans of a cell give,
+    (w l)^2 h/24 [N^2*m], `tail` the node at the tail.
     """
 
     step: float
@@ -72,6 +74,7 @@ class Course:
     places: FloatArray
     middles: FloatArray
     cell_impedance: FloatArray
+    sag: FloatArray
     tail: int
     mismatch: float
 
@@ -102,7 +105,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
     ends = np.concatenate([[0], np.cumsum(counts)])
     nodes = int(ends[-1]) + 1
     friction, drag, climb, places = (np.zeros(nodes) for _ in range(4))
-    within, middles, impedance = (np.zeros(nodes - 1) for _ in range(3))
+    within, middles, impedance, sag = (np.zeros(nodes - 1) for _ in range(4))
     start = climbed = 0.0
     for reach, first, count in zip(reaches, ends, counts, strict=False):
         edges = np.linspace(0.0, reach.length, 2 * count + 1)  # nodes and middles in turn
@@ -115,6 +118,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
         places[first : first + count + 1] = start + edges[0::2]
         middles[first : first + count] = start + edges[1::2]
         impedance[first : first + count] = reach.impedance
+        sag[first : first + count] = reach.span**2 * reach.length / count / 24
         start, climbed = start + reach.length, rise[-1]
     return Course(
         step=step,
@@ -127,6 +131,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
         places=places,
         middles=middles,
         cell_impedance=impedance,
+        sag=sag,
         tail=int(ends[tail_after]),
         mismatch=mismatch,
     )

@@ -15,6 +15,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt.course import Course, FloatArray
+from ptmcalc.numerics.belt.give import Give
 from ptmcalc.numerics.belt.station import Place, Seen, Station
 
 MOST_UPDATES = 4_000_000_000
@@ -78,6 +79,7 @@ def march(
     speed: float,
     window: float,
     still: Callable[[float, Seen], bool] | None = None,
+    give: Give | None = None,
 ) -> Drawn:
     """Carry the belt from its tensions in every cell (without gravity's part) and one speed through the window [s].
 
@@ -89,6 +91,7 @@ def march(
         speed: belt speed at the start [m/s].
         window: time to march [s].
         still: ends the march early.
+        give: spans that sag and rubber that yields, None for a straight elastic belt.
 
     Raises:
         NumericsError: NUM101 when the window needs too many cell updates.
@@ -110,8 +113,10 @@ def march(
     block = np.empty((_BLOCK, cells))
     seen_head = [head.begin(speed, along[-1], against[0])]
     seen_tail = [tail.begin(speed, along[at], against[at + 1])]
-    stored = _energy(against, along, impedance, step)
-    first = float(((against + along) / 2 / impedance).sum())
+    if give:
+        give.begin((tension[:-1] + tension[1:]) / 2)
+    stored = _energy(against, along, impedance, step, give)
+    first = _length(against, along, impedance, step, give)
     swings = float(((against - along) ** 2 / (8 * impedance)).sum()) * step
     lost = rubbed = flow = exchanged = 0.0
     np.add(against, along, out=block[0])
@@ -121,12 +126,16 @@ def march(
         time = k * step
         n_on, p_off = along[-1], against[0]
         into, out = along[:-1], against[1:]
-        q = out - into
-        v = np.copysign(np.maximum(np.abs(q) - friction, rest), q)
-        v *= yields
+        if give:
+            v, behind = give.pass_on(into, out, friction, drag)
+        else:
+            q = out - into
+            v = np.copysign(np.maximum(np.abs(q) - friction, rest), q)
+            v *= yields
+            behind = v
         now = tail.advance(time, float(into[at]), float(out[at]), step)
         seen_tail.append(now)
-        v[at] = now.belt
+        v[at] = behind[at] = now.belt
         top = head.advance(time, float(n_on), float(p_off), step)
         seen_head.append(top)
         moved = np.abs(v)
@@ -137,7 +146,7 @@ def march(
         new_against, new_along = np.empty(cells), np.empty(cells)
         np.multiply(before, v, out=new_against[:-1])
         new_against[:-1] += into
-        np.multiply(after, v, out=new_along[1:])
+        np.multiply(after, behind, out=new_along[1:])
         np.subtract(out, new_along[1:], out=new_along[1:])
         new_against[-1] = n_on + 2 * head.place.before * top.belt
         new_along[0] = p_off - 2 * head.place.after * top.behind
@@ -153,10 +162,10 @@ def march(
     if filled:
         tops.see(block[:filled], k - filled + 1)
         bottoms.see(block[:filled], k - filled + 1)
-    change = _energy(against, along, impedance, step) - stored
+    lost += give.lost / step if give else 0.0
+    change = _energy(against, along, impedance, step, give) - stored
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
     residual = abs(change + lost * step - flow * step) / turnover if turnover else 0.0
-    stretched = (float(((against + along) / 2 / impedance).sum()) - first) * step
     return Drawn(
         times=np.arange(len(seen_head), dtype=np.float64) * step,
         head=tuple(seen_head),
@@ -167,14 +176,19 @@ def march(
         carry_min=bottoms.extreme(slice(course.tail, cells)),
         friction_work=(lost + rubbed) * step,
         energy_residual=residual,
-        stretched=stretched,
+        stretched=_length(against, along, impedance, step, give) - first,
         updates=k * cells,
     )
 
 
-def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float) -> float:
+def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float, give: Give | None) -> float:
     """Kinetic and elastic energy of the belt: sum (P^2 + N^2)/(4 Z) dt."""
-    return float(((against**2 + along**2) / (4 * impedance)).sum()) * step
+    return float(((against**2 + along**2) / (4 * impedance)).sum()) * step + (give.stored if give else 0.0)
+
+
+def _length(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float, give: Give | None) -> float:
+    """Elongation of the belt: sum (P + N)/(2 Z) dt."""
+    return float(((against + along) / 2 / impedance).sum()) * step + (give.length if give else 0.0)
 
 
 def _flow(top: Seen, low: Seen, head: Place, tail: Place, waves: tuple[float, float, float, float]) -> float:
