@@ -9,7 +9,7 @@ from ptmcalc.contract.machine import MachineKind
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.checks import CHECKS
-from ptmcalc.machines.conveyor.effects import EFFECTS
+from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
@@ -63,6 +63,14 @@ def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
             does = "climbs" if scene.load == "uphill" else "falls"
             yield Finding(
                 "SPC201", f"no section of the route {does}: the belt is empty", (*path, "load"), "write `load: empty`"
+            )
+        if jumps(spec, scene):
+            yield Finding(
+                "SPC201",
+                "a Kelvin-Voigt belt answers a drum that stops at once with an infinite force: the jam is computed"
+                " without damping",
+                path,
+                "write `time: 50 ms`, in which the drum comes to rest",
             )
         if isinstance(scene, EmergencyStop) and not spec.brakes:
             yield Finding(

@@ -16,6 +16,7 @@ from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_
 from ptmcalc.machines.conveyor.moving import Moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
+from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.march import place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp
 
@@ -24,23 +25,25 @@ _MOST_GRIP = 700.0
 """mu alpha above which no tension makes a drum slip: exp of it is the largest number there is."""
 
 
-def reaches(line: BeltLine, strand: Strand, speed_share: float) -> list[Reach]:
+def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float, sags: bool) -> list[Reach]:
     """Reaches of uniform mass of a strand; a part of its resistance goes with the speed."""
     found = []
     first = 0
+    spans = strand.spans if sags else (0.0,) * len(strand.spans)
     for last in range(1, len(strand.marks)):
-        if last < len(strand.masses) and strand.masses[last] == strand.masses[first]:
+        if last < len(spans) and (strand.masses[last], spans[last]) == (strand.masses[first], spans[first]):
             continue
         part = slice(first, last + 1)
         marks, friction, climb = (np.array(values[part]) for values in (strand.marks, strand.friction, strand.climb))
         found.append(
             Reach(
                 strand.masses[first],
-                line.stiffness,
+                stiffness,
                 marks - marks[0],
                 (1 - speed_share) * (friction - friction[0]),
                 speed_share / line.speed * (friction - friction[0]),
                 climb - climb[0],
+                spans[first],
             )
         )
         first = last
@@ -49,19 +52,22 @@ def reaches(line: BeltLine, strand: Strand, speed_share: float) -> list[Reach]:
 
 @dataclass(frozen=True, slots=True)
 class Set:
-    """A scene ready to march: cells, stations, tensions of the cells at the start [N]."""
+    """A scene ready to march: cells, stations, tensions of the cells at the start [N], what the belt gives besides."""
 
     course: Course
     head: Station
     tail: Station
     tension: FloatArray
+    give: Give | None
 
 
 def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
     """Cells and stations of a scene, with the effects it carries."""
     spec, line = case.spec, case.line
     grows = line.speed_share if "viscous_idlers" in carried else 0.0
-    back, carry = reaches(line, line.back, grows), reaches(line, line.carry, grows)
+    rubber = rubber_of(case, cells) if "belt_damping" in carried else None
+    stiffness, sags = line.stiffness * (1 + (rubber.stiffer if rubber else 0.0)), "sag" in carried
+    back, carry = (reaches(line, strand, stiffness, grows, sags) for strand in (line.back, line.carry))
     course = lay_out((*back, *carry), len(back), cells)
     steps = math.ceil(case.window / course.step) + 2
     times = np.arange(steps, dtype=np.float64) * course.step
@@ -90,15 +96,31 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
         _imposed(case, "tail"),
         _shares(spec, "tail"),
     )
-    return Set(course, head, tail, tension)
+    give = Give(course, rubber, line.stiffness) if rubber or course.sag.any() else None
+    return Set(course, head, tail, tension, give)
+
+
+def rubber_of(case: Moving, cells: int) -> Rubber | None:
+    """The damping of the belt as so many cells have it; None for an elastic belt."""
+    damping = case.spec.belt.damping
+    if damping is None:
+        return None
+    if damping.stiffening is None:
+        return Rubber.voigt(damping.time, case.line.contour_time, cells)
+    return Rubber(damping.stiffening, damping.time)
 
 
 def _imposed(case: Moving, at: str) -> Callable[[float], float] | None:
     """Speed at which drums are held: by a jam, or by drives that control it."""
     if isinstance(case.scene, Jam):
-        return (lambda time: 0.0) if case.scene.at == at else None
+        return _blocked(case.speed, case.scene.time) if case.scene.at == at else None
     driven = any(drive.at == at for drive in case.spec.all_drives.values())
     return case.imposed if driven else None
+
+
+def _blocked(speed: float, time: float) -> Callable[[float], float]:
+    """Speed of a drum that comes to rest evenly in a time [s]."""
+    return lambda now: speed * max(1 - now / time, 0.0) if time else 0.0
 
 
 def _shares(spec: Conveyor, at: str) -> tuple[float, ...]:

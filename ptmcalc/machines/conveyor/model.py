@@ -30,7 +30,8 @@ def filled(value: float | None) -> float:
 class Strand:
     """One strand: moving mass per length [kg/m] (the mean where only some sections are loaded), the weight of belt and
     load on one idler pitch [N], None when the pitch is not given, and, summed up from its upstream end at `marks` [m],
-    idler friction [N] and the tension that gravity asks for [N]; `masses` [kg/m] lie between the marks."""
+    idler friction [N] and the tension that gravity asks for [N]; `masses` [kg/m] and `spans` (weight on a pitch [N], 0
+    without one) lie between the marks."""
 
     line_mass: float
     span_weight: float | None
@@ -38,6 +39,7 @@ class Strand:
     friction: tuple[float, ...]
     climb: tuple[float, ...]
     masses: tuple[float, ...]
+    spans: tuple[float, ...]
 
     @property
     def length(self) -> float:
@@ -177,7 +179,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
     def strand(
         idler_line_mass: float, pitch: float | None, uphill: float, loads: Sequence[float], extra: float
     ) -> Strand:
-        marks, friction, climb, masses = [0.0], [0.0], [0.0], []
+        marks, friction, climb, masses, spans = [0.0], [0.0], [0.0], [], []
         for part, cosine, load in zip(parts[:: int(uphill)], cosines[:: int(uphill)], loads, strict=True):
             on_it = spec.belt.mass + load
             main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
@@ -185,14 +187,16 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
             friction.append(friction[-1] + (factor * main + extra / route.span) * part.length)
             climb.append(climb[-1] + uphill * on_it * g * part.lift)
             masses.append(on_it + idler_line_mass)
+            spans.append(on_it * cosine * g * (pitch or 0.0))
         mean = sum(mass * part.length for mass, part in zip(masses, parts[:: int(uphill)], strict=True)) / marks[-1]
-        heaviest = max(
-            (spec.belt.mass + load) * cosine for load, cosine in zip(loads, cosines[:: int(uphill)], strict=True)
-        )
-        span = heaviest * g * pitch if pitch is not None else None
-        masses_all_one = len(set(masses)) == 1
         return Strand(
-            masses[0] if masses_all_one else mean, span, tuple(marks), tuple(friction), tuple(climb), tuple(masses)
+            masses[0] if len(set(masses)) == 1 else mean,
+            max(spans) if pitch is not None else None,
+            tuple(marks),
+            tuple(friction),
+            tuple(climb),
+            tuple(masses),
+            tuple(spans),
         )
 
     drum = spec.main_drive.drum
@@ -235,9 +239,20 @@ SPEED_SHARE_THRESHOLD = 0.05
 
 
 def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
-    """Whether strands that are pure delays carry all of a start: nothing sticks on the way, and no weight swings."""
+    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, and no weight
+    swings."""
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
-    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady
+    damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
+    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
+
+
+DAMPING_THRESHOLD = 0.001
+"""Change of the slowest wave's complex frequency from which on damping is simulated; an engineering choice."""
+
+
+def damping_change(spec: Conveyor, line: BeltLine) -> float:
+    """Change by damping of the frequency of a wave as slow as the slowest of a uniform loop, w = pi/(2 T)."""
+    return spec.belt.damping.change(math.pi / (2 * line.contour_time)) if spec.belt.damping else 0.0
 
 
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:

@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import FACTOR
 from ptmcalc.components.motor import AnyMotor
 from ptmcalc.laws.sag import DEEPEST
+from ptmcalc.machines.conveyor.damping import Damping
 from ptmcalc.spec.fields import (
     Efficiency,
     Force,
@@ -119,6 +120,8 @@ class Belt(Fragment):
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
     """what carries the tension; chooses the default safety factors"""
+    damping: Damping | None = None
+    """internal damping; an elastic belt when left out, which swings longest"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -490,11 +493,13 @@ class Coast(Stopping):
 
 
 class Jam(ConveyorScene):
-    """A drum is blocked at full speed, from one moment to the next."""
+    """A drum is blocked at full speed."""
 
     type: Literal["jam"] = "jam"
     at: Literal["head", "tail"] = "head"
     """the drum that jams; the drives at the other end go on"""
+    time: Time = 0.0
+    """in which the drum comes to rest, evenly; 0 from one moment to the next"""
     duration: PositiveTime | None = None
     """how long the belt is looked at; twice round the belt for a wave when left out"""
 

@@ -49,6 +49,14 @@ FASTER_RUN_OUT = changed(
     effects={"sag": "off"},
     checks={"stop_distance": "4.8 m"},
 )
+STIFFER_WHEN_PULLED = changed(
+    template(),
+    belt__damping={"model": "zener", "time": "3 s", "stiffening": 1.0},
+    takeup__tension="80 kN",
+    scenes=[{"type": "start", "profile": {"shape": "cosine", "time": "2 s"}}],
+    effects={"sag": "off"},
+    checks={"belt_safety_starting": 3.95},
+)
 CHANGED_VERDICTS = [
     ("belt_wave", changed(ONE_START, checks={"slip": {"reserve": 1.35}}), "CNV101"),
     ("tail_jump", changed(ONE_START, checks={"slip": {"reserve": 1.28}}), "CNV101"),
@@ -58,6 +66,7 @@ CHANGED_VERDICTS = [
     ("coulomb_idlers", RELAXED, "CNV102"),
     ("takeup_mass", SWINGING_WEIGHT, "CNV101"),
     ("viscous_idlers", FASTER_RUN_OUT, "CNV106"),
+    ("belt_damping", STIFFER_WHEN_PULLED, "CNV102"),
 ]
 
 

@@ -19,7 +19,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.braking import deceleration
-from ptmcalc.machines.conveyor.cells import Set, set_up
+from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import Moving, moving
@@ -28,7 +28,7 @@ from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen, Station
 
-_CELLS = 60
+_CELLS, _CELLS_OF_JUMP = 60, 240
 _MARGIN, _SECOND_ORDER, _FIRST_ORDER, _SLOWEST = 3.0, 0.25, 0.5, 0.9
 _ROUNDING = 1e-11
 _SHIFT_STEPS = 3
@@ -38,7 +38,8 @@ _SHARING = frozenset(
 """Tensions, which are sums of the same waves."""
 _SLIPPED = frozenset({"slip_distance", "slip_heat"})
 _MOST_ROUNDS = 1000.0
-_SECONDS_PER_STEP, _SECONDS_PER_CELL = 4e-5, 1.2e-8
+_SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
+"""For a step, and for a cell of it, with and without sag or damping."""
 
 Values = dict[str, tuple[float, dict[str, float]]]
 """Loads of one grid: the value, and where and when."""
@@ -52,11 +53,11 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
     """
     case = moving(spec, scene)
-    runs = [_once(case, carried, (_CELLS << level) << refined) for refined in range(3)]
+    runs = [_once(case, carried, cells) for cells in _grids(scene, level)]
     coarsest, coarse, fine = (loads for loads, _ in runs)
     drawn, ready = runs[-1][1]
-    apart = _apart(runs[1][1][0], drawn, not isinstance(scene, Jam))
-    bars = _bars(case, (coarsest, coarse, fine), apart, ready.course.step)
+    gap = _apart(runs[1][1][0], drawn, not _jumps(scene))
+    bars = _bars(case, (coarsest, coarse, fine), gap, ready.course.step)
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
     health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
     return Result(
@@ -69,9 +70,21 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     )
 
 
+def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
+    """Cells of the three grids; a jam is short, and its steps ask for more."""
+    coarsest = (_CELLS_OF_JUMP if _jumps(scene) else _CELLS) << level
+    return coarsest, 2 * coarsest, 4 * coarsest
+
+
+def _jumps(scene: ConveyorScene) -> bool:
+    """Whether a drum stops from one moment to the next."""
+    return isinstance(scene, Jam) and not scene.time
+
+
 def _once(case: Moving, carried: frozenset[str], cells: int) -> tuple[Values, tuple[Drawn, Set]]:
     ready = set_up(case, carried, cells)
-    drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, _still(case))
+    still = _still(case)
+    drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, still, ready.give)
     return _loads(case, drawn, ready), (drawn, ready)
 
 
@@ -227,11 +240,11 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     change = max(*(bars[name] for name in fine if family(name) in _SHARING), _MARGIN / 2 * moved_most)
     line, slowing = case.line, deceleration(case.spec, case.scene, case.line)
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
-    for name, offsets in bounds.moved(line, values, change, slowing, off=case.spec.takeup.mass is not None).items():
-        follows = max(abs(offsets.low), abs(offsets.high))
+    off = case.spec.takeup.mass is not None
+    for name, offsets in bounds.moved(line, values, change, slowing, off).items():
         slid = family(name) in _SLIPPED and fine[name][0] > 0
         if not slid:
-            bars[name] = max(bars[name], follows)
+            bars[name] = max(bars[name], abs(offsets.low), abs(offsets.high))
     for name, (value, _) in fine.items():
         size = fine["tension_max"][0] if family(name) in _SHARING else value
         bars[name] += _ROUNDING * abs(size) if math.isfinite(size) else 0.0
@@ -242,7 +255,7 @@ def _apart(coarse: Drawn, fine: Drawn, smooth: bool) -> float:
     """Largest gap between the tensions at head and tail on both grids [N]: how far any value of one history is from all
     values of the other within a few coarse steps; and the highest front, the change within one step. A front that comes
     a little later is no gap, but where it meets another one, they add up for a moment that only a finer grid sees. The
-    steps of a jam, which is not `smooth`, are sharp on every grid and count as gaps only."""
+    steps of a drum that stops at once, which is not `smooth`, are sharp on every grid and count as gaps only."""
     reach = math.ceil(_SHIFT_STEPS * coarse.times[1] / fine.times[1])
     most = 0.0
     for side in ("head", "tail"):
@@ -303,9 +316,14 @@ def _events(drawn: Drawn, ready: Set) -> Iterator[Event]:
 def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from steps and cells of the three grids."""
     case = moving(spec, scene)
-    cells = _CELLS << level
-    steps = case.window / case.line.contour_time * cells
-    return 1e-3 + 7 * steps * _SECONDS_PER_STEP + 21 * steps * cells * _SECONDS_PER_CELL
+    gives = "sag" in carried or ("belt_damping" in carried and spec.belt.damping is not None)
+    per_step, per_cell = _SECONDS["giving" if gives else "straight"]
+    seconds = 1e-3
+    for cells in _grids(scene, level):
+        rubber = rubber_of(case, cells) if "belt_damping" in carried else None
+        steps = case.window / case.line.contour_time * cells * math.sqrt(1 + (rubber.stiffer if rubber else 0.0))
+        seconds += steps * (per_step + cells * per_cell)
+    return seconds
 
 
 def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
@@ -341,7 +359,17 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     fidelity=Fidelity.TRANSIENT,
     scenes=IN_MOTION,
     represents=frozenset(
-        {"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers", "takeup_mass", "viscous_idlers"}
+        {
+            "belt_wave",
+            "tail_jump",
+            "tail_mass",
+            "sag",
+            "slip",
+            "coulomb_idlers",
+            "takeup_mass",
+            "viscous_idlers",
+            "belt_damping",
+        }
     ),
     gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
     run=run,
