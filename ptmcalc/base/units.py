@@ -138,6 +138,7 @@ LENGTH = _quantity("length", "m", "mm", "m", example="1200 mm")
 SPAN = _quantity("distance", "m", "m", example="850 m")
 TIME = _quantity("time", "s", "ms", "s", example="12 s")
 ANGLE = _quantity("angle", "rad", "deg", example="210 deg")
+SLOPE = _quantity("angle", "rad", "deg", example="35 deg")
 SPEED = _quantity("speed", "m/s", "m/s", example="3.15 m/s")
 ACCELERATION = _quantity("acceleration", "m/s^2", example="0.3 m/s^2")
 ANGULAR_SPEED = _quantity("rotational speed", "rad/s", "rpm", example="1485 rpm")
@@ -163,6 +164,7 @@ IMPEDANCE = _quantity("mechanical impedance", "N*s/m", "N*s/m", "kN*s/m", exampl
 ENERGY = _quantity("energy", "J", "J", "kJ", "MJ", example="25 kJ")
 POWER = _quantity("power", "W", "W", "kW", example="250 kW")
 STRESS = _quantity("stress", "Pa", "MPa", example="210 MPa")
+PRESSURE = _quantity("pressure", "Pa", "kPa", "MPa", example="50 kPa")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _VALUE = re.compile(rf"((?>{_NUMBER}))\s*((?:[^\W\d_]|[°%]|1(?![0-9])).*|)", re.DOTALL)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from importlib import resources
+from itertools import chain
 
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
@@ -13,6 +14,7 @@ from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
+from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -44,6 +46,7 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             f"write `mass: {units.show(2 * spec.takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
         )
     yield from _of_scenes(spec)
+    yield from _of_curves(spec)
     if spec.route.inclination == "small_angle" and abs(spec.route.climb) > _STEEP * spec.route.span:
         yield Finding(
             "SPC201",
@@ -51,6 +54,29 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             ("route", "inclination"),
             "write `inclination: exact`",
         )
+
+
+def _of_curves(spec: Conveyor) -> Iterator[Finding]:
+    """Curves between equal slopes, and curves that do not fit between their neighbours."""
+    parts, curves = spec.route.parts, {curve.number: curve for curve in spec.route.curves}
+    reach = [0.0] * (len(parts) + 1)
+    for number, curve in curves.items():
+        reach[number - 1] = curve.tangent
+    for index, part in enumerate(parts):
+        path: KeyPath = ("route", "sections", index, "curve_radius")
+        if part.curve_radius is not None and index + 1 not in curves:
+            yield Finding(
+                "SPC201", "the section before has the same slope: nothing curves", path, "delete `curve_radius`"
+            )
+        if reach[index] + reach[index + 1] > part.length * (1 + 1e-9):
+            taken, given = (units.show(value, units.SPAN) for value in (reach[index] + reach[index + 1], part.length))
+            at = index if index + 1 in curves else index + 1
+            yield Finding(
+                "SPC201",
+                f"the vertical curves at its ends take {taken} of section {index + 1}, which is {given} long",
+                ("route", "sections", at, "curve_radius"),
+                "write a smaller `curve_radius`, or longer sections",
+            )
 
 
 def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
@@ -92,12 +118,12 @@ KIND = MachineKind(
     name="conveyor",
     title="belt conveyor: slip, belt tension, sag and start",
     spec=Conveyor,
-    loads=LOADS,
+    loads=(*LOADS, *STATIC_LOADS),
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=CHECKS,
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
-    parts=parts,
+    parts=lambda spec: chain(parts(spec), static_parts(spec)),
     inspect=inspect,
 )

@@ -1,6 +1,8 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
@@ -14,15 +16,19 @@ _ROUGH_DRUM_SHARE = 0.05
 _ROUGH_TAIL_SHARE = 0.01
 
 
+_TABLE_ENDS = 2000.0  # m, of C(L)
+
+
 def _secondary(spec: Conveyor) -> float | None:
-    if spec.resistance.secondary_force is not None:
+    if spec.resistance.secondary_force is not None or spec.resistance.cema is not None:
         return None
     return resistance.length_factor(spec.route.span)
 
 
 def _secondary_interval(spec: Conveyor) -> Interval:
+    """Beyond the table C - 1 falls as 1/L when the secondary resistances stay what they are."""
     extra = resistance.length_factor(spec.route.span) - 1
-    return Interval(1 + 0.75 * extra, 1 + 1.25 * extra)
+    return Interval(1 + 0.75 * extra * min(_TABLE_ENDS / spec.route.span, 1.0), 1 + 1.25 * extra)
 
 
 def _moving_mass(spec: Conveyor) -> float:
@@ -39,7 +45,7 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "coefficient"),
         units.RATIO,
-        lambda spec: 0.020,
+        lambda spec: 0.020 if spec.resistance.cema is None else None,
         lambda spec: Interval(0.017, 0.030),
         "ISO 5048 and DIN 22101: 0.020 in normal conditions, 0.017 to 0.030",
     ),
@@ -76,9 +82,46 @@ _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
 )
 
 
+_OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
+    Assumption(
+        ("resistance", "cema", "flexure"),
+        units.RATIO,
+        lambda spec: 0.03 if spec.resistance.cema is not None else None,
+        lambda spec: Interval(0.016, 0.035),
+        "CEMA: K_y of its table lies between 0.016 and 0.035; 0.03 for a first estimate",
+    ),
+    Assumption(
+        ("load", "surcharge_angle"),
+        units.ANGLE,
+        lambda spec: math.radians(15) if spec.load.density is not None else None,
+        lambda spec: Interval(math.radians(10), math.radians(20)),
+        "ISO 5048 and CEMA: 10 to 20 deg for most materials in motion, 5 deg for free-flowing ones",
+    ),
+)
+
+
+def _rubbing(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
+    """Friction at skirt plates and scrapers."""
+    for name, force in spec.resistance.forces.items():
+        what = "skirt" if force.skirt is not None else "scraper"
+        if force.skirt is None and force.scraper is None:
+            continue
+        yield Assumption(
+            ("resistance", "forces", name, what, "friction"),
+            units.RATIO,
+            lambda spec: 0.6,
+            lambda spec: Interval(0.5, 0.7),
+            "ISO 5048: 0.5 to 0.7 at skirt plates and belt cleaners",
+        )
+
+
 def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
-    """What is assumed of the belt, of every drive, and of the tail drum."""
-    yield from _OF_THE_BELT
+    """What is assumed of the belt, of what it carries, of every drive, and of the tail drum."""
+    for assumed in _OF_THE_BELT:
+        beyond = assumed.path[-1] == "secondary" and spec.route.span > _TABLE_ENDS
+        yield replace(assumed, source=f"{assumed.source}; the table ends at 2000 m") if beyond else assumed
+    yield from _OF_THE_LOAD
+    yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():
         yield from _of_a_drive(spec.drive_path(name), drive)
     yield from _OF_THE_TAIL

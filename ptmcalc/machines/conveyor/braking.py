@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass
 
 from ptmcalc.machines.conveyor.driving import moving_mass
-from ptmcalc.machines.conveyor.model import BeltLine, filled
+from ptmcalc.machines.conveyor.forces import filled
+from ptmcalc.machines.conveyor.model import BeltLine
 from ptmcalc.machines.conveyor.spec import Brake, Conveyor, ConveyorScene, EmergencyStop, Stop
 
 

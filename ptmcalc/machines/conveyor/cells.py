@@ -29,7 +29,7 @@ def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float
     """Reaches of uniform mass of a strand; a part of its resistance goes with the speed."""
     found = []
     first = 0
-    spans = strand.spans if sags else (0.0,) * len(strand.spans)
+    spans = strand.span_weights if sags and strand.span_weights else (0.0,) * len(strand.masses)
     for last in range(1, len(strand.marks)):
         if last < len(spans) and (strand.masses[last], spans[last]) == (strand.masses[first], spans[first]):
             continue

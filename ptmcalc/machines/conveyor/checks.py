@@ -9,8 +9,10 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.braking import brakes_of, braking
+from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
+from ptmcalc.machines.conveyor.safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Coast,
@@ -35,14 +37,6 @@ _LEAST_WRAP = 2.8  # rad, 160 deg
 _LEAST_GRIP = 0.6931471805599453  # mu alpha = ln 2: below it the drum transmits less than the run-off tension
 _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 _STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
-
-_SAFETY = {
-    ("textile", True): 8.0,
-    ("textile", False): 5.4,
-    ("steel_cord", True): 6.7,
-    ("steel_cord", False): 4.8,
-}
-"""by carcass, and whether the belt runs steadily"""
 
 _TENSION: KeyPath = ("takeup", "tension")
 
@@ -181,42 +175,16 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
 # -- belt strength --------------------------------------------------------------------------------------------------
 
 
-def _safety_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Safety the file asks, or the one usual for its carcass: textile 8.0 running and 5.4 starting, steel cord 6.7
-    and 4.8.
-
-    **Range** vulcanised splices, normal conditions.
-    **Error** none: a chosen limit.
-    **Source** DIN 22101:1982-02 as quoted by belt makers (superseded; the edition of 2011 computes the limit from
-    splice and life); to be compared with the edition in force.
-    """
-    checks = spec.checks
-    asked = checks.belt_safety_running if isinstance(scene, Run) else checks.belt_safety_starting
-    usual = _SAFETY[spec.belt.carcass or "textile", isinstance(scene, Run)]
-    return Estimate.exact(asked if asked is not None else usual)
-
-
-def _safety_needs(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
-    key = "breaking_force" if spec.belt.strength is None and spec.belt.width is None else "strength"
-    strength: KeyPath = ("belt", "breaking_force") if spec.belt.breaking_force is not None else ("belt", key)
-    asked = spec.checks.belt_safety_running if isinstance(scene, Run) else spec.checks.belt_safety_starting
-    return (strength,) if asked is not None else (strength, ("belt", "carcass"))
-
-
-def _strength_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
-    return ("belt", "strength" if spec.belt.strength is not None else "breaking_force")
-
-
 STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     code="CNV102",
     title="too little belt strength",
     scenes=ANY_MOTION,
     loads=("belt_safety_min",),
     sense=Sense.AT_LEAST,
-    limit=_safety_limit,
-    needs=_safety_needs,
-    blame=lambda spec, scene, loads: _strength_key(spec, scene),
-    repair=_strength_key,
+    limit=safety_limit,
+    needs=safety_needs,
+    blame=lambda spec, scene, loads: strength_key(spec, scene),
+    repair=strength_key,
     what="The belt's breaking force exceeds the largest tension of any section by the safety factor.",
     why="A belt that breaks runs off the conveyor; splices fail first and by fatigue.",
     formula="breaking force / S_max >= safety",
@@ -537,5 +505,6 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
     source="work of friction",
 )
 
-CHECKS = (SLIP, STRENGTH, SAG, START, SLACK, STOP, STOP_TIME, BRAKE, BACKSTOP, STROKE, HEAT)
-_BY_CODE: dict[str, AnyCheck] = {check.code: check for check in CHECKS}
+_OF_MOTION = (SLIP, STRENGTH, SAG, START, SLACK, STOP, STOP_TIME, BRAKE, BACKSTOP, STROKE, HEAT)
+_BY_CODE: dict[str, AnyCheck] = {check.code: check for check in _OF_MOTION}
+CHECKS: tuple[AnyCheck, ...] = (*_OF_MOTION, *CHECKS_OF_THE_BELT)

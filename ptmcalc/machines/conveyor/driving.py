@@ -1,12 +1,13 @@
 """What the drives pull: their shares in steady motion, their force over a start, the rigid conveyor under it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, drive_force, filled
+from ptmcalc.machines.conveyor.forces import filled
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, drive_force
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
 from ptmcalc.numerics.belt.station import Torque
 
@@ -23,9 +24,9 @@ def share(spec: Conveyor) -> dict[str, float]:
     return {name: force / whole for name, force in forces.items()}
 
 
-def running(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
+def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
     """The belt in steady motion: drives at the tail take their share of the resistance there."""
-    line = belt_line(spec, scene)
+    line = belt_line(spec, scene, filling)
     shares = share(spec)
     tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
     return replace(line, tail_pull=tail * line.static_resistance) if tail else line

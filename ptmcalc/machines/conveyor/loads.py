@@ -60,6 +60,7 @@ TENSIONS = (
     "tension_dynamic_run_on_max",
     "tension_max",
     "tension_min",
+    "tension_curve_max",
     "slack_margin_min",
 )
 """Loads that move with the tension somewhere on the belt, newton by newton."""

@@ -13,25 +13,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import inertia, motor, resistance, start_profile, wave
+from ptmcalc.laws import inertia, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Motor, Section, Start, Stopping
+from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.sections import Section
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Motor, Start, Stopping
 
 FloatArray = NDArray[np.float64]
-
-
-def filled(value: float | None) -> float:
-    """A value the file or an assumption has given by now."""
-    assert value is not None, "assumptions are filled in before anything is computed"
-    return value
 
 
 @dataclass(frozen=True, slots=True)
 class Strand:
     """One strand: moving mass per length [kg/m] (the mean where only some sections are loaded), the weight of belt and
     load on one idler pitch [N], None when the pitch is not given, and, summed up from its upstream end at `marks` [m],
-    idler friction [N] and the tension that gravity asks for [N]; `masses` [kg/m] and `spans` (weight on a pitch [N], 0
-    without one) lie between the marks."""
+    idler friction [N] and the tension that gravity asks for [N]; `masses` [kg/m] lie between the marks."""
 
     line_mass: float
     span_weight: float | None
@@ -39,7 +34,8 @@ class Strand:
     friction: tuple[float, ...]
     climb: tuple[float, ...]
     masses: tuple[float, ...]
-    spans: tuple[float, ...]
+    span_weights: tuple[float, ...] = ()
+    """weight of belt and load on one idler pitch, section by section [N]; nothing where a pitch is not given"""
 
     @property
     def length(self) -> float:
@@ -159,44 +155,51 @@ class BeltLine:
         return self.belt_line_mass * self.speed**2
 
 
-def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
-    """The conveyor in the load state of a scene; a start has the start's resistance."""
+def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
+    """The conveyor in the load state of a scene, or with the sections of `filling` loaded; a start has the start's
+    resistance."""
     g, route = spec.gravity, spec.route
-    extra = extra_forces(spec)
     flat = route.inclination == "small_angle"
     given = spec.resistance
-    coefficient = filled(given.coefficient)
+    grown = 1.0
     if isinstance(scene, Start):
-        coefficient *= filled(given.start_factor)
+        grown = filled(given.start_factor)
     elif isinstance(scene, Stopping):
-        coefficient *= given.stop_factor
-    factor = 1.0 if given.secondary_force is not None else filled(given.secondary)
+        grown = given.stop_factor
 
     parts = route.parts
-    cosines = [1.0 if flat else math.sqrt(1 - (part.lift / part.length) ** 2) for part in parts]
-    loads = [load_line_mass(spec) if _is_loaded(scene, part) else 0.0 for part in parts]
+    filling = filling or filling_of(spec, scene)
+    cosines = [1.0 if flat else part.cosine for part in parts]
+    loads = [load_line_mass(spec) if full else 0.0 for full in filling]
+    extra = extra_forces(spec, load_line_mass(spec))
 
-    def strand(
-        idler_line_mass: float, pitch: float | None, uphill: float, loads: Sequence[float], extra: float
-    ) -> Strand:
+    def strand(carries: bool) -> Strand:
+        uphill = 1 if carries else -1
+        row, over = (spec.idlers.carry, "carry") if carries else (spec.idlers.back, "return")
         marks, friction, climb, masses, spans = [0.0], [0.0], [0.0], [], []
-        for part, cosine, load in zip(parts[:: int(uphill)], cosines[:: int(uphill)], loads, strict=True):
-            on_it = spec.belt.mass + load
-            main = resistance.main_resistance_per_length(coefficient, g, on_it, idler_line_mass, cosine)
+        for part, cosine, load in zip(parts[::uphill], cosines[::uphill], loads[::uphill], strict=True):
+            on_it = spec.belt.mass + (load if carries else 0.0)
+            pitch = (part.carry_pitch if carries else None) or row.pitch
+            idlers = row.mass_at(pitch)
+            main = idler_friction(spec, grown, carries, on_it, idlers, cosine, pitch)
             marks.append(marks[-1] + part.length)
-            friction.append(friction[-1] + (factor * main + extra / route.span) * part.length)
+            special = extra.along(over, carries and load > 0) / route.span
+            friction.append(friction[-1] + (main + special) * part.length)
             climb.append(climb[-1] + uphill * on_it * g * part.lift)
-            masses.append(on_it + idler_line_mass)
-            spans.append(on_it * cosine * g * (pitch or 0.0))
-        mean = sum(mass * part.length for mass, part in zip(masses, parts[:: int(uphill)], strict=True)) / marks[-1]
+            masses.append(on_it + idlers)
+            if pitch is not None:
+                spans.append(on_it * cosine * g * pitch)
+        mean = sum(mass * part.length for mass, part in zip(masses, parts[::uphill], strict=True)) / marks[-1]
+        known = len(spans) == len(parts)
+        masses_all_one = len(set(masses)) == 1
         return Strand(
-            masses[0] if len(set(masses)) == 1 else mean,
-            max(spans) if pitch is not None else None,
+            masses[0] if masses_all_one else mean,
+            max(spans) if known else None,
             tuple(marks),
             tuple(friction),
             tuple(climb),
             tuple(masses),
-            tuple(spans),
+            tuple(spans) if known else (),
         )
 
     drum = spec.main_drive.drum
@@ -205,11 +208,9 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
         speed=spec.speed,
         stiffness=belt_stiffness(spec),
         belt_line_mass=spec.belt.mass,
-        carry=strand(spec.idlers.carry.rotating_line_mass, spec.idlers.carry.pitch, 1.0, loads, extra["carry"]),
-        back=strand(
-            spec.idlers.back.rotating_line_mass, spec.idlers.back.pitch, -1.0, [0.0] * len(parts), extra["return"]
-        ),
-        tail_force=(given.secondary_force or 0.0) + extra["tail"],
+        carry=strand(carries=True),
+        back=strand(carries=False),
+        tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
         drive_mass=sum(drive_mass(drive) for drive in spec.all_drives.values()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid",
@@ -219,14 +220,6 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
         slack_sag=spec.checks.slack_sag,
         speed_share=given.speed_share,
     )
-
-
-def extra_forces(spec: Conveyor) -> dict[str, float]:
-    """Special resistances at the tail and along each strand [N]."""
-    found = dict.fromkeys(("tail", "carry", "return"), 0.0)
-    for one in spec.resistance.forces.values():
-        found[one.at] += one.force
-    return found
 
 
 def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
@@ -272,6 +265,11 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     count = parts + len(spec.all_drives) + unusual
     meaning = "slopes, drives, aborted starts and motor curves: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")
+
+
+def filling_of(spec: Conveyor, scene: ConveyorScene) -> list[bool]:
+    """Which sections carry load in a scene."""
+    return [_is_loaded(scene, part) for part in spec.route.parts]
 
 
 def _is_loaded(scene: ConveyorScene, part: Section) -> bool:

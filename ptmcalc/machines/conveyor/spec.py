@@ -6,29 +6,21 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from ptmcalc.base.span import KeyPath
-from ptmcalc.base.units import FACTOR
 from ptmcalc.components.motor import AnyMotor
 from ptmcalc.laws.sag import DEEPEST
-from ptmcalc.machines.conveyor.damping import Damping
+from ptmcalc.machines.conveyor.belt_data import Belt, Idlers, Load, Transitions
+from ptmcalc.machines.conveyor.resisting import RatioFromOne, Resistance
+from ptmcalc.machines.conveyor.sections import Route
 from ptmcalc.spec.fields import (
     Efficiency,
-    Force,
     Fraction,
-    Height,
     Inertia,
-    LineMass,
-    Mass,
-    MassFlow,
-    Measure,
     PositiveAngle,
     PositiveAngularSpeed,
     PositiveEnergy,
     PositiveForce,
     PositiveInertia,
     PositiveLength,
-    PositiveLineForce,
-    PositiveLineMass,
-    PositiveLineStiffness,
     PositiveMass,
     PositiveRatio,
     PositiveSpan,
@@ -40,179 +32,6 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
-
-RatioFromOne = Annotated[float, Measure(FACTOR, at_least=1)]
-
-
-class Section(Fragment):
-    """A part of the route with one slope."""
-
-    length: PositiveSpan
-    """along the belt"""
-    lift: Height = 0.0
-    """height the load is raised by; negative when it is lowered"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The belt cannot rise further than it is long."""
-        yield from _too_steep(given)
-
-
-class Route(Fragment):
-    """Where the belt runs: from the tail drum to the drum at the head."""
-
-    length: PositiveSpan | None = None
-    """distance between tail and head drum, along the belt; or give `sections`"""
-    lift: Height = 0.0
-    """height the load is raised by; negative when it is lowered"""
-    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
-    """parts of different slope from the tail to the head, instead of `length` and `lift`"""
-    inclination: Literal["exact", "small_angle"] = "exact"
-    """`small_angle` sets the cosine of the slope to 1, as ISO 5048 allows below 18 degrees"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The route is one slope or several; the belt cannot rise further than it is long."""
-        yield from exactly_one(given, "length", "sections")
-        if "lift" in given and "sections" in given:
-            yield Conflict(("lift",), "the `sections` say how high the belt climbs", "delete `lift`")
-        yield from _too_steep(given)
-
-    @property
-    def parts(self) -> tuple[Section, ...]:
-        """The sections from the tail to the head, one where the slope is even."""
-        if self.sections is not None:
-            return self.sections
-        assert self.length is not None
-        return (Section.model_construct(length=self.length, lift=self.lift),)
-
-    @property
-    def span(self) -> float:
-        """Distance between tail and head along the belt [m]."""
-        return sum(part.length for part in self.parts)
-
-    @property
-    def climb(self) -> float:
-        """Height from tail to head [m]."""
-        return sum(part.lift for part in self.parts)
-
-
-def _too_steep(given: Given) -> Iterator[Conflict]:
-    lift, length = given.number("lift"), given.number("length")
-    if lift is not None and length is not None and abs(lift) >= length:
-        yield Conflict(("lift",), "the lift is not smaller than the length along the belt", "check both values")
-
-
-class Belt(Fragment):
-    """The belt itself."""
-
-    mass: PositiveLineMass
-    """mass per length of the bare belt"""
-    width: PositiveLength | None = None
-    """belt width; needed with `modulus` or `strength`"""
-    stiffness: PositiveForce | None = None
-    """tensile stiffness EA of the whole belt, or give `modulus` and `width`"""
-    modulus: PositiveLineStiffness | None = None
-    """tensile modulus per width, e.g. `72000 N/mm`"""
-    breaking_force: PositiveForce | None = None
-    """breaking force of the whole belt, or give `strength` and `width`"""
-    strength: PositiveLineForce | None = None
-    """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
-    carcass: Literal["textile", "steel_cord"] | None = None
-    """what carries the tension; chooses the default safety factors"""
-    damping: Damping | None = None
-    """internal damping; an elastic belt when left out, which swings longest"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Stiffness and strength are of the whole belt, or per width with the width."""
-        yield from exactly_one(given, "stiffness", "modulus")
-        yield from at_most_one(given, "breaking_force", "strength")
-        per_width = " and ".join(f"`{key}`" for key in ("modulus", "strength") if key in given)
-        if per_width and "width" not in given:
-            yield given.missing("width", f"{per_width} per width: `width` is missing")
-
-
-class IdlerRow(Fragment):
-    """The idlers of one strand."""
-
-    pitch: PositiveLength | None = None
-    """distance of the idler sets; needed for sag and with `set_mass`"""
-    set_mass: Mass | None = None
-    """rotating mass of one idler set, reduced to the rim"""
-    line_mass: LineMass | None = None
-    """rotating mass per length, or give `set_mass` and `pitch`"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The mass is per length, or per set with the pitch."""
-        yield from exactly_one(given, "set_mass", "line_mass")
-        yield from together(given, "set_mass", "pitch", "`set_mass` is per idler set")
-
-    @property
-    def rotating_line_mass(self) -> float:
-        """Rotating mass per length [kg/m]."""
-        if self.line_mass is not None:
-            return self.line_mass
-        assert self.set_mass is not None
-        assert self.pitch is not None
-        return self.set_mass / self.pitch
-
-
-class Idlers(Fragment):
-    """Idlers of both strands."""
-
-    carry: IdlerRow
-    """under the carry strand"""
-    back: IdlerRow = Field(alias="return")
-    """under the return strand"""
-
-
-class Load(Fragment):
-    """What is conveyed."""
-
-    mass: PositiveLineMass | None = None
-    """load per length of the carry strand, or give `capacity`"""
-    capacity: MassFlow | None = None
-    """mass flow; the load per length is capacity over belt speed"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The load is given in one way."""
-        yield from exactly_one(given, "mass", "capacity")
-
-
-class ExtraForce(Fragment):
-    """A special resistance: skirt plates, belt scrapers, a tripper."""
-
-    force: PositiveForce
-    """against the motion"""
-    at: Literal["tail", "carry", "return"] = "tail"
-    """where it acts: at the loading point by the tail, or evenly along a strand"""
-
-
-class Resistance(Fragment):
-    """Resistance to motion (ISO 5048, DIN 22101)."""
-
-    coefficient: PositiveRatio | None = None
-    """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
-    secondary: RatioFromOne | None = None
-    """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
-    secondary_force: Force | None = None
-    """secondary resistances as a force at the loading point, instead of `secondary`"""
-    speed_share: Fraction = 0.0
-    """part of the idlers' resistance at rated speed that is proportional to the speed"""
-    forces: dict[str, ExtraForce] = Field(default_factory=dict)
-    """special resistances by name, besides main and secondary ones"""
-    start_factor: RatioFromOne | None = None
-    """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
-    stop_factor: PositiveRatio = 1.0
-    """resistance while it runs out over resistance in motion; below 1 for a warm, light-running belt"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The secondary resistances are given in one way."""
-        yield from at_most_one(given, "secondary", "secondary_force")
 
 
 class Motor(Fragment):
@@ -378,6 +197,11 @@ class ConveyorChecks(CheckSettings):
     """longest way of the belt in an `emergency_stop`"""
     stop_time: PositiveTime | None = None
     """longest time of any stop"""
+    section_fill: PositiveRatio = 1.0
+    """largest stream over what the cross-section of the load holds"""
+    edge_overload: RatioFromOne = 1.15
+    """largest tension per width of a fibre at a transition or in a vertical curve over that of the steadily running
+    belt's safety"""
     slip_heat: PositiveEnergy | None = None
     """largest heat a drum may burn off by slip in one scene"""
 
@@ -531,6 +355,8 @@ class Conveyor(MachineSpec):
     """the idlers"""
     load: Load
     """what is conveyed"""
+    transitions: Transitions = Transitions()
+    """where the trough opens before the head drum and behind the tail drum"""
     resistance: Resistance = Resistance()
     """resistance to motion"""
     speed: PositiveSpeed
@@ -570,9 +396,15 @@ class Conveyor(MachineSpec):
             reason = "no drive is at the head: take-up and tension are counted from there"
             yield Conflict(("drives",), reason, "turn the route round, so that the drive is at its head")
         yield from _no_motor_there(given)
+        yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")
         length = _whole_length(route) if route else None
-        if length is None or length >= 80 or resistance is None:
+        if resistance is None:
+            return
+        if "cema" in resistance:
+            yield from _without_spacing(given)
+            return
+        if length is None or length >= 80:
             return
         if "secondary" not in resistance and "secondary_force" not in resistance:
             reason = "below 80 m the table of C(L) does not apply: the secondary resistances must be given"
@@ -638,6 +470,27 @@ def _without_curves(given: Given) -> Iterator[Conflict]:
             reason = "a motor has no `curve` to follow"
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
             yield Conflict(("scenes", index, "profile", "shape"), reason, hint)
+
+
+def _without_spacing(given: Given) -> Iterator[Conflict]:
+    """CEMA's drag is that of an idler set."""
+    idlers = given.block("idlers")
+    carry = idlers.block("carry") if idlers else None
+    if carry is not None and "pitch" not in carry:
+        reason = "`cema` counts idler sets: their `pitch` is missing"
+        yield Conflict(("idlers", "carry"), reason, "add `pitch: 1200 mm`")
+
+
+def _without_density(given: Given) -> Iterator[Conflict]:
+    """Skirt plates feel how high the load stands."""
+    load, resistance = given.block("load"), given.block("resistance")
+    forces = resistance.raw.get("forces") if resistance else None
+    if load is None or "density" in load or not isinstance(forces, dict):
+        return
+    if "surcharge_angle" in load:
+        return  # that it is missing is said already
+    if any(isinstance(force, dict) and "skirt" in force for force in forces.values()):
+        yield Conflict(("load",), "`skirt` plates feel the bulk density: it is missing", "add `density: 1600 kg/m^3`")
 
 
 def _whole_length(route: Given) -> float | None:

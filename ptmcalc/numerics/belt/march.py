@@ -50,6 +50,8 @@ class Drawn:
     stretched: float
     """change of the elongation of the belt from start to end [m]"""
     updates: int
+    highest: FloatArray
+    """largest tension of every cell, gravity's part included [N]"""
 
 
 def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
@@ -178,6 +180,7 @@ def march(
         energy_residual=residual,
         stretched=_length(against, along, impedance, step, give) - first,
         updates=k * cells,
+        highest=tops.best / 2 + course.climb_within,
     )
 
 

@@ -21,9 +21,11 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
-from ptmcalc.machines.conveyor.model import FloatArray, delay_lines_do, starting_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import Moving, moving
+from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.static_loads import hollows
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen, Station
@@ -33,7 +35,14 @@ _MARGIN, _SECOND_ORDER, _FIRST_ORDER, _SLOWEST = 3.0, 0.25, 0.5, 0.9
 _ROUNDING = 1e-11
 _SHIFT_STEPS = 3
 _SHARING = frozenset(
-    {"tension_run_on_max", "tension_dynamic_run_on_max", "tension_run_off_min", "tension_max", "tension_min"}
+    {
+        "tension_run_on_max",
+        "tension_dynamic_run_on_max",
+        "tension_run_off_min",
+        "tension_max",
+        "tension_min",
+        "tension_curve_max",
+    }
 )
 """Tensions, which are sums of the same waves."""
 _SLIPPED = frozenset({"slip_distance", "slip_heat"})
@@ -124,6 +133,8 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
     high, lowest = max(ends_high), min(ends_low)
     values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
+    for curve in hollows(case.spec):
+        values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
     smallest = min(drawn.back_min.value, low), min(drawn.carry_min.value, float(on.min()))
     for name, value in bounds.derived_loads(line, high[0], smallest).items():
         values[name] = value, {}
@@ -141,6 +152,14 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
     if case.imposed is not None and isinstance(case.scene, Start):
         values |= _asked(case, drawn, ready)
     return values
+
+
+def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
+    """Largest tension of the cells that a curve touches [N]."""
+    places = ready.course.places - line.back.length - curve.place
+    touched = (places[:-1] <= curve.tangent) & (places[1:] >= -curve.tangent)
+    touched[: ready.course.tail] = False
+    return float(drawn.highest[touched].max())
 
 
 def _asked(case: Moving, drawn: Drawn, ready: Set) -> Values:

@@ -7,8 +7,9 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.driving import moving_mass, running
+from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line, extra_forces, filled
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
 from ptmcalc.spec.scene import Scene
@@ -52,26 +53,33 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
 
     N s f is the idlers' work with the factor C of the file, H the lift.
 
-    **Range** a run-out from rated speed without brakes, gears engaged; secondary forces taken off H.
+    **Range** a run-out from rated speed without brakes, gears engaged; secondary forces taken off H; not by CEMA.
     **Error** twice that of the speed, once that of the way.
     **Source** lecture notes Kramatorsk 2007: energy of the run-out.
     """
     way = scene.measured_distance
-    if way is None:
+    if way is None or spec.resistance.cema is not None:
         return Result({}, work=1)
     line = belt_line(spec, scene)
-    friction, lift = _friction_per_coefficient(spec, line)
+    friction, lift = _friction_per_coefficient(spec, scene, line)
     found, _ = stopping.coast_down_coefficient(moving_mass(line), lift, friction, 1.0, line.speed, way, 0.0, 0.0)
     return _exactly({"resistance_coefficient_identified": float(found)})
 
 
-def _friction_per_coefficient(spec: Conveyor, line: BeltLine) -> tuple[float, float]:
+def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> tuple[float, float]:
     """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
     used = filled(spec.resistance.coefficient) * spec.resistance.stop_factor
-    extra = extra_forces(spec)
-    along = extra["carry"] + extra["return"]
+    along = _special(spec, scene)
     friction = line.back.friction[-1] + line.carry.friction[-1] - along
     return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force + along
+
+
+def _special(spec: Conveyor, scene: Coast) -> float:
+    """Forces with a name along both strands [N]."""
+    extra = extra_forces(spec, load_line_mass(spec))
+    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
+    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
+    return carry + extra.along("return", loaded=False)
 
 
 def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Result:

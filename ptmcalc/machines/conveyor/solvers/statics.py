@@ -9,9 +9,11 @@ from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.driving import running, share
+from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, filled, load_line_mass
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
+from ptmcalc.machines.conveyor.static_loads import OF_STATICS, static_loads
 
 _OF_RUNNING = frozenset(
     {
@@ -57,6 +59,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     loads |= bounds.derived_loads(line, float(tensions[high]), lows)
     loads |= _of_drives(spec, line)
     loads |= _of_running(spec, scene, line, places, tensions)
+    loads |= static_loads(spec, scene, line)
     at = {"tension_max": {"position": float(places[high])}, "tension_min": {"position": float(places[low])}}
     return Result({name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}, work=1)
 
@@ -101,7 +104,7 @@ def _of_running(
     mounting = spec.takeup.tension
     loads = {
         "effective_tension": pull,
-        "effective_tension_worst": nothing + _worst_load(spec),
+        "effective_tension_worst": nothing + _worst_load(spec, scene, empty),
         "power_drive_running": float(belt_resistance.shaft_power(pull, line.speed)),
         "power_drive_empty": float(belt_resistance.shaft_power(nothing, line.speed)),
         "power_motor_running": float(belt_resistance.motor_power(pull * line.speed, efficiency)),
@@ -130,13 +133,11 @@ def _of_running(
     return loads
 
 
-def _worst_load(spec: Conveyor) -> float:
+def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
     """Pull of the load when only those sections are full where it pulls back [N]."""
-    parts, given = spec.route.parts, spec.resistance
-    factor = 1.0 if given.secondary_force is not None else filled(given.secondary)
-    length, lift = np.array([part.length for part in parts]), np.array([part.lift for part in parts])
-    coefficient = filled(given.coefficient) * factor
-    pulls = strand_tension.load_pull(length, lift, load_line_mass(spec), coefficient, spec.gravity)
+    full = running(spec, scene, [True] * len(spec.route.parts))
+    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
+    pulls[0] += full.tail_force - empty.tail_force
     return float(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
 
 
@@ -146,7 +147,9 @@ STATICS: Solver[Conveyor, Run] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(_OF_RUNNING, PER_DRIVE - {"slip_distance", "slip_heat"}),
+    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(
+        _OF_RUNNING, OF_STATICS, PER_DRIVE - {"slip_distance", "slip_heat"}
+    ),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-5,
     source="ISO 5048:1989; DIN 22101",

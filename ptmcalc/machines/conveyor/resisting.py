@@ -1,0 +1,135 @@
+"""Resistance to motion as a designer writes it: ISO 5048 and DIN 22101, or CEMA, and forces by name."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.base.units import FACTOR
+from ptmcalc.spec.fields import (
+    Force,
+    Fraction,
+    Measure,
+    PositiveForce,
+    PositiveLength,
+    PositiveRatio,
+    PositiveSpan,
+    SignedSpeed,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one
+
+RatioFromOne = Annotated[float, Measure(FACTOR, at_least=1)]
+PositivePressure = Annotated[float, Measure(units.PRESSURE, above=0)]
+
+_OF_THE_STREAM = ("skirt", "loading")
+
+
+class Skirt(Fragment):
+    """Skirt plates beside the load."""
+
+    width: PositiveLength
+    """between the plates"""
+    length: PositiveSpan
+    """of the plates along the belt"""
+    friction: PositiveRatio | None = None
+    """between material and plates; 0.6 is assumed when it is left out"""
+
+
+class Scraper(Fragment):
+    """Belt scrapers of one kind."""
+
+    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    """how many"""
+    width: PositiveLength
+    """of the blade across the belt"""
+    thickness: PositiveLength
+    """of the blade along the belt"""
+    pressure: PositivePressure
+    """of the blade on the belt; 30 to 100 kPa is usual"""
+    friction: PositiveRatio | None = None
+    """between blade and belt; 0.6 is assumed when it is left out"""
+
+
+class Loading(Fragment):
+    """Material that the belt brings to its speed."""
+
+    speed: SignedSpeed = 0.0
+    """of the material along the belt when it falls on"""
+
+
+class ExtraForce(Fragment):
+    """A special resistance: skirt plates, belt scrapers, a loading point, a tripper."""
+
+    force: PositiveForce | None = None
+    """against the motion; or what it follows from: `skirt`, `scraper` or `loading`"""
+    skirt: Skirt | None = None
+    """friction of the load at skirt plates"""
+    scraper: Scraper | None = None
+    """friction of belt scrapers"""
+    loading: Loading | None = None
+    """force that brings the material to the speed of the belt; the factor C has it already"""
+    at: Literal["tail", "carry", "return"] = "tail"
+    """where it acts: at the loading point by the tail, or evenly along a strand"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A force is given, or follows from one thing; nothing is conveyed on the return strand."""
+        yield from exactly_one(given, "force", "skirt", "scraper", "loading")
+        if given.word("at") == "return" and (of_stream := [key for key in _OF_THE_STREAM if key in given]):
+            reason = f"nothing is conveyed on the return strand, where `{of_stream[0]}` could act"
+            yield Conflict(("at",), reason, "write `at: tail`, or `at: carry`")
+
+
+class Cema(Fragment):
+    """The historical CEMA method: L K_t (K_x + K_y w_B + 0.015 w_B) + w_M (L K_y + H) + forces."""
+
+    idler_drag: PositiveForce | None = None
+    """A_i, drag of one carry set; or give `roll`"""
+    roll: Literal["4in", "5in", "6in", "7in"] | None = None
+    """roll diameter, from which A_i follows: 2.3, 1.8, 1.5 or 2.4 lbf"""
+    flexure: PositiveRatio | None = None
+    """K_y of CEMA's table over length, slope and weights; 0.03 is assumed when it is left out"""
+    temperature: RatioFromOne = 1.0
+    """K_t; 1 above freezing"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The drag is given, or that of a roll."""
+        yield from exactly_one(given, "idler_drag", "roll")
+
+
+class Resistance(Fragment):
+    """Resistance to motion: ISO 5048 and DIN 22101, or CEMA where `cema` is given."""
+
+    coefficient: PositiveRatio | None = None
+    """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
+    secondary: RatioFromOne | None = None
+    """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
+    secondary_force: Force | None = None
+    """secondary resistances as a force at the loading point, instead of `secondary`"""
+    cema: Cema | None = None
+    """the CEMA method, instead of `coefficient` and `secondary`; pulleys and loading go to `secondary_force`"""
+    speed_share: Fraction = 0.0
+    """part of the idlers' resistance at rated speed that is proportional to the speed"""
+    forces: dict[str, ExtraForce] = Field(default_factory=dict)
+    """special resistances by name, besides main and secondary ones"""
+    start_factor: RatioFromOne | None = None
+    """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
+    stop_factor: PositiveRatio = 1.0
+    """resistance while it runs out over resistance in motion; below 1 for a warm, light-running belt"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The secondary resistances are given in one way, and one method is used."""
+        yield from at_most_one(given, "secondary", "secondary_force")
+        for key in ("coefficient", "secondary"):
+            if "cema" in given and key in given:
+                reason = "it belongs to ISO 5048 and DIN 22101, `cema` is another method: results of both are not mixed"
+                yield Conflict((key,), reason, f"delete `{key}`, or `cema`")
+        if "secondary_force" in given or "cema" in given:
+            return
+        for name, force in given.raw.get("forces", {}).items() if isinstance(given.raw.get("forces"), dict) else ():
+            if isinstance(force, dict) and "loading" in force:
+                reason = "the length factor C holds the resistance at the loading point already"
+                yield Conflict(("forces", name, "loading"), reason, "give `secondary_force` for all that C stands for")

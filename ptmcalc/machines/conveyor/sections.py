@@ -1,0 +1,126 @@
+"""The route as a designer writes it: sections from the tail to the head, and the vertical curves between them."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import accumulate, pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.spec.fields import Height, PositiveLength, PositiveSpan
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+
+
+class Section(Fragment):
+    """A part of the route with one slope."""
+
+    length: PositiveSpan
+    """along the belt"""
+    lift: Height = 0.0
+    """height the load is raised by; negative when it is lowered"""
+    carry_pitch: PositiveLength | None = None
+    """idler pitch of the carry strand there, instead of that of `idlers.carry`"""
+    curve_radius: PositiveSpan | None = None
+    """radius of the vertical curve that leads from the section before into this one"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The belt cannot rise further than it is long."""
+        yield from _too_steep(given)
+
+    @property
+    def slope(self) -> float:
+        """Uphill positive [rad]."""
+        return math.asin(self.lift / self.length)
+
+    @property
+    def cosine(self) -> float:
+        """Cosine of the slope [1]."""
+        return math.sqrt(1 - (self.lift / self.length) ** 2)
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A vertical curve between two sections: the number of the one it leads into, counted from 1, its radius [m], the
+    place of the break it rounds, along the carry strand from the tail [m], the slopes before and after it [rad]."""
+
+    number: int
+    radius: float
+    place: float
+    before: float
+    after: float
+
+    @property
+    def hollow(self) -> bool:
+        """Whether its centre is above the belt (concave)."""
+        return self.after > self.before
+
+    @property
+    def steepest_cosine(self) -> float:
+        """Cosine of the steepest slope in it [1]."""
+        return math.cos(max(abs(self.before), abs(self.after)))
+
+    @property
+    def tangent(self) -> float:
+        """How far it reaches to either side of the break [m]."""
+        return self.radius * math.tan(abs(self.after - self.before) / 2)
+
+
+class Route(Fragment):
+    """Where the belt runs: from the tail drum to the drum at the head."""
+
+    length: PositiveSpan | None = None
+    """distance between tail and head drum, along the belt; or give `sections`"""
+    lift: Height = 0.0
+    """height the load is raised by; negative when it is lowered"""
+    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
+    """parts of different slope from the tail to the head, instead of `length` and `lift`"""
+    inclination: Literal["exact", "small_angle"] = "exact"
+    """`small_angle` sets the cosine of the slope to 1, as ISO 5048 allows below 18 degrees"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The route is one slope or several; the belt cannot rise further than it is long."""
+        yield from exactly_one(given, "length", "sections")
+        if "lift" in given and "sections" in given:
+            yield Conflict(("lift",), "the `sections` say how high the belt climbs", "delete `lift`")
+        yield from _too_steep(given)
+        first = next(iter(given.blocks("sections")), None)
+        if first is not None and "curve_radius" in first:
+            reason = "a curve leads into a section from the one before: the first has none"
+            yield Conflict(("sections", 0, "curve_radius"), reason, "write it under the section behind the curve")
+
+    @property
+    def parts(self) -> tuple[Section, ...]:
+        """The sections from the tail to the head, one where the slope is even."""
+        if self.sections is not None:
+            return self.sections
+        assert self.length is not None
+        return (Section.model_construct(length=self.length, lift=self.lift),)
+
+    @property
+    def span(self) -> float:
+        """Distance between tail and head along the belt [m]."""
+        return sum(part.length for part in self.parts)
+
+    @property
+    def climb(self) -> float:
+        """Height from tail to head [m]."""
+        return sum(part.lift for part in self.parts)
+
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """The vertical curves whose radius is given, between sections of different slopes."""
+        places = accumulate(part.length for part in self.parts)
+        return tuple(
+            Curve(number, part.curve_radius, place, before.slope, part.slope)
+            for number, (place, (before, part)) in enumerate(zip(places, pairwise(self.parts), strict=False), 2)
+            if part.curve_radius is not None and part.slope != before.slope
+        )
+
+
+def _too_steep(given: Given) -> Iterator[Conflict]:
+    lift, length = given.number("lift"), given.number("length")
+    if lift is not None and length is not None and abs(lift) >= length:
+        yield Conflict(("lift",), "the lift is not smaller than the length along the belt", "check both values")

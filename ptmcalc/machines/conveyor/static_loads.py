@@ -1,0 +1,199 @@
+"""Loads of a steadily running belt that follow from what its file says of belt, trough and curves."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import cast
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo, of
+from ptmcalc.laws import belt_section, sag, vertical_curve
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.belt_data import Transition
+from ptmcalc.machines.conveyor.driving import running
+from ptmcalc.machines.conveyor.forces import filled
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
+from ptmcalc.machines.conveyor.sections import Curve
+from ptmcalc.machines.conveyor.spec import Conveyor, Run
+
+STATIC_LOADS = (
+    LoadInfo("section_fill", "stream over what the cross-section holds", units.SHARE, headline=False),
+    LoadInfo("capacity_max", "stream the cross-section holds", units.FLOW, headline=False),
+    LoadInfo("drum_diameter_required", "drum the belt asks for", units.LENGTH, headline=False),
+    LoadInfo("sag_carry", "sag over idler pitch, carry strand", units.SHARE, headline=False),
+    LoadInfo("sag_return", "sag over idler pitch, return strand", units.SHARE, headline=False),
+    LoadInfo("tension_curve_max", "belt tension in a hollow, largest", units.FORCE, headline=False),
+    LoadInfo("fibre_tension_max", "tension of the tightest fibre", units.LINE_FORCE, headline=False),
+    LoadInfo("fibre_tension_min", "tension of the slackest fibre", units.LINE_FORCE, headline=False),
+)
+"""Loads besides those of `loads.LOADS`, the most of them once for each part of the machine."""
+
+OF_STATICS = frozenset(info.name for info in STATIC_LOADS)
+
+
+def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
+    """Those of them that a conveyor has."""
+    sections = [str(number) for number, _ in enumerate(spec.route.sections or (), 1)]
+    across = list(bent(spec))
+    elements: Mapping[str, list[str]] = {
+        "drum_diameter_required": list(spec.all_drives),
+        "sag_carry": sections,
+        "sag_return": sections,
+        "tension_curve_max": [str(curve.number) for curve in hollows(spec)],
+        "fibre_tension_max": across,
+        "fibre_tension_min": across,
+    }
+    for info in STATIC_LOADS:
+        if info.name in elements:
+            yield from (info.of(element) for element in elements[info.name])
+        else:
+            yield info
+
+
+def static_loads(spec: Conveyor, scene: Run, line: BeltLine) -> dict[str, float]:
+    """What the file gives enough for."""
+    return _fill(spec) | _drums(spec) | _sags(spec, line) | _curves(spec, scene) | _fibres(spec, scene)
+
+
+# -- the load on the belt, the belt on the drum ---------------------------------------------------------------------
+
+
+def _fill(spec: Conveyor) -> dict[str, float]:
+    """Stream over what the cross-section holds at its steepest place."""
+    load, trough, width = spec.load, spec.idlers.carry.trough, spec.belt.width
+    if load.density is None or trough is None or width is None:
+        return {}
+    bed = float(belt_section.usable_width(width)), trough.middle_roll, trough.angle
+    surcharge = filled(load.surcharge_angle)
+    steepest = max(abs(part.slope) for part in spec.route.parts)
+    above = belt_section.surcharge_section(*bed, surcharge) * belt_section.slope_reduction(steepest, surcharge)
+    most = belt_section.capacity(belt_section.water_section(*bed) + above, spec.speed, load.density)
+    stream = load_line_mass(spec) * spec.speed
+    return {"capacity_max": float(most), "section_fill": float(belt_section.fill_share(stream, most))}
+
+
+def has_drum_data(spec: Conveyor) -> bool:
+    """Whether the file says how small a drum the belt bears."""
+    return spec.belt.minimum_drum_diameter is not None or spec.belt.carcass_thickness is not None
+
+
+def _drums(spec: Conveyor) -> dict[str, float]:
+    belt = spec.belt
+    if not has_drum_data(spec):
+        return {}
+    least = belt.minimum_drum_diameter
+    if least is None:
+        least = belt_section.minimum_pulley_diameter(belt.warp or "", filled(belt.carcass_thickness))
+    return {of("drum_diameter_required", name): least for name in spec.all_drives}
+
+
+# -- sag, section by section ----------------------------------------------------------------------------------------
+
+
+def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
+    """Sag of each section at the lower of its ends, where the sections are the file's own; and the largest of all."""
+    found: dict[str, float] = {}
+    ratios: list[FloatArray] = []
+    for name, which in (("sag_carry", CARRY), ("sag_return", RETURN)):
+        part = line.strand(which)
+        if not part.span_weights:
+            continue
+        ends = line.static_ends(which)[0] + part.rises
+        lows = np.minimum(ends[1:], ends[:-1])
+        sags = [float(sag.sag_ratio(span, low)) for span, low in zip(part.span_weights, lows, strict=True)]
+        if which == RETURN:
+            sags.reverse()  # sections are counted from the tail
+        ratios.append(np.array(sags))
+        if spec.route.sections is not None:
+            found |= {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
+    if len(ratios) == 2:
+        found["sag_relative_max"] = float(max(part.max() for part in ratios))
+    return found
+
+
+# -- over all fillings of the belt ----------------------------------------------------------------------------------
+
+
+def hollows(spec: Conveyor) -> list[Curve]:
+    """The concave curves whose radius is given."""
+    return [curve for curve in spec.route.curves if curve.hollow]
+
+
+def over_fillings(spec: Conveyor, scene: Run, read: Callable[[BeltLine], FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Least and most of some tensions over all choices of loaded sections.
+
+        S(x) = S(0) + sum_k x_k dS_k;   least: x_k = 1 where dS_k < 0,   most: where dS_k > 0
+
+    **Range** steady running; the fillings of two places differ.
+    **Error** exact: tensions are linear in the load of each section, whatever the take-up and the drives.
+    **Source** `laws.strand_tension.worst_loading`: a linear function on a cube has its extreme at a corner.
+    """
+    count = len(spec.route.parts)
+    empty = read(running(spec, scene, [False] * count))
+    gains = np.array(
+        [read(running(spec, scene, [index == one for index in range(count)])) - empty for one in range(count)]
+    )
+    return empty + np.minimum(gains, 0).sum(axis=0), empty + np.maximum(gains, 0).sum(axis=0)
+
+
+def _within(curve: Curve, line: BeltLine) -> FloatArray:
+    """Tensions at both ends and at the break of a curve [N]."""
+    places = np.array([curve.place - curve.tangent, curve.place, curve.place + curve.tangent])
+    return line.static(CARRY, np.clip(places / line.carry.length, 0, 1))
+
+
+def _curves(spec: Conveyor, scene: Run) -> dict[str, float]:
+    """Largest tension in each hollow, whatever is loaded."""
+    found = {}
+    for curve in hollows(spec):
+        _, most = over_fillings(spec, scene, lambda line, curve=curve: _within(curve, line))  # type: ignore[misc]
+        found[of("tension_curve_max", str(curve.number))] = float(most.max())
+    return found
+
+
+# -- fibres across the belt -----------------------------------------------------------------------------------------
+
+
+def bent(spec: Conveyor) -> dict[str, Curve | Transition]:
+    """Places where fibres of the belt differ in length, by the name of their loads."""
+    places: dict[str, Curve | Transition] = {
+        at: place for at in ("head", "tail") if (place := getattr(spec.transitions, at)) is not None
+    }
+    return places | {f"curve_{curve.number}": curve for curve in spec.route.curves}
+
+
+def _fibres(spec: Conveyor, scene: Run) -> dict[str, float]:
+    """Largest and smallest tension per width of any fibre, whatever is loaded.
+
+    k = S/W + (EA/W) eps,   eps of `belt_section.transition_strains`, z/R in a curve
+    """
+    found: dict[str, float] = {}
+    known = spec.idlers.carry.trough is not None and spec.belt.width is not None
+    for name, place in bent(spec).items() if known else ():
+        least, most = over_fillings(spec, scene, lambda line, name=name, place=place: _tensions(line, name, place))  # type: ignore[misc]
+        width = filled(spec.belt.width)
+        more, less = _strains(spec, place)
+        stiffness = running(spec, scene).stiffness
+        found[of("fibre_tension_max", name)] = (float(most.max()) + stiffness * more) / width
+        found[of("fibre_tension_min", name)] = (float(least.min()) - stiffness * less) / width
+    return found
+
+
+def _tensions(line: BeltLine, name: str, place: Curve | Transition) -> FloatArray:
+    """Tensions of the belt there [N]."""
+    if isinstance(place, Curve):
+        return _within(place, line)
+    return np.array([line.static_ends(CARRY)[1 if name == "head" else 0]])
+
+
+def _strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:
+    """How far the tightest fibre is above the mean strain, and the slackest below it."""
+    trough, width = spec.idlers.carry.trough, filled(spec.belt.width)
+    assert trough is not None
+    middle = min(trough.middle_roll, width)
+    side = (width - middle) / 2
+    if isinstance(place, Curve):
+        edge, centre = vertical_curve.trough_heights(middle, side, trough.angle)
+        heights = (centre, edge) if place.hollow else (edge, centre)
+        return cast(tuple[float, float], tuple(height / place.radius for height in heights))
+    return belt_section.transition_strains(place.length, middle, side, trough.angle, place.pulley_lift)
