@@ -30,6 +30,9 @@ from ptmcalc.report.table import listing
 
 Row = dict[str, Any]
 
+_DIGITS_ALIKE = str.maketrans("OIL", "011")
+"""Letters that are written for a digit of a code."""
+
 
 def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return listing(columns, rows, width=get_terminal_size((120, 40)).columns)
@@ -124,7 +127,8 @@ def explanation(name: str) -> str:
     texts = dict(_everything())
     wanted = name.upper() if name.upper() in texts else name
     if wanted not in texts:
-        close = difflib.get_close_matches(name, texts, 1)
+        alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
+        close = [alike] if alike in texts else difflib.get_close_matches(name, texts, 1)
         raise UsageError(
             f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
         )

@@ -128,6 +128,36 @@ def peak_rate(shape: str, rise_time: float) -> float:
     return {RAMP: 1.0, COSINE: np.pi / 2, PARABOLIC: 2.0}[shape] / rise_time
 
 
+def residual(shape: str, rise_time: float, frequency: ArrayLike) -> FloatArray:
+    """Swing that a profile leaves in a mode after its end, over the one that a step would leave.
+
+        R = |integral of q'(t) exp(i w t) dt|,   x = w t_s/2
+        ramp: |sin x/x|      cosine: |cos x/(1 - (2 x/pi)^2)|      parabolic: (sin(x/2)/(x/2))^2      step: 1
+
+    Args:
+        shape: `step`, `ramp`, `cosine` or `parabolic`.
+        rise_time: t_s [s].
+        frequency: w, of the mode [rad/s].
+
+    Returns:
+        R; 0 where a ramp lasts whole periods of the mode [1].
+
+    **Range** an undamped mode at rest before, t_s > 0; a profile of the torque as well as one of the speed.
+    **Error** exact; damping makes it smaller.
+    **Source** derived: Fourier transform of the rise; the ramp's in handbooks of vibration.
+    """
+    w = np.asarray(frequency, float)
+    if shape == STEP:
+        return np.ones_like(w)
+    x = w * rise_time / 2
+    if shape == RAMP:
+        return np.asarray(np.abs(np.sinc(x / np.pi)))
+    if shape == PARABOLIC:
+        return np.asarray(np.sinc(x / (2 * np.pi)) ** 2)
+    # sin y/y over 1 + 2 x/pi, y = pi/2 - x: no pole at x = pi/2
+    return np.asarray(np.pi / 4 * np.abs(np.sinc(0.5 - x / np.pi) / (0.5 + x / np.pi)))
+
+
 @dataclass(frozen=True, slots=True)
 class Phase:
     """A stretch of a start: the quasi-static answer is `low` to `high` times that of the plateau, and no undamped

@@ -267,6 +267,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     start_profile.rise_integral: [(shape, 4.0, t) for shape in SHAPES for t in (0.0, 1.3, 9.0)],
     start_profile.rise_rate: [(shape, 4.0, t) for shape in SHAPES[1:] for t in (1.3, 9.0)],
     start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0), ("parabolic", 4.0)],
+    start_profile.residual: [(shape, 4.0, 3.0) for shape in SHAPES],
     start_profile.phases: [
         ("step", False, 4.0, 3.0), ("ramp", False, 4.0, 3.0), ("cosine", False, 4.0, 3.0), ("ramp", True, 4.0, 3.0),
         ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0), ("parabolic", False, 4.0, 3.0),

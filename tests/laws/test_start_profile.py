@@ -254,3 +254,31 @@ class TestPhases:
     def test_a_step_of_speed_is_refused(self) -> None:
         with pytest.raises(ValueError, match="infinite force"):
             start_profile.phases(STEP, True, 0.0, 1.0)
+
+
+class TestResidual:
+    @pytest.mark.parametrize("imposed", [False, True])
+    @pytest.mark.parametrize("shape", [RAMP, COSINE, PARABOLIC])
+    @pytest.mark.parametrize("frequency", [0.4, 1.3, math.pi / RISE, 2 * math.pi / RISE, 7.9])
+    def test_is_what_an_oscillator_is_left_with(self, shape: str, imposed: bool, frequency: float) -> None:
+        """x'' + w^2 x = q (torque), or = q' (speed), by integration to the end of the rise; its amplitude then, over
+        the 1/w^2 of a step of torque and the 1/w of a blow."""
+
+        def rate(time: float, state: np.ndarray) -> list[float]:
+            load = start_profile.rise_rate if imposed else start_profile.rise
+            return [state[1], float(load(shape, RISE, time)) - frequency**2 * state[0]]
+
+        state = np.zeros(2)
+        for begin, end in ((0.0, RISE / 2), (RISE / 2, RISE)):
+            state = solve_ivp(rate, (begin, end), state, rtol=1e-11, atol=1e-13).y[:, -1]
+        rest = 0.0 if imposed else 1 / frequency**2
+        swing = math.hypot(state[0] - rest, state[1] / frequency)
+        step = 1 / frequency if imposed else 1 / frequency**2
+        assert start_profile.residual(shape, RISE, frequency) == pytest.approx(swing / step, abs=1e-8)
+
+    def test_a_ramp_of_whole_periods_leaves_nothing(self) -> None:
+        periods = 2 * math.pi / RISE * np.arange(1, 5)
+        assert start_profile.residual(RAMP, RISE, periods) == pytest.approx(0, abs=1e-15)
+
+    def test_a_step_leaves_all(self) -> None:
+        assert start_profile.residual(STEP, RISE, np.array([0.1, 3.0])) == pytest.approx([1.0, 1.0])

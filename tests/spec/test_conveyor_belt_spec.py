@@ -162,6 +162,17 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         "loading:",
         "give `secondary_force` for all that C stands for",
     ),
+    "a motor faster under load than without": (
+        (
+            (
+                "motor: {inertia: 5 kg*m^2, mean_starting_torque: 4 kN*m}",
+                "motor: {inertia: 5 kg*m^2, mean_starting_torque: 4 kN*m, speed: 1500 rpm, no_load_speed: 1480 rpm}",
+            ),
+        ),
+        "drive.motor.no_load_speed",
+        "no_load_speed:",
+        "check both speeds",
+    ),
     "cema and a coefficient": (
         (("secondary_force: 12 kN", "secondary_force: 12 kN\ncema: {roll: 6in, flexure: 0.03}"),),
         "resistance.coefficient",

@@ -385,6 +385,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(2)),
     ),
     "rise_rate": (start_profile.rise_rate, lambda d: (d.shape("ramp", "cosine", "parabolic"), *d.positive(2))),
+    "residual": (start_profile.residual, lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(2))),
     "peak_rate": (start_profile.peak_rate, lambda d: (d.shape("ramp", "cosine", "parabolic"), *d.positive(1))),
     "phases_torque": (phase_numbers, lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), False, *d.positive(2))),
     "phases_speed": (phase_numbers, lambda d: (d.shape("ramp", "cosine", "parabolic"), True, *d.positive(2))),

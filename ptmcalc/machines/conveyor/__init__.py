@@ -14,6 +14,7 @@ from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
+from ptmcalc.machines.conveyor.start_loads import START_LOADS, start_parts
 from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
 
 _SPEED_TOLERANCE = 0.05
@@ -118,12 +119,12 @@ KIND = MachineKind(
     name="conveyor",
     title="belt conveyor: slip, belt tension, sag and start",
     spec=Conveyor,
-    loads=(*LOADS, *STATIC_LOADS),
+    loads=(*LOADS, *STATIC_LOADS, *START_LOADS),
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=CHECKS,
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
-    parts=lambda spec: chain(parts(spec), static_parts(spec)),
+    parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,
 )

@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.braking import brakes_of, braking
+from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
 from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
@@ -109,14 +110,6 @@ def _blame_grip(spec: Conveyor, scene: ConveyorScene, path: KeyPath, drive: Driv
     if isinstance(scene, Stop | EmergencyStop) and (acting := brakes_of(spec, scene)):
         return ("brakes", max(acting, key=lambda name: braking(spec, acting[name]).force), "torque")
     return _TENSION
-
-
-def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
-    """The key of the starting torque the file uses."""
-    path = path or spec.main_path
-    one = spec.value_at(path).motor
-    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
-    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
 
 
 def _slip_checks(spec: Conveyor, scene: ConveyorScene) -> Iterator[Check[Conveyor, ConveyorScene]]:
@@ -507,4 +500,4 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
 
 _OF_MOTION = (SLIP, STRENGTH, SAG, START, SLACK, STOP, STOP_TIME, BRAKE, BACKSTOP, STROKE, HEAT)
 _BY_CODE: dict[str, AnyCheck] = {check.code: check for check in _OF_MOTION}
-CHECKS: tuple[AnyCheck, ...] = (*_OF_MOTION, *CHECKS_OF_THE_BELT)
+CHECKS: tuple[AnyCheck, ...] = (*_OF_MOTION, *CHECKS_OF_THE_BELT, *CHECKS_OF_THE_START)

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import AnyMotor
 from ptmcalc.laws.sag import DEEPEST
@@ -15,6 +16,8 @@ from ptmcalc.spec.fields import (
     Efficiency,
     Fraction,
     Inertia,
+    Measure,
+    PositiveAcceleration,
     PositiveAngle,
     PositiveAngularSpeed,
     PositiveEnergy,
@@ -32,6 +35,8 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
+
+PositiveFrequency = Annotated[float, Measure(units.FREQUENCY, above=0)]
 
 
 class Motor(Fragment):
@@ -51,10 +56,17 @@ class Motor(Fragment):
     """torque before each step of a rheostat start, one motor"""
     curve: AnyMotor | None = None
     """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
+    start_heat: PositiveEnergy | None = None
+    """heat the rotor of one motor may take up in one start, from its data sheet; with it the start is checked"""
+    no_load_speed: PositiveAngularSpeed | None = None
+    """speed without load, of an induction motor the synchronous one; that of the `curve` when it is left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """The starting torque is a mean one, or swings between a largest and a smallest."""
+        rated, most = given.number("speed"), given.number("no_load_speed")
+        if rated is not None and most is not None and most < rated:
+            yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         if largest not in given and smallest not in given:
             if "curve" not in given:
@@ -202,6 +214,14 @@ class ConveyorChecks(CheckSettings):
     edge_overload: RatioFromOne = 1.15
     """largest tension per width of a fibre at a transition or in a vertical curve over that of the steadily running
     belt's safety"""
+    start_acceleration: PositiveAcceleration | None = None
+    """largest acceleration of the belt in a start; 0.1 to 0.3 m/s^2 is usual"""
+    start_margins: Literal["on", "off"] = "off"
+    """whether a start may not be sharper than grip and slack surely bear; careful, CNV101 and CNV105 look closer"""
+    start_residual: PositiveRatio | None = None
+    """largest swing that a start's profile may leave in the lowest mode of the belt, over that of a step"""
+    resonance_band: Fraction = 0.15
+    """how far the `ripple` of a drive has to stay from the natural frequencies of the belt"""
     slip_heat: PositiveEnergy | None = None
     """largest heat a drum may burn off by slip in one scene"""
 
@@ -216,6 +236,8 @@ class Profile(Fragment):
     """duration of the rise"""
     control: Literal["torque", "speed"] | None = None
     """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
+    ripple: PositiveFrequency | None = None
+    """frequency at which the control of the drive pulsates; it is kept away from those of the belt"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -13,6 +13,7 @@ from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_STAR
 from ptmcalc.machines.conveyor.model import is_plain, start_case
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.start_loads import OF_STARTING, start_loads
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -39,7 +40,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     for number, frequency in enumerate(belt_modes.natural_frequencies(case.masses, weight, FREQUENCIES), 1):
         loads[of("natural_frequency", str(number))] = float(frequency)
     window = (0.0, case.held + case.window)
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1, window=window)
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    return Result(found | start_loads(spec, scene, case), work=1, window=window)
 
 
 RIGID: Solver[Conveyor, Start] = Solver(
@@ -48,7 +50,7 @@ RIGID: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=OF_BELT.union(DRIVE, OF_START),
+    gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-4,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",

@@ -1,0 +1,199 @@
+"""Checks of a start: its motors' heat, its sharpness, the swings it leaves, a control that pulsates."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.start_loads import allowed_acceleration
+
+Loads = Mapping[str, Estimate]
+Checks = Iterable[AnyCheck]
+
+
+def _no_needs(spec: Conveyor, scene: Start) -> tuple[KeyPath, ...]:
+    return ()
+
+
+def _profile_key(key: str) -> Callable[[Conveyor, Start], KeyPath]:
+    """Where a key of the profile of a scene stands in the file."""
+    return lambda spec, scene: ("scenes", list(spec.all_scenes).index(scene), "profile", key)
+
+
+def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
+    """The key of the starting torque the file uses."""
+    path = path or spec.main_path
+    one = spec.value_at(path).motor
+    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
+    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
+
+
+_time_key, _ripple_key = _profile_key("time"), _profile_key("ripple")
+
+
+# -- heat of the motors ---------------------------------------------------------------------------------------------
+
+
+def _heat_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Heat the rotor of one motor may take up in one start, from the file.
+
+    **Range** a start from the state of the motor for which its maker gives it: cold, or warm from running.
+    **Error** that of the maker's number.
+    **Source** the motor's data sheet.
+    """
+    return Estimate.exact(spec.main_drive.motor.start_heat or math.inf)
+
+
+def _heat_checks(spec: Conveyor, scene: Start) -> Checks:
+    """One for each drive whose motors say what they bear, in a start on the mains."""
+    for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
+        most = drive.motor.start_heat
+        if most is None:
+            continue
+        path = spec.drive_path(name)
+        key = starting_torque_key(spec, path)
+        needs = () if drive.motor.curve is not None else ((*path, "motor", "no_load_speed"),)
+        yield MOTOR_HEAT.of(name, _exactly(most), key, needs, () if key[-1] == "curve" else key)
+
+
+def _exactly(limit: float) -> Callable[[Conveyor, Start], Estimate]:
+    return lambda spec, scene: Estimate.exact(limit)
+
+
+MOTOR_HEAT: Check[Conveyor, Start] = Check(
+    code="CNV117",
+    title="an overheated rotor in the start",
+    scenes=frozenset({Start}),
+    loads=("motor_start_heat",),
+    sense=Sense.AT_MOST,
+    limit=_heat_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: starting_torque_key(spec),
+    repair=lambda spec, scene: (),
+    each=_heat_checks,
+    what="The rotor of each motor on the mains takes up no more heat in a start than its maker allows.",
+    why="A rotor that is slow to come up to speed melts its bars before any relay in the stator notices.",
+    formula="integral of M (w_0 - w) dt <= allowed",
+    source="power of the air gap less that of the shaft; the motor's data sheet",
+)
+
+# -- sharpness ------------------------------------------------------------------------------------------------------
+
+
+def _sharp_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Largest acceleration of the file, and what grip and slack surely bear where it asks for that.
+
+    **Range** any start; the margins with one drive and an evenly loaded belt.
+    **Error** on the safe side: the margins are bounds.
+    **Source** the plant's rules; `start_loads.allowed_acceleration`.
+    """
+    margins = allowed_acceleration(spec, scene) if spec.checks.start_margins == "on" else None
+    asked = [limit for limit in (spec.checks.start_acceleration, margins) if limit is not None]
+    return Estimate.exact(min(asked, default=math.inf))
+
+
+def _sharp_checks(spec: Conveyor, scene: Start) -> Checks:
+    """Where the file gives a limit, or asks for one that is known."""
+    if math.isfinite(_sharp_limit(spec, scene).value):
+        yield replace(SHARP, each=None)
+
+
+def _sharp_key(spec: Conveyor, scene: Start) -> KeyPath:
+    return _time_key(spec, scene) if scene.profile.time is not None else starting_torque_key(spec)
+
+
+def _sharp_repair(spec: Conveyor, scene: Start) -> KeyPath:
+    key = _sharp_key(spec, scene)
+    return () if key[-1] == "curve" else key
+
+
+SHARP: Check[Conveyor, Start] = Check(
+    code="CNV118",
+    title="too sharp a start",
+    scenes=frozenset({Start}),
+    loads=("acceleration_rigid",),
+    sense=Sense.AT_MOST,
+    limit=_sharp_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _sharp_key(spec, scene),
+    repair=_sharp_repair,
+    each=_sharp_checks,
+    what="The largest acceleration of the profile stays below the limit of the file, and below what grip and slack"
+    " surely bear where the file asks for that.",
+    why="Load slides back on a slope, the drum slips, the belt goes slack behind the wave of a hard start.",
+    formula="v q'_max <= a   (speed)      (F - W)/M <= a   (torque)",
+    source="practice: 0.1 to 0.3 m/s^2; bounds of `laws.loop_bounds`",
+)
+
+# -- swings ---------------------------------------------------------------------------------------------------------
+
+
+def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Largest swing left behind, from the file.
+
+    **Range** profiles that take their time.
+    **Error** none: a chosen limit.
+    **Source** the plant's rules.
+    """
+    return Estimate.exact(spec.checks.start_residual if spec.checks.start_residual is not None else math.inf)
+
+
+def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
+    if spec.checks.start_residual is not None and scene.profile.time is not None:
+        yield replace(RESIDUAL, each=None)
+
+
+RESIDUAL: Check[Conveyor, Start] = Check(
+    code="CNV119",
+    title="a start in step with the belt",
+    scenes=frozenset({Start}),
+    loads=("start_residual",),
+    sense=Sense.AT_MOST,
+    limit=_residual_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _time_key(spec, scene),
+    repair=_time_key,
+    each=_residual_checks,
+    what="The swing that the profile leaves in the lowest mode of the belt stays below the limit of the file.",
+    why="A belt that swings on after its start wears splices and take-up; a rise of whole periods leaves it at rest.",
+    formula="R = |integral of q'(t) exp(i w_1 t) dt| <= limit,   1 for a step",
+    source="`laws.start_profile.residual`; frequencies of `laws.belt_modes`",
+)
+
+
+def _band_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """How far a pulsation has to stay from the three lowest frequencies of the belt, 15 % by default.
+
+    **Range** higher modes are damped by belt and idlers.
+    **Error** none: a chosen limit.
+    **Source** 15 %: a damping of 0.05 lets a mode grow to a third of its peak there; an engineering choice.
+    """
+    return Estimate.exact(spec.checks.resonance_band)
+
+
+def _band_checks(spec: Conveyor, scene: Start) -> Checks:
+    if scene.profile.ripple is not None:
+        yield replace(RESONANCE, each=None)
+
+
+RESONANCE: Check[Conveyor, Start] = Check(
+    code="CNV120",
+    title="a drive that pulsates with the belt",
+    scenes=frozenset({Start}),
+    loads=("resonance_distance",),
+    sense=Sense.AT_LEAST,
+    limit=_band_limit,
+    needs=_no_needs,
+    blame=lambda spec, scene, loads: _ripple_key(spec, scene),
+    repair=_ripple_key,
+    each=_band_checks,
+    what="The control of the drive does not pulsate near one of the three lowest natural frequencies of the belt.",
+    why="A small pulsation in resonance winds the belt up until the drum slips or a splice gives.",
+    formula="min over k = 1, 2, 3 of |f/f_k - 1| >= band",
+    source="frequencies of `laws.belt_modes`; the band is an engineering choice",
+)
+
+CHECKS_OF_THE_START: tuple[AnyCheck, ...] = (MOTOR_HEAT, SHARP, RESIDUAL, RESONANCE)
