@@ -17,6 +17,7 @@ from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 
 STATIC_LOADS = (
+    LoadInfo("power_motor_empty", "power at the motors, empty", units.POWER, headline=False),
     LoadInfo("section_fill", "stream over what the cross-section holds", units.SHARE, headline=False),
     LoadInfo("capacity_max", "stream the cross-section holds", units.FLOW, headline=False),
     LoadInfo("drum_diameter_required", "drum the belt asks for", units.LENGTH, headline=False),

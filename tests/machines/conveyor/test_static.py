@@ -145,6 +145,24 @@ def test_forces_with_a_name_follow_from_what_they_are_made_of() -> None:
         assert pull == pytest.approx(rig.resistance(loaded) + extra, rel=1e-9), loaded
 
 
+def test_motors_give_their_share_each_through_its_own_gear() -> None:
+    drives = {"one": Drive(torque=2000.0, count=2), "two": Drive(torque=2000.0, efficiency=0.8)}
+    rig = replace(RIG, drives=drives)
+    forces = [4000.0 * 0.94, 2000.0 * 0.8]
+    lost = (forces[0] / 0.94 + forces[1] / 0.8) / sum(forces)
+    scene = ran(rig)
+    for name, loaded in (("running", "full"), ("empty", "empty")):
+        power = rig.resistance(loaded) * 4.0 * lost
+        assert value(scene, f"power_motor_{name}") == pytest.approx(power, rel=1e-9)
+
+
+def test_motors_that_brake_get_what_the_gear_leaves() -> None:
+    rig = replace(RIG, sections=((500.0, -60.0),), tension=250e3)
+    power = rig.resistance() * 4.0
+    assert power < 0
+    assert value(ran(rig), "power_motor_running") == pytest.approx(power * 0.94, rel=1e-9)
+
+
 def test_the_load_at_the_tail_needs_a_loaded_first_section() -> None:
     """Loaded uphill only, the first section, which falls, is empty: the skirts there rub nothing."""
     skirt = {"skirt": {"width": "600 mm", "length": "5 m", "friction": 0.65}}

@@ -99,7 +99,6 @@ def _of_running(
     pull = line.static_resistance + line.tail_pull
     empty = running(spec, scene.model_copy(update={"load": "empty"}))
     nothing = empty.static_resistance + empty.tail_pull
-    efficiency = filled(spec.main_drive.gear.efficiency)
     mean = belt_resistance.mean_tension(np.diff(places), tensions)
     mounting = spec.takeup.tension
     loads = {
@@ -107,7 +106,8 @@ def _of_running(
         "effective_tension_worst": nothing + _worst_load(spec, scene, empty),
         "power_drive_running": float(belt_resistance.shaft_power(pull, line.speed)),
         "power_drive_empty": float(belt_resistance.shaft_power(nothing, line.speed)),
-        "power_motor_running": float(belt_resistance.motor_power(pull * line.speed, efficiency)),
+        "power_motor_running": _motor_power(spec, pull * line.speed),
+        "power_motor_empty": _motor_power(spec, nothing * line.speed),
         "belt_cycle_time": belt_resistance.cycle_time(line.back.length + line.carry.length, line.speed),
         "takeup_travel": float(
             belt_resistance.takeup_travel(
@@ -131,6 +131,15 @@ def _of_running(
         needed = max(line.static_resistance, 0.0) * spec.checks.slip.reserve
         loads["slack_side_tension_required"] = needed / float(np.expm1(sum(grips)))
     return loads
+
+
+def _motor_power(spec: Conveyor, power: float) -> float:
+    """Power of all motors for a power on the drum shafts [W], each through its own gear."""
+    shares = share(spec)
+    return sum(
+        float(belt_resistance.motor_power(shares[name] * power, filled(drive.gear.efficiency)))
+        for name, drive in spec.all_drives.items()
+    )
 
 
 def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
