@@ -171,7 +171,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
     filling = filling or filling_of(spec, scene)
     cosines = [1.0 if flat else part.cosine for part in parts]
     loads = [load_line_mass(spec) if full else 0.0 for full in filling]
-    extra = extra_forces(spec, load_line_mass(spec))
+    extra, span = extra_forces(spec, load_line_mass(spec)), route.span
 
     def strand(carries: bool) -> Strand:
         uphill = 1 if carries else -1
@@ -183,7 +183,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
             idlers = row.mass_at(pitch)
             main = idler_friction(spec, grown, carries, on_it, idlers, cosine, pitch)
             marks.append(marks[-1] + part.length)
-            special = extra.along(over, carries and load > 0) / route.span
+            special = extra.along(over, carries and load > 0) / span
             friction.append(friction[-1] + (main + special) * part.length)
             climb.append(climb[-1] + uphill * on_it * g * part.lift)
             masses.append(on_it + idlers)

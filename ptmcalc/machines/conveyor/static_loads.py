@@ -1,6 +1,7 @@
 """Loads of a steadily running belt that follow from what its file says of belt, trough and curves."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
@@ -10,7 +11,7 @@ from ptmcalc.contract.result import LoadInfo, of
 from ptmcalc.laws import belt_section, sag, vertical_curve
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.belt_data import Transition
-from ptmcalc.machines.conveyor.driving import running
+from ptmcalc.machines.conveyor.driving import running, share
 from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.sections import Curve
@@ -53,7 +54,11 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
 
 def static_loads(spec: Conveyor, scene: Run, line: BeltLine) -> dict[str, float]:
     """What the file gives enough for."""
-    return _fill(spec) | _drums(spec) | _sags(spec, line) | _curves(spec, scene) | _fibres(spec, scene)
+    found = _fill(spec) | _drums(spec) | _sags(spec, line)
+    if bent(spec):
+        whatever = fillings(spec, scene)
+        found |= _curves(spec, whatever) | _fibres(spec, whatever)
+    return found
 
 
 # -- the load on the belt, the belt on the drum ---------------------------------------------------------------------
@@ -120,34 +125,63 @@ def hollows(spec: Conveyor) -> list[Curve]:
     return [curve for curve in spec.route.curves if curve.hollow]
 
 
-def over_fillings(spec: Conveyor, scene: Run, read: Callable[[BeltLine], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Least and most of some tensions over all choices of loaded sections.
+@dataclass(frozen=True, slots=True)
+class Fillings:
+    """The carry strand over all choices of loaded sections: the empty belt, what the load of each section adds to the
+    tension at its downstream end and at all places [N], marks between the sections [m]."""
 
-        S(x) = S(0) + sum_k x_k dS_k;   least: x_k = 1 where dS_k < 0,   most: where dS_k > 0
+    empty: BeltLine
+    pulls: FloatArray
+    everywhere: FloatArray
+    marks: FloatArray
 
-    **Range** steady running; the fillings of two places differ.
-    **Error** exact: tensions are linear in the load of each section, whatever the take-up and the drives.
-    **Source** `laws.strand_tension.worst_loading`: a linear function on a cube has its extreme at a corner.
+    def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Least and most tension at places along the carry strand [m].
+
+            S(x) = S(0) + sum_k x_k dS_k;   least: x_k = 1 where dS_k < 0,   most: where dS_k > 0
+
+        **Source** `laws.strand_tension.worst_loading`: a linear function on a cube has its extreme at a corner.
+        """
+        passed = np.clip((places[:, None] - self.marks[:-1]) / np.diff(self.marks), 0, 1)
+        gains = passed * self.pulls + self.everywhere
+        base = self.empty.static(CARRY, places / self.empty.carry.length)
+        return base + np.minimum(gains, 0).sum(axis=1), base + np.maximum(gains, 0).sum(axis=1)
+
+
+def fillings(spec: Conveyor, scene: Run) -> Fillings:
+    """All fillings of a conveyor in steady running.
+
+    A loaded section adds its pull to the tension downstream of it, less the share that drives at the tail take; in a
+    fixed loop the mean of that is taken off everywhere. All is linear in the load of each section.
     """
     count = len(spec.route.parts)
-    empty = read(running(spec, scene, [False] * count))
-    gains = np.array(
-        [read(running(spec, scene, [index == one for index in range(count)])) - empty for one in range(count)]
-    )
-    return empty + np.minimum(gains, 0).sum(axis=0), empty + np.maximum(gains, 0).sum(axis=0)
+    empty, full = (running(spec, scene, [loaded] * count) for loaded in (False, True))
+    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
+    everywhere = np.zeros(count)
+    everywhere[0] = full.tail_force - empty.tail_force
+    shares = share(spec)
+    at_tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
+    everywhere -= at_tail * (pulls + everywhere)
+    marks, whole = np.array(full.carry.marks), full.carry.length
+    if full.fixed_length:
+        rest = np.diff(marks) / 2 + whole - marks[1:]
+        everywhere -= (pulls * rest + everywhere * whole) / (whole + full.back.length)
+    return Fillings(empty, pulls, everywhere, marks)
 
 
-def _within(curve: Curve, line: BeltLine) -> FloatArray:
-    """Tensions at both ends and at the break of a curve [N]."""
-    places = np.array([curve.place - curve.tangent, curve.place, curve.place + curve.tangent])
-    return line.static(CARRY, np.clip(places / line.carry.length, 0, 1))
+def _places(spec: Conveyor, place: Curve | Transition, name: str) -> FloatArray:
+    """Where the tension counts: at both ends and at the break of a curve, at the drum of a transition [m]."""
+    whole = spec.route.span
+    if isinstance(place, Curve):
+        return np.clip([place.place - place.tangent, place.place, place.place + place.tangent], 0, whole)
+    return np.array([whole if name == "head" else 0.0])
 
 
-def _curves(spec: Conveyor, scene: Run) -> dict[str, float]:
+def _curves(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     """Largest tension in each hollow, whatever is loaded."""
     found = {}
     for curve in hollows(spec):
-        _, most = over_fillings(spec, scene, lambda line, curve=curve: _within(curve, line))  # type: ignore[misc]
+        _, most = loads.at(_places(spec, curve, ""))
         found[of("tension_curve_max", str(curve.number))] = float(most.max())
     return found
 
@@ -163,28 +197,21 @@ def bent(spec: Conveyor) -> dict[str, Curve | Transition]:
     return places | {f"curve_{curve.number}": curve for curve in spec.route.curves}
 
 
-def _fibres(spec: Conveyor, scene: Run) -> dict[str, float]:
+def _fibres(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     """Largest and smallest tension per width of any fibre, whatever is loaded.
 
     k = S/W + (EA/W) eps,   eps of `belt_section.transition_strains`, z/R in a curve
     """
     found: dict[str, float] = {}
-    known = spec.idlers.carry.trough is not None and spec.belt.width is not None
-    for name, place in bent(spec).items() if known else ():
-        least, most = over_fillings(spec, scene, lambda line, name=name, place=place: _tensions(line, name, place))  # type: ignore[misc]
-        width = filled(spec.belt.width)
+    width, stiffness = spec.belt.width, loads.empty.stiffness
+    if spec.idlers.carry.trough is None or width is None:
+        return {}
+    for name, place in bent(spec).items():
+        least, most = loads.at(_places(spec, place, name))
         more, less = _strains(spec, place)
-        stiffness = running(spec, scene).stiffness
         found[of("fibre_tension_max", name)] = (float(most.max()) + stiffness * more) / width
         found[of("fibre_tension_min", name)] = (float(least.min()) - stiffness * less) / width
     return found
-
-
-def _tensions(line: BeltLine, name: str, place: Curve | Transition) -> FloatArray:
-    """Tensions of the belt there [N]."""
-    if isinstance(place, Curve):
-        return _within(place, line)
-    return np.array([line.static_ends(CARRY)[1 if name == "head" else 0]])
 
 
 def _strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:

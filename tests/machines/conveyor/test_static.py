@@ -216,10 +216,11 @@ def tensions_along(rig: Rig, filling: tuple[bool, ...]) -> tuple[list[float], li
     belt = [*empty[:count], *((full if loaded else empty)[count + k] for k, loaded in enumerate(filling))]
     rises = np.concatenate([[0.0], np.cumsum([one.length * (one.friction + one.climb) for one in belt])])
     marks = np.concatenate([[0.0], np.cumsum([one.length for one in belt])])
-    start = rig.tension
-    if rig.rigid:
-        start -= float(np.sum(np.diff(marks) * (rises[1:] + rises[:-1]) / 2)) / marks[-1]
-    return list(marks[count:] - marks[count]), list(start + rises[count:])
+    forces = [drive.force for drive in rig.drives.values()]
+    boosted = sum(drive.force for drive in rig.drives.values() if drive.at == "tail") / sum(forces) * rises[-1]
+    mean = float(np.sum(np.diff(marks) * (rises[1:] + rises[:-1]) / 2)) / marks[-1] - boosted / 2
+    start = rig.tension - (mean if rig.rigid else 0.0)
+    return list(marks[count:] - marks[count]), list(start - boosted + rises[count:])
 
 
 def turn(rig: Rig, number: int) -> tuple[float, float]:
@@ -239,7 +240,19 @@ def in_curve(rig: Rig, number: int, radius: float) -> tuple[float, float]:
     return min(found), max(found)
 
 
-@pytest.mark.parametrize("rig", [RIG, replace(RIG, rigid=True, tension=190e3)], ids=["gravity", "rigid"])
+BOTH = {"head": Drive(torque=3000.0), "booster": Drive(torque=1000.0, at="tail")}
+
+
+@pytest.mark.parametrize(
+    "rig",
+    [
+        RIG,
+        replace(RIG, rigid=True, tension=190e3),
+        replace(RIG, drives=BOTH),
+        replace(RIG, rigid=True, tension=190e3, drives=BOTH),
+    ],
+    ids=["gravity", "rigid", "gravity, tail drive", "rigid, tail drive"],
+)
 def test_tension_in_a_hollow_is_the_largest_of_all_fillings(rig: Rig) -> None:
     scene = ran(rig, route__sections__1__curve_radius="800 m")
     _, most = in_curve(rig, 2, 800.0)
