@@ -15,7 +15,7 @@ from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, OF_STOP, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
@@ -340,13 +340,20 @@ def largest_softening(case: StartCase) -> float | None:
 
 
 def offsets(case: StartCase, enclosure: Enclosure, loads: Mapping[str, Estimate]) -> dict[str, Interval]:
-    """How far each load may lie from the rigid body's: the enclosure less the value."""
+    """How far each load may lie from the rigid body's: the enclosure less the value. What is the only drive's own is
+    what it is of the belt."""
     held = enclosed_loads(case, enclosure)
-    return {
-        name: Interval(_less(held[name].low, loads[name].value), _less(held[name].high, loads[name].value))
-        for name in held
-        if name in loads
-    }
+    found = {}
+    for name, load in loads.items():
+        if family(name) in held:
+            interval = held[family(name)]
+            found[name] = Interval(_less(interval.low, load.value), _less(interval.high, load.value))
+    return found
+
+
+def anything(name: str, load: Estimate) -> Interval:
+    """No bound; but slip is never negative."""
+    return Interval(-load.low, np.inf) if family(name) in SLIPS and np.isfinite(load.low) else ANYTHING
 
 
 def _less(end: float, value: float) -> float:
@@ -363,7 +370,7 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
 
     The grip follows from U' = (U x + change e)/(x - change), with x the smallest run-off tension less the
     centrifugal one and e = exp(-mu alpha); the reserve, without the centrifugal one, from the ratio of tensions
-    that it stands for.
+    that it stands for. The only drive's own loads move as those of the belt do.
     """
     line = case.line
     moved = {name: Interval(-change, change) for name in TENSIONS if name in loads}
@@ -383,7 +390,10 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
         moved["sag_relative_max"] = _moved_sag(line, loads["sag_relative_max"].value, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
         moved |= _spread_slip(line, loads, change)
-    return moved
+        used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
+        if used >= 1:  # else nothing slips, neither here nor in truth
+            moved |= {name: anything(name, load) for name, load in loads.items() if family(name) in SLIPS}
+    return moved | {name: moved[family(name)] for name in loads if family(name) in moved}
 
 
 def moved(
@@ -403,6 +413,7 @@ def moved(
     stretch = change * (line.back.length + line.carry.length) / line.stiffness
     least = min(line.impedance(RETURN), line.impedance(CARRY))
     delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
+    several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
     slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
     share = change / slack if slack > change else np.inf
     grown = (1 + share) / (1 - share) if share < 1 else np.inf
@@ -419,7 +430,7 @@ def moved(
         if kind in TENSIONS:
             found[name] = Interval(-change, change)
         elif kind == "tension_run_off_min":
-            found[name] = Interval(-change, change) if fixed or "[" in name else NOTHING
+            found[name] = Interval(-change, change) if fixed or ("[" in name and several) else NOTHING
         elif kind == "belt_safety_min" and line.breaking_force is not None:
             tension = line.breaking_force / value
             weakest = line.breaking_force / (tension - change) if tension > change else np.inf
@@ -432,8 +443,8 @@ def moved(
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)
-        elif kind in CHANGED_BY_MOTION and not (kind in ("slip_distance", "slip_heat") and holds(name)):
-            found[name] = ANYTHING
+        elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
+            found[name] = anything(name, estimate)
     return found
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
@@ -58,7 +58,7 @@ def _anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     are."""
     drives = isinstance(scene, Start) and scene.profile.imposes_speed
     return {
-        name: ANYTHING
+        name: bounds.anything(name, load)
         for name, load in loads.items()
         if (family(name) in CHANGED_BY_MOTION and not (family(name) in OF_STOP and load.low == math.inf))
         or (drives and name in DRIVE)

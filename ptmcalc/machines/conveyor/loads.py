@@ -89,6 +89,9 @@ PER_DRIVE = frozenset(
 )
 """Families: loads that each drive has."""
 
+SLIPS = frozenset({"slip_distance", "slip_heat"})
+"""Families of slip, which are never negative."""
+
 OF_STOP = frozenset({"stop_time", "stop_distance", "coast_distance"})
 """Loads of a belt that comes to rest."""
 
@@ -128,12 +131,12 @@ def parts(spec: Conveyor) -> Iterator[LoadInfo]:
         if info.name == "natural_frequency":
             yield from (info.of(str(number)) for number in range(1, FREQUENCIES + 1))
             continue
-        if info.name not in {"slip_distance", "slip_heat"}:
+        if info.name not in SLIPS:
             yield info
         if info.name in PER_DRIVE:
             for name in spec.all_drives:
                 one = info.of(name)
-                yield one if several or info.name in {"slip_distance", "slip_heat"} else quiet(one)
+                yield one if several or info.name in SLIPS else quiet(one)
 
 
 def quiet(info: LoadInfo) -> LoadInfo:

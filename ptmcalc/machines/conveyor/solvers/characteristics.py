@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
+from ptmcalc.machines.conveyor.slipping import slip_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, peaks, sagging, strand
 
@@ -54,6 +55,10 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     bars = _sagging_bars(case, *motions) if "sag" in carried else _straight_bars(case, *motions)
     fine = motions[-1]
     loads = _loads(case, fine, bars)
+    drive = next(iter(spec.all_drives))
+    loads |= {of(name, drive): loads[name] for name in PER_DRIVE & loads.keys()}
+    if case.line.grip_exponent is not None:
+        loads |= slip_loads(case, drive, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
     if any(finding.code == "NUM102" for finding in findings):
         loads = {name: _beyond_range(name, found) for name, found in loads.items()}
@@ -75,6 +80,8 @@ def _beyond_range(name: str, found: Found) -> Found:
     estimate = found.estimate
     if name in ("tension_min", "slack_margin_min"):
         return Found(Estimate(estimate.value, -math.inf, estimate.high, estimate.numerical, math.inf), found.at)
+    if family(name) in SLIPS:
+        return Found(Estimate(estimate.value, 0.0, math.inf, estimate.numerical, math.inf), found.at)
     return Found(Estimate.unknown(estimate.value), found.at)
 
 
@@ -396,7 +403,7 @@ CHARACTERISTICS: Solver[Conveyor, Start] = Solver(
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "sag"}),
-    gives=OF_BELT.union(DRIVE),
+    gives=OF_BELT.union(DRIVE, PER_DRIVE),
     run=run,
     cost=cost,
     source="method of characteristics; derived in ptmcalc.numerics.strand",

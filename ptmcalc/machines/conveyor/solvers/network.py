@@ -20,7 +20,7 @@ from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import Moving, moving
 from ptmcalc.machines.conveyor.sections import Curve
@@ -45,7 +45,6 @@ _SHARING = frozenset(
     }
 )
 """Tensions, which are sums of the same waves."""
-_SLIPPED = frozenset({"slip_distance", "slip_heat"})
 _MOST_ROUNDS = 1000.0
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
 """For a step, and for a cell of it, with and without sag or damping."""
@@ -251,7 +250,7 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     bars = {}
     for name, (value, _) in fine.items():
         known = [grid[name][0] if name in grid else math.inf for grid in (coarsest, coarse)]
-        slid = family(name) in _SLIPPED and value > 0
+        slid = family(name) in SLIPS and value > 0
         bars[name] = _still_to_come(known[0], known[1], value, 1.0 if slid else _SECOND_ORDER)
         if slid:
             way = fine[name.replace("slip_heat", "slip_distance")][0]
@@ -261,7 +260,7 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     off = case.spec.takeup.mass is not None
     for name, offsets in bounds.moved(line, values, change, slowing, off).items():
-        slid = family(name) in _SLIPPED and fine[name][0] > 0
+        slid = family(name) in SLIPS and fine[name][0] > 0
         if not slid:
             bars[name] = max(bars[name], abs(offsets.low), abs(offsets.high))
     for name, (value, _) in fine.items():
@@ -299,11 +298,12 @@ def _still_to_come(one: float, two: float, three: float, least: float) -> float:
 
 
 def _estimate(name: str, value: float, bar: float) -> Estimate:
+    least = 0.0 if family(name) in SLIPS else -math.inf
     if not math.isfinite(bar):
-        return Estimate(value, -math.inf, math.inf, numerical=math.inf)
+        return Estimate(value, least, math.inf, numerical=math.inf)
     if not math.isfinite(value):
         return Estimate.exact(value)
-    return Estimate.within(value, bar)
+    return Estimate(value, max(value - bar, least), value + bar, numerical=bar)
 
 
 # -- what is said besides -------------------------------------------------------------------------------------------

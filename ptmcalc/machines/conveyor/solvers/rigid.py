@@ -9,7 +9,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_modes
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.driving import least_pull
-from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_START
+from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_START, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import is_plain, start_case
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
@@ -36,6 +36,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         if loads["starting_reserve"] < 1:
             loads["start_time_rigid"] = math.inf
     loads["start_time"] = loads["start_time_rigid"]
+    if len(spec.all_drives) == 1:
+        loads |= _of_the_drive(next(iter(spec.all_drives)), loads)
     weight = spec.takeup.mass or 0.0
     for number, frequency in enumerate(belt_modes.natural_frequencies(case.masses, weight, FREQUENCIES), 1):
         loads[of("natural_frequency", str(number))] = float(frequency)
@@ -44,13 +46,21 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     return Result(found | start_loads(spec, scene, case), work=1, window=window)
 
 
+def _of_the_drive(name: str, loads: dict[str, float]) -> dict[str, float]:
+    """What is known of the only drive by its own name; it sticks, and the effect `slip` says what that leaves out."""
+    found = {of(load, name): value for load, value in loads.items() if load in PER_DRIVE}
+    if "slip_utilisation_max" in loads:
+        found |= {of(load, name): 0.0 for load in SLIPS}
+    return found
+
+
 RIGID: Solver[Conveyor, Start] = Solver(
     name="rigid",
     title="rigid body, with intervals that hold the waves",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING),
+    gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING, PER_DRIVE),
     run=run,
     cost=lambda spec, scene, carried, level: 3e-4,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",

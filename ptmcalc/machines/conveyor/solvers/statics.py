@@ -10,7 +10,7 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.driving import running, share
 from ptmcalc.machines.conveyor.forces import filled
-from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE
+from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.machines.conveyor.static_loads import OF_STATICS, static_loads
@@ -156,9 +156,7 @@ STATICS: Solver[Conveyor, Run] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(
-        _OF_RUNNING, OF_STATICS, PER_DRIVE - {"slip_distance", "slip_heat"}
-    ),
+    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(_OF_RUNNING, OF_STATICS, PER_DRIVE - SLIPS),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-5,
     source="ISO 5048:1989; DIN 22101",
