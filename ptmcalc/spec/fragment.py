@@ -4,6 +4,8 @@ What holds between keys is said of the mapping as the file writes it, key by key
 is looked at beside faults in other keys, and a file shows all its faults in one run.
 """
 
+import itertools
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Self
@@ -14,6 +16,8 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 from ptmcalc.base.span import KeyPath
 from ptmcalc.spec.fields import problem
 from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
+
+_NAME = re.compile(r"[\w-]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +106,26 @@ def together(given: Given, key: str, other: str, reason: str) -> Iterator[Confli
     """A key that needs another."""
     if key in given and other not in given:
         yield given.missing(other, f"{reason}: `{other}` is missing")
+
+
+def names_of_parts(given: Given, *keys: str) -> Iterator[Conflict]:
+    """What a file calls the parts of a machine, which loads (`slip_distance[head]`) and paths (`drives.head.delay`)
+    are read by: one word, without brackets, dots or spaces."""
+    for key in keys:
+        parts = given.raw.get(key)
+        taken = {str(name) for name in parts} if isinstance(parts, dict) else set()
+        for name in sorted(taken):
+            if _NAME.fullmatch(name):
+                continue
+            plain = re.sub(r"[^\w-]+", "_", name).strip("_") or "part"
+            taken.add(word := next(word for word in _numbered(plain) if word not in taken))
+            reason = "a part is called by one word of letters, digits, `_` and `-`: loads and paths are read by it"
+            yield Conflict((key, name), reason, f"write `{word}:`")
+
+
+def _numbered(word: str) -> Iterator[str]:
+    yield word
+    yield from (f"{word}_{number}" for number in itertools.count(2))
 
 
 class Fragment(BaseModel):

@@ -32,7 +32,7 @@ from ptmcalc.spec.fields import (
     PositiveTorque,
     Time,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, names_of_parts, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
 
@@ -408,6 +408,7 @@ class Conveyor(MachineSpec):
         are not in the table."""
         yield from super().conflicts(given)
         yield from exactly_one(given, "drive", "drives")
+        yield from names_of_parts(given, "drives", "brakes")
         yield from _without_curves(given)
         drives = given.raw.get("drives")
         if (
