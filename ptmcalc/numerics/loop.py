@@ -16,6 +16,9 @@ from ptmcalc.numerics.peaks import largest, smallest
 FloatArray = NDArray[np.float64]
 
 MOST_STEPS = 4_000_000
+_ROUNDING = 1e-8
+BACKWARD = 1e-6
+"""Share of the fastest speed of belt and drum from which on a belt runs backward; less is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,12 @@ class Strand:
     def static(self, x: FloatArray) -> FloatArray:
         """Static tension at fractions x of the length [N]."""
         return self.static_start + (self.static_end - self.static_start) * x
+
+    @property
+    def rest_energy(self) -> float:
+        """Elastic energy of the static tension [J]."""
+        first, last = self.static_start, self.static_end
+        return self.length / self.stiffness * (first**2 + first * last + last**2) / 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +81,11 @@ class Loop:
         z_carry = math.sqrt(self.carry.line_mass * self.carry.stiffness)
         z_back = math.sqrt(self.back.line_mass * self.back.stiffness)
         return z_carry, z_back if self.impedance_jump else z_carry
+
+    @property
+    def least_energy(self) -> float:
+        """Energy below which the exchange of the belt is rounding: of tensions 1e-8 of the static ones [J]."""
+        return _ROUNDING**2 * (self.carry.rest_energy + self.back.rest_energy)
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,19 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
-from ptmcalc.numerics.loop import Drive, Extreme, FloatArray, Grid, Grip, Loop, Motion, Strand, at_end, steps_of
+from ptmcalc.numerics.loop import (
+    BACKWARD,
+    Drive,
+    Extreme,
+    FloatArray,
+    Grid,
+    Grip,
+    Loop,
+    Motion,
+    Strand,
+    at_end,
+    steps_of,
+)
 
 _BLOCK = 128
 _NEWTON_STEPS = 60
@@ -331,7 +343,7 @@ def _motion(
         ]
     )
     slowest = min(float(history.belt_speed.min()), float(history.tail_speed.min()))
-    fastest = max(float(history.belt_speed.max()), 1e-300)
+    fastest = max(float(history.belt_speed.max()), float(history.drum_speed.max()))
     return Motion(
         grid=grid,
         times=times,
@@ -345,7 +357,7 @@ def _motion(
         back_max=back_max,
         back_min=back_min,
         slipped=drum.slipped,
-        reversed=slowest < -1e-6 * fastest,
+        reversed=slowest < -BACKWARD * fastest,
         energy_residual=residual,
         cell_updates=len(belt.static) * (len(times) - 1),
     )
@@ -355,7 +367,7 @@ def _balance(loop: Loop, step: float, belt: _Belt, drum: _Drum, forces: FloatArr
     """Work put in at the drum against energy of belt, tail and drum and the heat of slip and shocks, dynamic parts."""
     stored = belt.stored(history.final_speed)
     through = (history.on - history.off) * history.belt_speed
-    scale = energy.work(np.abs(through), step)
+    scale = energy.work(np.abs(through), step) + loop.least_energy
     belt_part = energy.residual(energy.work(through, step), belt.dissipated, stored, scale)
     if drum.imposed:
         return belt_part

@@ -28,7 +28,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
-from ptmcalc.numerics.loop import Drive, Extreme, FloatArray, Grid, Loop, Motion, Strand, at_end, steps_of
+from ptmcalc.numerics.loop import BACKWARD, Drive, Extreme, FloatArray, Grid, Loop, Motion, Strand, at_end, steps_of
 
 _EVENTS_PER_STEP = 8
 _ROOT_STEPS = 60
@@ -358,11 +358,6 @@ class _Delays:
                 total += energy.work(held**2, self.grid.step) / (4 * z)
         return total
 
-    @property
-    def reversed(self) -> bool:
-        """Whether the tail ran backwards by more than rounding."""
-        return min(self.tail_speed) < -1e-6 * max(max(self.tail_speed), 1e-300)
-
 
 def _bend(wave: FloatArray, at: int) -> float:
     """What a wave with a corner next to a sample rises over the straight line between its samples, at most.
@@ -420,7 +415,7 @@ def _motion(
         back_max=back_max,
         back_min=back_min,
         slipped=drum.slipped,
-        reversed=interior.reversed or bool(belt.min() < -1e-6 * max(belt.max(), 1e-300)),
+        reversed=bool(min(belt.min(), *interior.tail_speed) < -BACKWARD * max(belt.max(), rim.max())),
         energy_residual=residual,
         cell_updates=interior.cell_updates,
     )
@@ -440,7 +435,7 @@ def _balance(
     """Work put in at the drum against energy of belt, tail and drum and the heat of slip, in dynamic quantities."""
     stored = interior.stored() + loop.tail_mass * tail.speed**2 / 2
     through = energy.work((on - off) * belt, step)
-    scale = energy.work(np.abs((on - off) * belt), step)
+    scale = energy.work(np.abs((on - off) * belt), step) + loop.least_energy
     belt_part = energy.residual(through, 0.0, stored, scale)
     if drum.force is None:
         return belt_part

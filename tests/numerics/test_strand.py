@@ -1,6 +1,7 @@
 """Method of characteristics against finite elements, closed forms and brute force."""
 
 import warnings
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from support import echoes, fem, slipping
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import sagging
-from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, match, refined
+from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Motion, Strand, match, refined
 from ptmcalc.numerics.strand import march
 
 EA = 2.0e7
@@ -326,3 +327,25 @@ def test_tail_mass_against_a_tight_ode() -> None:
     exact = solve_ivp(rate, (0, window), [0.0], "DOP853", motion.times, rtol=1e-11, atol=1e-13, max_step=0.01).y[0]
     leaving = motion.waves[2] / (2 * Z[1])  # nothing has come back along the return strand yet
     assert np.max(np.abs(leaving - exact)[:-1]) < 2e-5
+
+
+@pytest.mark.parametrize("method", [march, sagging.march], ids=["straight", "sagging"])
+def test_a_belt_that_never_moves_keeps_its_energy_and_does_not_run_backward(method: Callable[..., Motion]) -> None:
+    """The drum slips under a belt it cannot move: all that the belt exchanges is rounding, and is no error."""
+    spans = (1373.4, 588.6) if method is sagging.march else (0.0, 0.0)
+    held = Loop(
+        carry=Strand(1e5, 160.0, 4e7, 861577.8988577351, 5177191.270861879, spans[0]),
+        back=Strand(1e5, 28.0, 4e7, 150e3, 861577.8988577347, spans[1]),
+        drum_mass=9824.0,
+        tail_mass=0.0,
+        fixed_length=False,
+        grip=Grip(0.35 * np.radians(200), 20.0),
+    )
+    drive = Drive(speed=lambda t: 4.0 * np.minimum(t / 20.0, 1.0))
+    cut = sagging.grid_of(held, 40) if method is sagging.march else match(200.0, 83.7, 40, 1e-3)
+    motion = method(held, drive, 800.0, cut)
+    assert motion.slipped
+    assert motion.drum_speed[-1] == pytest.approx(4.0)
+    assert np.abs(motion.belt_speed).max() < 1e-9
+    assert motion.energy_residual < 1e-6
+    assert not motion.reversed
