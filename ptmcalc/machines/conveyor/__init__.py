@@ -19,15 +19,15 @@ from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
+_MOST_FRICTION = 1.0
 _STEEP = 0.309  # sine of 18 degrees
 
 
 def inspect(spec: Conveyor) -> Iterator[Finding]:
     """Values of the file that disagree with each other."""
     for name, drive in spec.all_drives.items():
-        if drive.motor.speed is None:
-            continue
-        rim = drive.motor.speed / drive.gear.ratio * drive.drum.diameter / 2
+        motor = drive.motor.speed
+        rim = motor / drive.gear.ratio * drive.drum.diameter / 2 if motor is not None else spec.speed
         if abs(rim / spec.speed - 1) > _SPEED_TOLERANCE:
             whose = f" of `{name}`" if len(spec.all_drives) > 1 else ""
             yield Finding(
@@ -36,6 +36,15 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
                 f" at {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio or the diameter",
+            )
+        grip = drive.drum.friction
+        if grip is not None and grip > _MOST_FRICTION:
+            yield Finding(
+                "SPC201",
+                f"a friction coefficient of {grip:.4g} between belt and drum: rubber on dry lagging comes to 0.45, on"
+                " ceramic tiles to 0.8",
+                (*spec.drive_path(name), "drum", "friction"),
+                "write `friction: 0.35` for rubber lagging, or the maker's value",
             )
     pull = spec.takeup.mass * spec.gravity / 2 if spec.takeup.mass is not None else spec.takeup.tension
     if abs(pull / spec.takeup.tension - 1) > _WEIGHT_TOLERANCE:

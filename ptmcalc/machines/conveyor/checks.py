@@ -455,9 +455,11 @@ STROKE: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("takeup", "stroke"),
     repair=lambda spec, scene: ("takeup", "stroke"),
     each=_only_with("CNV110", lambda scene: ("takeup", "stroke")),
-    what="The take-up can follow the belt's elastic and permanent elongation.",
+    what="The take-up can follow the belt from the new one at rest, closed with the take-up's tension S_0 all round, to"
+    " the old one in steady running. A weight follows the elastic and the permanent elongation; a screw moves for the"
+    " permanent one alone, because its belt runs with the mean S_0 it was set to.",
     why="A take-up at its end lets the tension fall, and the belt slips.",
-    formula="L_loop (S_mean/EA + permanent)/2 <= stroke",
+    formula="L_loop ((S_mean - S_0)/EA + permanent)/2 <= stroke",
     source="DIN 22101, elongation of the belt",
 )
 

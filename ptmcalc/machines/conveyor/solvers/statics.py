@@ -1,5 +1,7 @@
 """Steady running: tensions strand by strand, power, and what tension the belt asks for."""
 
+import math
+
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
@@ -95,7 +97,18 @@ def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
 def _of_running(
     spec: Conveyor, scene: Run, line: BeltLine, places: FloatArray, tensions: FloatArray
 ) -> dict[str, float]:
-    """Power, worst part loaded, tensions asked for, take-up."""
+    """Power, worst part loaded, tensions asked for, take-up.
+
+    The way the take-up needs goes from the new belt, closed at standstill with the take-up's tension S_0 all round, to
+    the old belt in steady running: s = L_loop ((S_mean - S_0)/EA + eps_p)/2, positive as the belt grows longer.
+
+    * Gravity: the weight keeps S_0 at the run-off, so S_mean is above it, and the weight sinks by the elastic part at
+      every start. What waves add for a moment is `takeup_movement`.
+    * Rigid: the screw was set to the mean S_0, which running does not change: nothing moves, and the way is what the
+      screw must be turned over the life of the belt to bring S_0 back.
+
+    Pulling a slack belt up to S_0 at mounting takes S_0 L_loop/(2 EA) more, which is not in it.
+    """
     pull = line.static_resistance + line.tail_pull
     empty = running(spec, scene.model_copy(update={"load": "empty"}))
     nothing = empty.static_resistance + empty.tail_pull
@@ -128,8 +141,8 @@ def _of_running(
     at_head = [drive.drum for drive in spec.all_drives.values() if drive.at == "head"]
     grips = [drum.friction * drum.wrap for drum in at_head if drum.friction is not None]
     if len(grips) == len(at_head):
-        needed = max(line.static_resistance, 0.0) * spec.checks.slip.reserve
-        loads["slack_side_tension_required"] = needed / float(np.expm1(sum(grips)))
+        needed, grip = max(line.static_resistance, 0.0) * spec.checks.slip.reserve, sum(grips)
+        loads["slack_side_tension_required"] = needed * math.exp(-grip) / -math.expm1(-grip)  # any grip, however large
     return loads
 
 
