@@ -48,8 +48,8 @@ def braking(spec: Conveyor, brake: Brake) -> Braking:
     return Braking(force, brake.delay, brake.rise_time)
 
 
-def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> tuple[float, float]:
-    """Time and way of the rigid body from full speed to rest; infinite where nothing stops it.
+def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine, until: float = 0.0) -> tuple[float, float]:
+    """Time and way of the rigid body from full speed to rest, or to another speed; infinite where nothing stops it.
 
     M v' = -(W + sum B(t)), brakes with delay and straight rise: pieces of constant or linear force, solved piece by
     piece.
@@ -63,7 +63,7 @@ def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> tuple[fl
         middle = begin + (1.0 if math.isinf(end) else (end - begin) / 2)
         r0 = resistance + sum(b.at(begin + 1e-12 * max(begin, 1.0)) if b.rise <= 0 else b.at(begin) for b in brakes)
         r1 = (resistance + sum(b.at(middle) for b in brakes) - r0) / (middle - begin)
-        rest = _first_rest(mass * speed, r0, r1)
+        rest = _first_rest(mass * (speed - until), r0, r1)
         length = min(rest, end - begin)
         if math.isinf(length):
             return math.inf, math.inf

@@ -15,7 +15,7 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor import bounds, short_stops
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
@@ -116,11 +116,15 @@ def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     below 5 % anywhere, or changing by less than 5 % over the swing; then the lowest frequency is taken of the softest
     belt. A belt that sags more is unbounded.
 
+    A stop of a short belt has bounds of its own (`short_stops`).
+
     **Range** linear undamped belt without slip, one slope, one drive, a start from the frozen running profile; any jump
     of impedance and tail mass. Anything else is unbounded.
     **Error** a bound; at the run-on of a gravity take-up under a torque step it is attained.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley).
     """
+    if isinstance(scene, Stopping) and (stop := short_stops.short_stop(spec, scene)) is not None:
+        return short_stops.offsets(stop, loads)
     if not isinstance(scene, Start) or not is_plain(spec, scene):
         return _anything(spec, scene, loads)
     if scene.belt == "relaxed" and spec.effects.get("coulomb_idlers") != "off":

@@ -404,16 +404,9 @@ class StartCase:
         )
 
 
-def start_case(spec: Conveyor, scene: Start) -> StartCase:
-    """A start of this conveyor.
-
-    The window of a torque start ends when the rigid body reaches the rated speed; that of an imposed speed four
-    contour times after the end of the profile, which is a period of the lowest mode of a uniform loop.
-    """
-    line = belt_line(spec, scene)
-    profile = scene.profile
-    imposed = profile.imposes_speed
-    masses = LoopMasses(
+def loop_masses(line: BeltLine, imposed: bool) -> LoopMasses:
+    """The loop as masses on a line, its drum driven by a force or at an imposed speed."""
+    return LoopMasses(
         return_mass=line.back.line_mass * line.back.length,
         carry_mass=line.carry.line_mass * line.carry.length,
         tail_mass=line.tail_mass,
@@ -423,6 +416,18 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
         fixed_length=line.fixed_length,
         imposed_speed=imposed,
     )
+
+
+def start_case(spec: Conveyor, scene: Start) -> StartCase:
+    """A start of this conveyor.
+
+    The window of a torque start ends when the rigid body reaches the rated speed; that of an imposed speed four
+    contour times after the end of the profile, which is a period of the lowest mode of a uniform loop.
+    """
+    line = belt_line(spec, scene)
+    profile = scene.profile
+    imposed = profile.imposes_speed
+    masses = loop_masses(line, imposed)
     rise_time = profile.time or 0.0
     available = starting_force(spec)
     if imposed:

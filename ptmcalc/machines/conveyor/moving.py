@@ -15,6 +15,8 @@ from ptmcalc.numerics.belt.station import Torque
 
 _CONTOURS = 2.0
 """Times a wave goes round the belt that are looked at after it has come to rest, or after a drum has jammed."""
+MOST_ROUNDS = 1000.0
+"""Rounds of a wave in the time of a scene from which on simulating it takes a minute."""
 _LATE = 1.25
 """How much longer than the rigid body the belt may take to come to rest."""
 
@@ -68,6 +70,12 @@ def moving(spec: Conveyor, scene: ConveyorScene) -> Moving:
     time, way = rigid_stop(spec, scene, line)
     window = (_LATE * time if math.isfinite(time) else 2 * line.contour_time) + _CONTOURS * line.contour_time
     return Moving(spec, scene, line, {name: _constant(0.0) for name in names}, None, spec.speed, window, time, way)
+
+
+def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
+    """How often a wave goes round the belt in the time of a scene."""
+    case = moving(spec, scene)
+    return case.window / case.line.contour_time
 
 
 def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:

@@ -6,6 +6,7 @@ from ptmcalc.machines.conveyor.solvers.network import NETWORK
 from ptmcalc.machines.conveyor.solvers.rigid import RIGID
 from ptmcalc.machines.conveyor.solvers.standing import BRAKING, HOLDING, IDENTIFY, RIGID_STOP
 from ptmcalc.machines.conveyor.solvers.statics import STATICS
+from ptmcalc.machines.conveyor.solvers.stiff_stop import STIFF_STOP
 from ptmcalc.machines.conveyor.solvers.two_interval import TWO_INTERVAL
 
 SOLVERS = (
@@ -14,6 +15,7 @@ SOLVERS = (
     BRAKING,
     IDENTIFY,
     RIGID_STOP,
+    STIFF_STOP,
     RIGID,
     FIRST_WAVE,
     TWO_INTERVAL,

@@ -55,10 +55,10 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     bars = _sagging_bars(case, *motions) if "sag" in carried else _straight_bars(case, *motions)
     fine = motions[-1]
     loads = _loads(case, fine, bars)
-    drive = next(iter(spec.all_drives))
-    loads |= {of(name, drive): loads[name] for name in PER_DRIVE & loads.keys()}
+    (only,) = spec.all_drives
+    loads |= {of(name, only): loads[name] for name in PER_DRIVE & loads.keys()}
     if case.line.grip_exponent is not None:
-        loads |= slip_loads(case, drive, case.line.grip_exponent, motions, (bars.on, bars.off))
+        loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
     if any(finding.code == "NUM102" for finding in findings):
         loads = {name: _beyond_range(name, found) for name, found in loads.items()}

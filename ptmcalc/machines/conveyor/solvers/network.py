@@ -22,7 +22,7 @@ from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, delay_lines_do, starting_force
-from ptmcalc.machines.conveyor.moving import Moving, moving
+from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.machines.conveyor.static_loads import hollows
@@ -45,7 +45,6 @@ _SHARING = frozenset(
     }
 )
 """Tensions, which are sums of the same waves."""
-_MOST_ROUNDS = 1000.0
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
 """For a step, and for a cell of it, with and without sag or damping."""
 
@@ -366,9 +365,9 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     lift = line.centrifugal_at_speed / line.run_off if line.run_off > 0 else math.inf
     if lift >= 1:
         return Criterion("rho v^2/S", lift, 1.0, "centrifugal tension over that at the run-off", "laws.capstan")
-    rounds = case.window / line.contour_time
-    if rounds >= _MOST_ROUNDS:
-        return Criterion("n", rounds, _MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
+    count = case.window / line.contour_time
+    if count >= MOST_ROUNDS:
+        return Criterion("n", count, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
     return None
 
 

@@ -1,0 +1,62 @@
+"""A stop of a belt so short that its waves cannot be counted: the rigid conveyor, with intervals that hold them."""
+
+import math
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor import short_stops
+from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE
+from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, rounds
+from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
+
+
+def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Loads of a stop in which drive and belt move as one body.
+
+        M v' = -(W + B(t)),   S(s) = S_static(s) - a r(s)
+
+    **Range** a belt round which a wave goes a thousand times while it stops; one slope, one drive, brakes at the head.
+    **Error** no bar of its own: the bound of the waves is that of `short_stops`.
+    **Source** Newton's law.
+    """
+    stop = short_stops.short_stop(spec, scene)
+    if stop is None:
+        raise NumericsError(
+            "NUM103",
+            f"a wave goes round the belt {rounds(spec, scene):.0f} times in the time of the scene, which is too much to"
+            " simulate; what its waves can do is only known without simulation for a stop on one slope with one drive,"
+            " brakes at the head, no take-up weight and little sag",
+        )
+    return Result({name: Found(Estimate.exact(value)) for name, value in short_stops.loads(stop).items()}, work=1)
+
+
+def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Whether the belt is so short that its waves are too many to simulate.
+
+        n = rounds of a wave in the time of the scene, as 1000/n
+
+    **Range** any stop or jam.
+    **Error** exact.
+    **Source** work of `solvers.network`.
+    """
+    count = rounds(spec, scene)
+    share = MOST_ROUNDS / count if count >= MOST_ROUNDS else 2.0
+    meaning = "rounds that can be simulated over those in the time of the scene: above 1 the belt is simulated"
+    return Criterion("1000/n", share, math.nextafter(1, 2), meaning, "cost")
+
+
+STIFF_STOP: Solver[Conveyor, ConveyorScene] = Solver(
+    name="stiff_stop",
+    title="stop of a belt too short for its waves to be counted",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Stop, EmergencyStop, Coast, Jam}),
+    represents=frozenset(),
+    gives=OF_BELT.union(OF_STOP, PER_DRIVE),
+    run=run,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="Newton's law; bounds derived in ptmcalc.machines.conveyor.short_stops",
+    valid=valid,
+)
