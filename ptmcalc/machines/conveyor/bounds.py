@@ -318,6 +318,19 @@ def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...
     return loads
 
 
+def even_loads(line: BeltLine) -> dict[str, float]:
+    """Loads of a belt that runs evenly: those a stop or a jam begins with, and only makes worse."""
+    ends = [line.static_ends(which) for which in _STRANDS]
+    loads = {
+        "tension_run_on_max": line.run_on,
+        "tension_dynamic_run_on_max": 0.0,
+        "tension_run_off_min": line.run_off,
+        "tension_max": max(map(max, ends)),
+        "tension_min": min(map(min, ends)),
+    }
+    return loads | derived_loads(line, loads["tension_max"], tuple(map(min, ends)))
+
+
 def largest_softening(case: StartCase) -> float | None:
     """Largest softening by sag anywhere in a start, at the lowest tension the waves can bring; None without idler
     pitches. A belt that can lose its tension is infinitely soft."""

@@ -116,15 +116,7 @@ class ShortStop:
     def held(self) -> dict[str, Interval]:
         """Intervals of the loads: from those of the belt that still runs evenly to the worst."""
         line, worst = self.line, self.loads(self.stray)
-        ends = [line.static_ends(which) for which in _STRANDS]
-        least = {
-            "tension_run_on_max": line.run_on,
-            "tension_dynamic_run_on_max": 0.0,
-            "tension_run_off_min": line.run_off,
-            "tension_max": max(map(max, ends)),
-            "tension_min": min(map(min, ends)),
-        }
-        least |= bounds.derived_loads(line, least["tension_max"], tuple(map(min, ends)))
+        least = bounds.even_loads(line)
         if line.grip_exponent is not None:
             least |= bounds.slip_loads(line.grip_exponent, [self._before])
         return {name: Interval(min(least[name], worst[name]), max(least[name], worst[name])) for name in least}

@@ -9,6 +9,7 @@ bars is that of each, and what it makes of any other load (`bounds.moved`) is th
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
-from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor import bounds, deep_sag
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
@@ -55,24 +56,28 @@ Values = dict[str, tuple[float, dict[str, float]]]
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Loads of a scene in which the belt moves, from three grids.
 
-    **Range** any scene in motion; a belt whose tension falls below 0 is not what this computes, and says so.
+    **Range** any scene in motion; a belt whose tension falls below 0 is not what this computes, and says so. Of a belt
+    that sags too deep on the way only what came before is told (`deep_sag`).
     **Error** as the module says: an estimate from three grids, held on the seeded sample of the coverage tests.
     **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
     """
     case = moving(spec, scene)
-    runs = [_once(case, carried, cells) for cells in _grids(scene, level)]
-    coarsest, coarse, fine = (loads for loads, _ in runs)
-    drawn, ready = runs[-1][1]
-    gap = _apart(runs[1][1][0], drawn, not _jumps(scene))
-    bars = _bars(case, (coarsest, coarse, fine), gap, ready.course.step)
-    found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
-    health = {"energy_residual": drawn.energy_residual, "cells": ready.course.cells}
+    loads, runs = _computed(case, carried, level)
+    drawn, ready = runs[-1]
+    findings = list(_findings(case, drawn))
+    if "sag" in carried and deep_sag.too_deep(case, drawn):
+        window = deep_sag.trusted_window(case, drawn, lambda end: _finest(replace(case, window=end), carried, level))
+        early, more = _computed(replace(case, window=window), carried, level) if window else ({}, [])
+        runs = more + runs
+        constant = not case.line.fixed_length and spec.takeup.mass is None
+        loads = {name: deep_sag.certain(name, one, early.get(name), constant, window) for name, one in loads.items()}
+        findings = [deep_sag.finding(case, drawn, window)]
     return Result(
-        found,
-        work=sum(part[1][0].updates for part in runs),
+        loads,
+        work=sum(part.updates for part, _ in runs),
         window=(0.0, float(drawn.times[-1])),
-        health=health,
-        findings=tuple(_findings(case, drawn)),
+        health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
+        findings=tuple(findings),
         events=tuple(_events(drawn, ready)),
     )
 
@@ -86,6 +91,21 @@ def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
 def _jumps(scene: ConveyorScene) -> bool:
     """Whether a drum stops from one moment to the next."""
     return isinstance(scene, Jam) and not scene.time
+
+
+def _computed(case: Moving, carried: frozenset[str], level: int) -> tuple[dict[str, Found], list[tuple[Drawn, Set]]]:
+    """Loads from three grids with their bars, and what the belt did on each."""
+    runs = [_once(case, carried, cells) for cells in _grids(case.scene, level)]
+    (coarsest, _), (coarse, (before, _)), (fine, (drawn, ready)) = runs
+    apart = _apart(before, drawn, not _jumps(case.scene))
+    bars = _bars(case, (coarsest, coarse, fine), apart, ready.course.step)
+    found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
+    return found, [made for _, made in runs]
+
+
+def _finest(case: Moving, carried: frozenset[str], level: int) -> Drawn:
+    """The motion on the finest grid of a level."""
+    return _once(case, carried, _grids(case.scene, level)[-1])[1][0]
 
 
 def _once(case: Moving, carried: frozenset[str], cells: int) -> tuple[Values, tuple[Drawn, Set]]:
@@ -309,8 +329,10 @@ def _estimate(name: str, value: float, bar: float) -> Estimate:
 
 
 def _findings(case: Moving, drawn: Drawn) -> Iterator[Finding]:
-    for low in (drawn.back_min, drawn.carry_min):
-        if low.value < 0:
+    """A belt without idler pitches that goes slack; of one with them, the run with its spans tells more."""
+    sags = case.spec.effects.get("sag") != "off"
+    for low, strand in ((drawn.back_min, case.line.back), (drawn.carry_min, case.line.carry)):
+        if low.value < 0 and not (sags and strand.span_weight):
             yield Finding(
                 "NUM102",
                 f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off; what the"
