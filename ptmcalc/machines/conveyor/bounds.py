@@ -410,7 +410,7 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
 
 
 def moved(
-    line: BeltLine, loads: Mapping[str, Estimate], change: float, slowing: float, off: bool = False
+    line: BeltLine, loads: Mapping[str, Estimate], change: float, slowing: float, off: bool = False, asked: int = 0
 ) -> dict[str, Interval]:
     """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
 
@@ -418,6 +418,8 @@ def moved(
     and its slack side shrinks; where it then still holds, nothing slips. The mean of all that moves follows Newton's
     law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by
     what a wave of that size makes of its speed:
+
+    An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
 
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
@@ -449,9 +451,11 @@ def moved(
             weakest = line.breaking_force / (tension - change) if tension > change else np.inf
             found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
         elif kind in GRIP:
-            found[name] = _around(value, [value * grown, value / grown])
+            found[name] = _around(value, [value * grown, value / grown]) if np.isfinite(grown) else ANYTHING
         elif kind == "sag_relative_max":
             found[name] = _moved_sag(line, value, change)
+        elif kind in DRIVE and asked:
+            found[name] = _moved_drive(loads, 2 * asked * change)[kind]
         elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
@@ -459,6 +463,16 @@ def moved(
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
             found[name] = anything(name, estimate)
     return found
+
+
+def _moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    """The force an imposed speed asks for, and the reserve of the available one over it."""
+    needed, reserve = loads["starting_force_needed"].value, loads["starting_reserve"].value
+    if not np.isfinite(reserve):
+        return {"starting_force_needed": Interval(-change, change), "starting_reserve": ANYTHING}
+    available = reserve * needed
+    ends = [available / (needed + change), available / (needed - change) if needed > change else np.inf]
+    return {"starting_force_needed": Interval(-change, change), "starting_reserve": _around(reserve, ends)}
 
 
 def _moved_sag(line: BeltLine, ratio: float, change: float) -> Interval:

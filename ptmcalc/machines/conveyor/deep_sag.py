@@ -6,13 +6,15 @@ a largest value is at least that, a smallest one at most that.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, family
 from ptmcalc.laws import sag
-from ptmcalc.machines.conveyor.loads import OF_STOP
+from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
 from ptmcalc.machines.conveyor.moving import Moving
+from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.numerics.belt.march import Drawn, Extreme
 
 _HALVINGS = 3
@@ -49,39 +51,54 @@ def _sagging(case: Moving, drawn: Drawn) -> list[Extreme]:
     return [low for low, limit in zip(lows, limits(case), strict=True) if limit > 0 and low.value < limit]
 
 
-def trusted_window(case: Moving, drawn: Drawn, once: Callable[[float], Drawn]) -> float | None:
-    """How long the belt keeps above its limits [s], by runs of `once` up to a time; None if hardly at all."""
+def trusted_window(case: Moving, drawn: Drawn, once: Callable[[float], Drawn]) -> float:
+    """How long the belt keeps above its limits [s], by runs of `once` up to a time; 0 if hardly at all."""
     low, high, step = 0.0, min(one.time for one in _sagging(case, drawn)), float(drawn.times[1])
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         low, high = (low, middle) if too_deep(case, once(middle)) else (middle, high)
     end = low - _FRONT_STEPS * step
-    return end if end > _FRONT_STEPS * step else None
+    return end if end > _FRONT_STEPS * step else 0.0
 
 
-def certain(name: str, whole: Found, early: Found | None, constant: bool, window: float | None) -> Found:
-    """A load of a run that was trusted up to a time only; `constant` is a tension that a weight keeps."""
-    if constant and family(name) == "tension_run_off_min":
-        return whole
-    value = whole.estimate.value
-    known = early.estimate if early is not None else Estimate.unknown(value)
-    if family(name) in OF_STOP:
-        if known.bounded:
-            return early or whole
-        known = Estimate.exact((window or 0.0) if name == "stop_time" else 0.0)
-    if family(name) in _FALLING:
-        return Found(Estimate(min(value, known.high), -math.inf, known.high, known.numerical, math.inf), whole.at)
-    return Found(Estimate(max(value, known.low), known.low, math.inf, known.numerical, math.inf), whole.at)
+def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found], window: float) -> dict[str, Found]:
+    """Loads of a run that is trusted up to a time only, by those it has up to then; none where that is at once.
+
+    A stop or a jam begins with even running: its loads are at least as bad as there.
+    """
+    even = {} if isinstance(case.scene, Start) else bounds.even_loads(case.line)
+    kept = not case.line.fixed_length and case.spec.takeup.mass is None  # a tension that the take-up keeps
+    found = {}
+    for name, one in whole.items():
+        value, begins = one.estimate.value, even.get(name)
+        known = early[name].estimate if name in early else Estimate.unknown(value)
+        if family(name) in OF_STOP:
+            if known.bounded:
+                found[name] = early[name]
+                continue
+            known = Estimate.exact(window if name == "stop_time" else 0.0)
+        if name == "tension_run_off_min" and kept:
+            found[name] = one
+        elif family(name) in _FALLING:
+            high = min(known.high, math.inf if begins is None else begins)
+            found[name] = Found(Estimate(min(value, high), -math.inf, high, known.numerical, math.inf), one.at)
+        else:
+            least = 0.0 if family(name) in SLIPS else -math.inf
+            low = max(known.low, least if begins is None else begins)
+            found[name] = Found(Estimate(max(value, low), low, math.inf, known.numerical, math.inf), one.at)
+    return found
 
 
-def finding(case: Moving, drawn: Drawn, window: float | None) -> Finding:
+def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
     """Where and when it sags too deep, and what is known nevertheless."""
     low = min(_sagging(case, drawn), key=lambda one: one.value)
     does = "goes slack" if low.value < 0 else "sags by more than a tenth of the idler pitch"
+    return taut(f"{does}, most of all at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off", window)
+
+
+def taut(does: str, window: float) -> Finding:
+    """What a belt does that its tension is too low for, and how long it was trusted [s]."""
     known = f"what came in the first {window:.3g} s is certain, and no more" if window else "no peak of it is certain"
     return Finding(
-        "NUM102",
-        f"the belt {does}, most of all at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off; {known}",
-        ("takeup", "tension"),
-        "a higher `tension` keeps the belt taut",
+        "NUM102", f"the belt {does}; {known}", ("takeup", "tension"), "a higher `tension` keeps the belt taut"
     )

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.estimate import NOTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
 from ptmcalc.laws import loop_bounds, sag, wave
@@ -28,6 +28,7 @@ from ptmcalc.machines.conveyor.model import (
     damping_change,
     delay_lines_do,
     is_plain,
+    slides_at_rest,
     start_case,
 )
 from ptmcalc.machines.conveyor.moving import moving, rough_utilisation
@@ -70,7 +71,10 @@ def _moved(
 ) -> Offsets:
     """Offsets of the loads of any scene when every tension may be off by `change` [N]."""
     slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
-    return bounds.moved(line, loads, change, slowing, off)
+    asked = 0
+    if isinstance(scene, Start) and scene.profile.imposes_speed:
+        asked = len({drive.at for drive in spec.all_drives.values()})
+    return bounds.moved(line, loads, change, slowing, off, asked)
 
 
 def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
@@ -116,7 +120,8 @@ def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     below 5 % anywhere, or changing by less than 5 % over the swing; then the lowest frequency is taken of the softest
     belt. A belt that sags more is unbounded.
 
-    A stop of a short belt has bounds of its own (`short_stops`).
+    What a take-up weight and a resistance that goes with the speed do to such a belt besides is added from their own
+    bounds. A stop of a short belt has bounds of its own (`short_stops`).
 
     **Range** linear undamped belt without slip, one slope, one drive, a start from the frozen running profile; any jump
     of impedance and tail mass. Anything else is unbounded.
@@ -129,12 +134,26 @@ def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return _anything(spec, scene, loads)
     if scene.belt == "relaxed" and spec.effects.get("coulomb_idlers") != "off":
         return _anything(spec, scene, loads)
-    case = start_case(spec, scene)
+    enclosure = _enclosed(spec, start_case(spec, scene))
+    if enclosure is None:
+        return _anything(spec, scene, loads)
+    found: Offsets = bounds.offsets(start_case(spec, scene), enclosure, loads)
+    for name, bound in (("takeup_mass", takeup_bound), ("viscous_idlers", speed_bound)):
+        if spec.effects.get(name) != "off":
+            found = _both(found, bound(spec, scene, loads))
+    return found
+
+
+def _both(one: Offsets, other: Offsets) -> Offsets:
+    """Offsets of two effects together."""
+    return {name: one.get(name, NOTHING) + other.get(name, NOTHING) for name in one.keys() | other.keys()}
+
+
+def _enclosed(spec: Conveyor, case: StartCase) -> bounds.Enclosure | None:
     softening = None if spec.effects.get("sag") == "off" else bounds.largest_softening(case)
     if softening is None or softening < SAG_THRESHOLD:
-        return bounds.offsets(case, bounds.enclose(case, softening or 0.0), loads)
-    enclosure = _gently_sagging(case)
-    return bounds.offsets(case, enclosure, loads) if enclosure else _anything(spec, scene, loads)
+        return bounds.enclose(case, softening or 0.0)
+    return _gently_sagging(case)
 
 
 def _gently_sagging(case: StartCase) -> bounds.Enclosure | None:
@@ -395,17 +414,22 @@ def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
         d = T_0 (3.4 a_0/(2 g) + kappa)
 
-    **Range** below the threshold; unbounded above.
+    **Range** below the threshold; unbounded above, and where the belt slides on its drum before it starts.
     **Error** calibrated: the largest drop seen of the run-off tension was T_0 3.4 a_0/(2 g) at small kappa.
     **Source** take-up weight on two falls.
     """
     if spec.takeup.mass is None:
         return {}
-    if takeup_criterion(spec, scene).exceeded:
+    if takeup_criterion(spec, scene).exceeded or _slides_first(spec, scene):
         return _anything(spec, scene, loads)
     line = running(spec, scene)
     kappa, drum = _takeup_numbers(spec, scene, line)
     return _moved(spec, scene, line, loads, line.takeup_tension * (3.4 * drum / (2 * spec.gravity) + kappa), off=True)
+
+
+def _slides_first(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether the belt slides back on its drum before a start: its idlers' friction turns round."""
+    return isinstance(scene, Start) and slides_at_rest(spec, scene).exceeded
 
 
 def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
@@ -429,14 +453,14 @@ def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
     At rest W_idlers is too large by s W_idlers; a wave that finds so much less against it may double it.
 
-    **Range** s below 5 %; unbounded above.
+    **Range** s below 5 %; unbounded above, and where the belt slides on its drum before it starts.
     **Error** calibrated on the sample of the coverage tests.
     **Source** balance of the belt.
     """
     share = spec.resistance.speed_share
     if share == 0:
         return {}
-    if share >= SPEED_SHARE_THRESHOLD:
+    if share >= SPEED_SHARE_THRESHOLD or _slides_first(spec, scene):
         return _anything(spec, scene, loads)
     line = belt_line(spec, scene)
     return _moved(spec, scene, line, loads, 2 * share * (line.back.friction[-1] + line.carry.friction[-1]))

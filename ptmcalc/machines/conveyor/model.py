@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import inertia, motor, start_profile, wave
+from ptmcalc.laws import capstan, inertia, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.sections import Section
@@ -232,11 +232,12 @@ SPEED_SHARE_THRESHOLD = 0.05
 
 
 def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
-    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, and no weight
-    swings."""
+    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, no weight swings,
+    and the drum holds the belt before it starts."""
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
-    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
+    plain = is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
+    return plain and not slides_at_rest(spec, scene).exceeded
 
 
 DAMPING_THRESHOLD = 0.001
@@ -246,6 +247,26 @@ DAMPING_THRESHOLD = 0.001
 def damping_change(spec: Conveyor, line: BeltLine) -> float:
     """Change by damping of the frequency of a wave as slow as the slowest of a uniform loop, w = pi/(2 T)."""
     return spec.belt.damping.change(math.pi / (2 * line.contour_time)) if spec.belt.damping else 0.0
+
+
+def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
+    """Whether the drum cannot hold the belt that lies with the friction of its running frozen in it.
+
+        U_0 = S_tight/(S_slack exp(mu alpha)),   0 without friction given, or where slip is forced off
+
+    Such a belt slides back on its drum before it starts, and the friction of its idlers turns round.
+
+    **Range** one drive.
+    **Error** exact.
+    **Source** Euler-Eytelwein.
+    """
+    line = belt_line(spec, scene)
+    used = 0.0
+    if line.grip_exponent is not None and spec.effects.get("slip") != "off":
+        tight, slack = max(line.run_on, line.run_off), min(line.run_on, line.run_off)
+        used = float(capstan.slip_utilisation(tight, slack, 0.0, line.grip_exponent))
+    meaning = "grip used at rest: at 1 the belt slides on its drum before it starts"
+    return Criterion("U_0", used, 1.0, meaning, "laws.capstan")
 
 
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:

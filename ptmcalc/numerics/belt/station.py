@@ -420,7 +420,7 @@ def _velocity(
         return old
     way = math.copysign(1.0, old or forcing[1])
     begins, ends = (g - way * r for g, r in zip(forcing, friction, strict=True))
-    if not old and friction[1] and way * begins < 0:  # it breaks loose within the step
+    if not old and any(friction) and way * begins < 0:  # it breaks loose within the step
         begins = 0.0
     constants = against / mass * step
     if constants < -_STEEPEST:

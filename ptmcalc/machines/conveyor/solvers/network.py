@@ -13,11 +13,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, deep_sag
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
@@ -35,6 +37,7 @@ _CELLS, _CELLS_OF_JUMP = 60, 240
 _MARGIN, _SECOND_ORDER, _FIRST_ORDER, _SLOWEST = 3.0, 0.25, 0.5, 0.9
 _ROUNDING = 1e-11
 _SHIFT_STEPS = 3
+_SHORTER = 6
 _SHARING = frozenset(
     {
         "tension_run_on_max",
@@ -62,15 +65,17 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
     """
     case = moving(spec, scene)
-    loads, runs = _computed(case, carried, level)
+    try:
+        loads, runs = _computed(case, carried, level)
+    except _GripLostError as lost:
+        return _before(case, carried, level, lost)
     drawn, ready = runs[-1]
     findings = list(_findings(case, drawn))
     if "sag" in carried and deep_sag.too_deep(case, drawn):
         window = deep_sag.trusted_window(case, drawn, lambda end: _finest(replace(case, window=end), carried, level))
         early, more = _computed(replace(case, window=window), carried, level) if window else ({}, [])
         runs = more + runs
-        constant = not case.line.fixed_length and spec.takeup.mass is None
-        loads = {name: deep_sag.certain(name, one, early.get(name), constant, window) for name, one in loads.items()}
+        loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
     return Result(
         loads,
@@ -91,6 +96,34 @@ def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
 def _jumps(scene: ConveyorScene) -> bool:
     """Whether a drum stops from one moment to the next."""
     return isinstance(scene, Jam) and not scene.time
+
+
+class _GripLostError(Exception):
+    """A drum slips under a belt that presses on it no more: friction has no meaning there."""
+
+    def __init__(self, time: float) -> None:
+        super().__init__(time)
+        self.time = time
+
+
+def _before(case: Moving, carried: frozenset[str], level: int, lost: _GripLostError) -> Result:
+    """What came before a slipping drum lost its belt."""
+    window = lost.time
+    for _ in range(_SHORTER):
+        window *= 0.75
+        try:
+            early, runs = _computed(replace(case, window=window), carried, level)
+        except _GripLostError:
+            continue
+        return Result(
+            deep_sag.certain(case, early, early, window),
+            work=sum(part.updates for part, _ in runs),
+            window=(0.0, window),
+            health={"energy_residual": runs[-1][0].energy_residual, "cells": runs[-1][1].course.cells},
+            findings=(deep_sag.taut(f"loses its tension on a slipping drum at {lost.time:.3g} s", window),),
+            events=tuple(_events(*runs[-1])),
+        )
+    raise NumericsError("NUM102", f"the belt loses its tension on a slipping drum at {lost.time:.3g} s")
 
 
 def _computed(case: Moving, carried: frozenset[str], level: int) -> tuple[dict[str, Found], list[tuple[Drawn, Set]]]:
@@ -115,14 +148,20 @@ def _once(case: Moving, carried: frozenset[str], cells: int) -> tuple[Values, tu
     return _loads(case, drawn, ready), (drawn, ready)
 
 
-def _still(case: Moving) -> Callable[[float, Seen], bool] | None:
-    """Ends the march of a stop: so long after the first drum at the head came to rest."""
-    if not case.brings_to_rest:
-        return None
+def _still(case: Moving) -> Callable[[float, Seen], bool]:
+    """Ends the march of a stop: so long after the first drum at the head came to rest.
+
+    Raises:
+        _GripLostError: a drum at the head slips and its belt pushes harder than it ever pulled while it ran evenly:
+            grip below 0 would drive it, faster and faster.
+    """
     rested: list[float] = []
+    lowest = -max(map(abs, (*case.line.static_ends(RETURN), *case.line.static_ends(CARRY))))
 
     def still(time: float, head: Seen) -> bool:
-        if not rested and head.belt <= 0:
+        if any(head.slips) and min(head.tensions) < lowest:
+            raise _GripLostError(time)
+        if case.brings_to_rest and not rested and head.belt <= 0:
             rested.append(time)
         return bool(rested) and time >= rested[0] + 2 * case.line.contour_time
 
@@ -277,8 +316,9 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     change = max(*(bars[name] for name in fine if family(name) in _SHARING), _MARGIN / 2 * moved_most)
     line, slowing = case.line, deceleration(case.spec, case.scene, case.line)
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
+    asked = len({drive.at for drive in case.spec.all_drives.values()}) if case.imposed is not None else 0
     off = case.spec.takeup.mass is not None
-    for name, offsets in bounds.moved(line, values, change, slowing, off).items():
+    for name, offsets in bounds.moved(line, values, change, slowing, off, asked).items():
         slid = family(name) in SLIPS and fine[name][0] > 0
         if not slid:
             bars[name] = max(bars[name], abs(offsets.low), abs(offsets.high))
