@@ -232,12 +232,11 @@ SPEED_SHARE_THRESHOLD = 0.05
 
 
 def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
-    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, no weight swings,
-    and the drum holds the belt before it starts."""
+    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, and no weight
+    swings."""
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
-    plain = is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
-    return plain and not slides_at_rest(spec, scene).exceeded
+    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
 
 
 DAMPING_THRESHOLD = 0.001

@@ -15,7 +15,7 @@ from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import StartCase, plainness, slides_at_rest, start_case
+from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
 from ptmcalc.machines.conveyor.slipping import slip_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, peaks, sagging, strand
@@ -379,15 +379,17 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
     """Whether there is a motion to simulate.
 
         W/F, static resistance over available force; 0 for an imposed speed
-        U_0, grip used at rest: at 1 the belt slides back before it starts, which `solvers.network` carries
+        U_0, grip used at rest: at 1 the belt slides back before it starts, which `solvers.network` carries where it can
 
     **Range** any start.
     **Error** exact.
     **Source** the belt moves when the drive's force exceeds the static resistance.
     """
-    for other in (plainness(spec, scene), slides_at_rest(spec, scene)):
-        if other.exceeded:
-            return other
+    plain, slides = plainness(spec, scene), slides_at_rest(spec, scene)
+    if plain.exceeded:
+        return plain
+    if slides.exceeded and not delay_lines_do(spec, scene):
+        return slides
     case = start_case(spec, scene)
     return Criterion(
         "W/F",
