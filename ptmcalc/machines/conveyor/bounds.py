@@ -67,7 +67,7 @@ def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
     slowest = loop_bounds.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
     leak = 1.0
     steady = case.window - case.rise
-    if not case.imposed_speed and steady > 0:
+    if not case.imposed_speed and steady > 0 and not case.damped:
         leak = loop_bounds.window_leak(slowest, steady)
     back, carry = (_over_strand(case, strand, slowest, leak, softening) for strand in _STRANDS)
     on, on_together = _at_drum(case, CARRY, 1.0, slowest, leak, softening)
@@ -180,7 +180,7 @@ def _at_drum(
 
 def _first_wave_reached(case: StartCase) -> float:
     """Dynamic run-on tension that a torque step surely reaches before the first echo is back [N]."""
-    if case.shape != "step" or case.imposed_speed:
+    if case.shape != "step" or case.imposed_speed or case.damped:
         return 0.0
     line = case.line
     quiet = 2 * line.transit(CARRY)

@@ -370,6 +370,8 @@ class StartCase:
     acceleration: float
     held: float
     window: float
+    damped: bool = False
+    """whether the belt damps: its waves are those of an elastic one at most, and may be less"""
 
     @property
     def rise(self) -> float:
@@ -461,7 +463,8 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
             window = _time_to_speed(line, profile.rise, rise_time, available, held, masses.total_mass)
             reached = available * float(start_profile.rise(profile.rise, rise_time, held + window))
             acceleration = (reached - line.static_resistance) / masses.total_mass
-    return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window)
+    damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
+    return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
 
 
 def _held(shape: str, rise_time: float, share: float) -> float:
