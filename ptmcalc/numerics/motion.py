@@ -56,7 +56,8 @@ class Motion:
 
 
 class _Ladder(NamedTuple):
-    """Guards and their derivatives G A^k as functionals, and what rounding leaves of them: NOISE 4^k |G| |A|^k."""
+    """Guards and their derivatives G A^k as functionals, one order after the other, and what rounding leaves of them:
+    NOISE 4^k |G| |A|^k."""
 
     rows: FloatArray
     noise: FloatArray
@@ -68,10 +69,10 @@ class _Ladder(NamedTuple):
         for _ in range(_ORDERS):
             rows.append(rows[-1] @ rate)
             noise.append(noise[-1] @ larger)
-        return cls(np.array(rows), np.array(noise))
+        return cls(np.concatenate(rows), np.concatenate(noise))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Reaction:
     """What follows an event: the mode and the state after it, what happened, the energy lost in a jump."""
 
@@ -111,41 +112,57 @@ class System(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
 class Look:
     """A state seen in a mode: on which side of 0 each guard goes on."""
 
-    system: System
-    state: FloatArray
+    def __init__(self, system: System, state: FloatArray) -> None:
+        self.system, self.state = system, state
+        own, scale = system.own, system.scale
+        size = float(np.abs(state[:own] / scale[:own]).max(initial=0.0))
+        self.dust = DUST * size * scale[:own]
+        self.magnitude = np.abs(state)
 
     def sides(self, mode: Mode) -> NDArray[np.intp]:
         """-1, 0 or 1 for every guard of a mode: the sign of its first derivative that is not 0 beyond rounding."""
-        own = self.system.own
-        size = float(np.abs(self.state[:own] / self.system.scale[:own]).max(initial=0.0))
-        dust = np.zeros(len(self.state))
-        dust[:own] = DUST * size * self.system.scale[:own]
-        return _sides(self.system.motion(mode), self.state, dust)
+        return np.array(self.told(self.system.motion(mode)), dtype=np.intp)
+
+    def told(self, motion: Motion) -> list[int]:
+        """The same of the equations of a mode."""
+        count = len(motion.guards)
+        found, noise = self._derivatives(motion)
+        dust = (np.abs(motion.guards[:, : len(self.dust)]) @ self.dust).tolist()
+        sides = []
+        for guard in range(count):
+            side, beside = 0, dust[guard]
+            for value, least in zip(found[guard::count], noise[guard::count], strict=True):
+                if abs(value) > least + beside:
+                    side = 1 if value > 0 else -1
+                    break
+                beside = 0.0
+            sides.append(side)
+        return sides
+
+    def _derivatives(self, motion: Motion) -> tuple[list[float], list[float]]:
+        """Guards and their derivatives, one order after the other, and the rounding of each.
+
+        The k-th derivative of g is G A^k z; where a curve takes part it counts with its tangent, which is exact to the
+        second derivative.
+        """
+        if motion.ladder is not None:
+            return (motion.ladder.rows @ self.state).tolist(), (motion.ladder.noise @ self.magnitude).tolist()
+        rate, guards = _tangents(motion, self.state)
+        moved, larger = [np.append(self.state, 1.0)], [np.append(self.magnitude, 1.0)]
+        more = 4 * np.abs(rate)
+        for _ in range(_ORDERS):
+            moved.append(rate @ moved[-1])
+            larger.append(more @ larger[-1])
+        found = np.array(moved) @ guards.T
+        noise = NOISE * (np.array(larger) @ np.abs(guards).T)
+        return found.ravel().tolist(), noise.ravel().tolist()
 
 
-def _sides(motion: Motion, state: FloatArray, dust: FloatArray) -> NDArray[np.intp]:
-    """Signs of the guards just after a state.
-
-    The k-th derivative of g is G A^k z; where a curve takes part it counts with its slope,
-    which is exact to the second derivative.
-    """
-    ladder = motion.ladder
-    if ladder is None:
-        ladder, state, dust = _bent(motion, state, dust)
-    found, noise = ladder.rows @ state, ladder.noise @ np.abs(state)
-    noise[0] += ladder.noise[0] @ (dust / NOISE)
-    clear = np.abs(found) > noise
-    which = clear.argmax(axis=0), np.arange(clear.shape[1])
-    sides: NDArray[np.intp] = (np.sign(found[which]) * clear[which]).astype(np.intp)
-    return sides
-
-
-def _bent(motion: Motion, state: FloatArray, dust: FloatArray) -> tuple[_Ladder, FloatArray, FloatArray]:
-    """The same with the tangents of the curves, whose constant parts go with a last state that is 1."""
+def _tangents(motion: Motion, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A and G with the tangents of the curves, whose constant parts go with a last state that is 1."""
     n = len(state)
     rate, guards = np.zeros((n + 1, n + 1)), np.zeros((len(motion.guards), n + 1))
     rate[:n, :n], guards[:, :n] = motion.rate, motion.guards[:, :n]
@@ -153,6 +170,6 @@ def _bent(motion: Motion, state: FloatArray, dust: FloatArray) -> tuple[_Ladder,
         y = curve.rows @ state
         slope, now = curve.slope(y), float(curve.value(y[:, None])[0])
         tangent = np.append(slope * curve.rows[0], now - slope * y[0])
-        rate[:n] += np.outer(motion.gain[:, index], tangent)
-        guards += np.outer(motion.guards[:, n + index], tangent)
-    return _Ladder.of(guards, rate), np.append(state, 1.0), np.append(dust, 0.0)
+        rate[:n] += motion.gain[:, index, None] * tangent
+        guards += motion.guards[:, n + index, None] * tangent
+    return rate, guards

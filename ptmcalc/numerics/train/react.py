@@ -7,8 +7,8 @@ break at once is never taken, and static friction is set-valued, not a steep slo
 """
 
 import itertools
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,14 +17,16 @@ from ptmcalc.numerics.motion import Look, Reaction
 from ptmcalc.numerics.piecewise import JAMMED
 from ptmcalc.numerics.record import Event
 from ptmcalc.numerics.train import drives, links
-from ptmcalc.numerics.train.parts import RIGID, Governed, Grip
+from ptmcalc.numerics.train.parts import RIGID, Governed
 from ptmcalc.numerics.train.signals import FloatArray, Now, Signal
-from ptmcalc.numerics.train.state import Change, State
+from ptmcalc.numerics.train.state import NO_FRICTION, Change, State
 
 if TYPE_CHECKING:
     from ptmcalc.numerics.train.system import TrainSystem
 
 _FRICTION = ("turning", "slip", "hold")
+_TRIED = (0, 1, -1)
+"""Held first, then moving either way."""
 _MOST_CHANGES = 100
 _SETTLED = 1e-12
 _ROUNDING = 8 * float(np.finfo(float).eps)
@@ -63,7 +65,7 @@ class Reactor:
             self._apply(broken[0])
         else:
             raise NumericsError("NUM101", f"no contact state holds at {self.time:.9g} s")
-        return Reaction(self.state, self.z, (*self.jammed, *self._events()), self.lost, self._over())
+        return Reaction(self.state, self.z, self._events(), self.lost, self._over())
 
     def _over(self) -> bool:
         system = self.system
@@ -116,7 +118,10 @@ class Reactor:
         self.resting -= set(np.flatnonzero(struck).tolist())
         of = system.groups.of
         self.locked -= {
-            index for index, grip in self._clutches() if struck[of[grip.first]] or struck[of[grip.second or 0]]
+            index
+            for index in system.clutches
+            for grip in (system.train.grips[index],)
+            if struck[of[grip.first]] or struck[of[grip.second or 0]]
         }
 
     # -- single elements ---------------------------------------------------------------------------------------
@@ -218,9 +223,6 @@ class Reactor:
 
     # -- friction ---------------------------------------------------------------------------------------------
 
-    def _still(self, speed: float, largest: float) -> bool:
-        return abs(speed) <= _AT_REST * largest
-
     def _stop(self, group: int) -> None:
         """A group whose speed crossed 0 stands still."""
         self.resting.add(group)
@@ -234,15 +236,13 @@ class Reactor:
 
         Left alone where rounding already hides what is missing, for to put it right moves all other speeds by rounding.
         """
-        system, train = self.system, self.system.train
-        joined = [system.groups.row(train.grips[index].first, train.grips[index].second) for index in self.locked]
-        joined += [
-            system.groups.row(spring.first, spring.second)
-            for spring, (phase, _) in zip(train.springs, self.state.contacts, strict=True)
-            if phase == "shut"
-        ]
-        zeros = [*system.speed[sorted(self.resting)], *(system.apart(row) for row in joined)]
-        if all(abs(row @ self.z) <= _ROUNDING * float(np.abs(row) @ np.abs(self.z)) for row in zeros):
+        system = self.system
+        key = (frozenset(self.resting), frozenset(self.locked), self.state.contacts)
+        ties = system.ties.get(key)
+        if ties is None:
+            ties = system.ties[key] = self._ties()
+        joined, zeros, sizes = ties
+        if not len(zeros) or (np.abs(zeros @ self.z) <= sizes @ np.abs(self.z)).all():
             return
         speeds = system.speed @ self.z
         grounded = {int(np.flatnonzero(row)[0]) for row in joined if np.count_nonzero(row) == 1}
@@ -261,16 +261,23 @@ class Reactor:
                         waiting.append(there)
         self._put(speeds)
 
+    def _ties(self) -> "Ties":
+        system, train = self.system, self.system.train
+        joined = [system.groups.row(train.grips[index].first, train.grips[index].second) for index in self.locked]
+        joined += [
+            system.groups.row(spring.first, spring.second)
+            for spring, (phase, _) in zip(train.springs, self.state.contacts, strict=True)
+            if phase == "shut"
+        ]
+        zeros = np.array([*system.speed[sorted(self.resting)], *(system.apart(row) for row in joined)])
+        return Ties(joined, zeros, _ROUNDING * np.abs(zeros))
+
     def _put(self, speeds: FloatArray) -> None:
         """The state with these speeds; a coordinate that cancels to rounding is 0, or its sign would mean something."""
         count, inverse = self.system.groups.count, self.system.coordinates.inverse
         rates = inverse @ speeds
         rates[np.abs(rates) <= _ROUNDING * (np.abs(inverse) @ np.abs(speeds))] = 0.0
         self.z[count : self.system.own] = rates
-
-    def _clutches(self) -> Iterator[tuple[int, Grip]]:
-        for index in self.system.clutches:
-            yield index, self.system.train.grips[index]
 
     def _grip(self) -> list[Change]:
         """Choose what holds and what slips, so that every guard of friction and of the meshes holds on.
@@ -287,32 +294,27 @@ class Reactor:
         raise NumericsError("NUM101", f"no state of friction holds at {self.time:.9g} s")
 
     def _candidates(self) -> Iterator[State]:
+        """Every way in which what is at rest and what does not slip could go on, held first."""
         system, state = self.system, self.state
-        speeds = system.speed @ self.z
-        largest = float(np.abs(speeds).max(initial=0.0))
+        speeds = (system.speed @ self.z).tolist()
+        largest = max(map(abs, speeds), default=0.0)
         system.fastest = max(system.fastest, largest)
-        turning: list[tuple[int, ...]] = []
-        for group, turn in enumerate(state.turning):
-            if turn == 2:
-                turning.append((2,))
-            elif group in self.resting or self._still(
-                speeds[group], system.fastest if group in system.guided else largest
-            ):
-                turning.append((0, 1, -1))
+        ways: list[tuple[int, ...]] = []
+        for group, (turn, speed) in enumerate(zip(state.turning, speeds, strict=True)):
+            beside = system.fastest if group in system.guided else largest
+            if turn == NO_FRICTION:
+                ways.append((NO_FRICTION,))
             else:
-                turning.append((int(np.sign(speeds[group])),))
-        slips: list[tuple[int, ...]] = []
-        for index, grip in self._clutches():
-            apart = float(system.groups.row(grip.first, grip.second) @ speeds)
-            met = index in self.locked or self._still(apart, largest)
-            slips.append((0, 1, -1) if met else (int(np.sign(apart)),))
-        rows = (system.groups.row(grip.first, grip.second) for _, grip in self._clutches())
-        pairs = [(index, _ends(row)) for index, row in enumerate(rows)]
-        between = [(index, ends) for index, ends in pairs if all(len(turning[group]) == 3 for group, _ in ends)]
-        for chosen in itertools.product(*turning, *slips):
-            ways, slipping = chosen[: len(turning)], chosen[len(turning) :]
-            if all(_agrees(slipping[index], [ways[group] * side for group, side in ends]) for index, ends in between):
-                yield state._replace(turning=ways, clutches=slipping)
+                ways.append(_TRIED if group in self.resting or abs(speed) <= _AT_REST * beside else (_sign(speed),))
+        for index, row in system.clutch_rows.items():
+            apart = float(row @ speeds)
+            met = index in self.locked or abs(apart) <= _AT_REST * largest
+            ways.append(_TRIED if met else (_sign(apart),))
+        key = (state, tuple(ways))
+        known = system.candidates.get(key)
+        if known is None:
+            known = system.candidates[key] = Candidates(_combined(system.clutch_rows, state, ways))
+        return iter(known)
 
     def _with_signs(self, state: State) -> tuple[State, list[Change]] | None:
         """The candidate with signs of its mesh torques that agree with the motion, and the other guards it breaks.
@@ -320,13 +322,13 @@ class Reactor:
         None where friction itself does not hold in it.
         """
         system = self.system
-        locking = any(system.train.meshes[index].reverse < 0 for index in system.lossy)
-        others = itertools.product((1, -1), repeat=len(system.lossy)) if locking else ()
+        others = itertools.product((1, -1), repeat=len(system.lossy)) if system.locking else ()
         for signs in itertools.chain([state.meshes], others):
             tried = state._replace(meshes=tuple(signs))
             for _ in range(4 ** len(system.lossy) + 1):
-                changes = system.changes(tried)
-                broken = [changes[i] for i in np.flatnonzero(self.look.sides(tried) < 0)]
+                motion, changes = system.described(tried)
+                sides = zip(self.look.told(motion), changes, strict=True)
+                broken = [change for side, change in sides if side < 0]
                 wrong = [one for one in broken if one.kind == "mesh"][:1]
                 wrong += [one for one in broken if one.kind == "released"]
                 if not wrong:
@@ -353,27 +355,68 @@ class Reactor:
 
     # -- what happened ----------------------------------------------------------------------------------------
 
-    def _events(self) -> Iterator[Event]:
+    def _events(self) -> tuple[Event, ...]:
+        if self.before == self.state:
+            return (*self.jammed,)
+        words = self.system.words.get((self.before, self.state))
+        if words is None:
+            words = self.system.words[self.before, self.state] = [one for one in self._words() if one[1] != one[2]]
+        return (*self.jammed, *(Event(self.time, *one) for one in words))
+
+    def _words(self) -> Iterator[tuple[str, str, str]]:
+        """Element, state before and state after, of everything."""
         system, train, old, new = self.system, self.system.train, self.before, self.state
         for spring, was, now in zip(train.springs, old.contacts, new.contacts, strict=True):
-            yield from self._event(spring.name, _contact_word(was), _contact_word(now))
+            yield spring.name, _contact_word(was), _contact_word(now)
         for group, (turned, turns) in enumerate(zip(old.turning, new.turning, strict=True)):
-            yield from self._event(system.friction_name(group), _TURNING[turned], _TURNING[turns])
-        for (_, grip), slipped, slips in zip(self._clutches(), old.clutches, new.clutches, strict=True):
-            yield from self._event(grip.name, _SLIPPING[slipped], _SLIPPING[slips])
+            yield system.friction_name(group), _TURNING[turned], _TURNING[turns]
+        for index, slipped, slips in zip(system.clutches, old.clutches, new.clutches, strict=True):
+            yield train.grips[index].name, _SLIPPING[slipped], _SLIPPING[slips]
         for drive, was_drive, now_drive in zip(train.drives, old.drives, new.drives, strict=True):
             stages = (was_drive[0], now_drive[0])
-            yield from self._event(drive.name, *(f"stage {stage + 1}" for stage in stages))
+            yield drive.name, f"stage {stages[0] + 1}", f"stage {stages[1] + 1}"
             if isinstance(drive.stages[now_drive[0]].law, Governed) and stages[0] == stages[1]:
-                yield from self._event(drive.name, _LIMITED[was_drive[1]], _LIMITED[now_drive[1]])
+                yield drive.name, _LIMITED[was_drive[1]], _LIMITED[now_drive[1]]
         for signal, was_now, now_now in zip(system.signals, old.signals, new.signals, strict=True):
             if signal.trigger is not None:
-                words = ("waiting" if one.piece < 0 else "started" for one in (was_now, now_now))
-                yield from self._event(system.signal_name(signal), *words)
+                before, after = ("waiting" if one.piece < 0 else "started" for one in (was_now, now_now))
+                yield system.signal_name(signal), before, after
 
-    def _event(self, element: str, before: str, after: str) -> Iterator[Event]:
-        if before != after:
-            yield Event(self.time, element, before, after)
+
+class Ties(NamedTuple):
+    """What is at rest, locked or shut: what is joined (rows over the groups), what is 0 (functionals), its rounding."""
+
+    joined: list[FloatArray]
+    zeros: FloatArray
+    rounding: FloatArray
+
+
+class Candidates:
+    """Contact states to try in this order, each made when it is first asked for."""
+
+    def __init__(self, states: Iterator[State]) -> None:
+        self._made: list[State] = []
+        self._others = states
+
+    def __iter__(self) -> Iterator[State]:
+        yield from self._made
+        for state in self._others:
+            self._made.append(state)
+            yield state
+
+
+def _sign(value: float) -> int:
+    return (value > 0) - (value < 0)
+
+
+def _combined(clutches: Mapping[int, FloatArray], state: State, options: list[tuple[int, ...]]) -> Iterator[State]:
+    """The contact states of all ways; a clutch between two groups at rest slips as they begin to move."""
+    count = len(state.turning)
+    pairs = [(place, _ends(row)) for place, row in enumerate(clutches.values(), count)]
+    between = [(place, ends) for place, ends in pairs if all(options[group] == _TRIED for group, _ in ends)]
+    for ways in itertools.product(*options):
+        if all(_agrees(ways[place], [ways[group] * side for group, side in ends]) for place, ends in between):
+            yield state._replace(turning=ways[:count], clutches=ways[count:])
 
 
 def _ends(row: FloatArray) -> list[tuple[int, int]]:

@@ -2,6 +2,7 @@
 
 from bisect import bisect_right
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,8 +77,7 @@ class Signal:
 ZERO, ONE = Signal.constant(0.0), Signal.constant(1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Now:
+class Now(NamedTuple):
     """Where a signal stands: its piece (-1 while it waits for its trigger) and the time it started."""
 
     piece: int = 0

@@ -16,7 +16,7 @@ from ptmcalc.numerics.train.assembly import Assembly
 from ptmcalc.numerics.train.balance import CANCELS
 from ptmcalc.numerics.train.links import Stretch
 from ptmcalc.numerics.train.parts import Grip, Spring, Train
-from ptmcalc.numerics.train.react import Reactor
+from ptmcalc.numerics.train.react import Candidates, Reactor, Ties
 from ptmcalc.numerics.train.signals import FloatArray, Inputs, Now, Signal
 from ptmcalc.numerics.train.state import NO_FRICTION, Change, State
 from ptmcalc.numerics.train.tree import Coordinates, Groups
@@ -36,7 +36,15 @@ class TrainSystem:
         self.input_speed = max((signal.largest_frequency for signal in self.signals), default=0.0)
         self.lossy = tuple(index for index, mesh in enumerate(train.meshes) if mesh.lossy)
         self.clutches = tuple(index for index, grip in enumerate(train.grips) if self._joins(grip))
+        self.clutch_rows = {
+            index: self.groups.row(train.grips[index].first, train.grips[index].second) for index in self.clutches
+        }
+        self.locking = any(train.meshes[index].reverse < 0 for index in self.lossy)
         self._motions: dict[State, tuple[Motion, tuple[Change, ...]]] = {}
+        self._breaks: dict[tuple[object, ...], tuple[float, tuple[float, ...]]] = {}
+        self.ties: dict[tuple[object, ...], Ties] = {}
+        self.candidates: dict[tuple[object, ...], Candidates] = {}
+        self.words: dict[tuple[State, State], list[tuple[str, str, str]]] = {}
         self.first_impacts: dict[int, float] = {}
         self.fastest = 0.0
         self._rows()
@@ -175,19 +183,27 @@ class TrainSystem:
 
     def next_break(self, state: State, time: float) -> float:
         """The next time at which a signal changes its piece, a stage ends by time, or an impulse strikes."""
-        times = [
-            now.start + signal.times[now.piece + 1]
-            for signal, now in zip(self.signals, state.signals, strict=True)
-            if 0 <= now.piece < len(signal.times) - 1
-        ]
-        times += [
-            now.start + signal.decay_start
-            for signal, now in zip(self.signals, state.signals, strict=True)
-            if signal.decay and now.piece >= 0 and now.start + signal.decay_start > time
-        ]
-        times += [drives.stage_breaks(drive, one) for drive, one in zip(self.train.drives, state.drives, strict=True)]
-        times += [impulse.time for impulse in self.train.impulses if impulse.time > time]
-        return min(times, default=float("inf"))
+        key = (state.signals, state.drives)
+        known = self._breaks.get(key)
+        if known is None:
+            known = self._breaks[key] = min(self._pieces_end(state), default=float("inf")), tuple(self._strikes(state))
+        first, strikes = known
+        return min((one for one in strikes if first > one > time), default=first)
+
+    def _pieces_end(self, state: State) -> Iterator[float]:
+        for signal, now in zip(self.signals, state.signals, strict=True):
+            if 0 <= now.piece < len(signal.times) - 1:
+                yield now.start + signal.times[now.piece + 1]
+        for drive, one in zip(self.train.drives, state.drives, strict=True):
+            yield drives.stage_breaks(drive, one)
+
+    def _strikes(self, state: State) -> Iterator[float]:
+        """Times that leave no trace in the contact state: impulses, and decays that begin."""
+        for impulse in self.train.impulses:
+            yield impulse.time
+        for signal, now in zip(self.signals, state.signals, strict=True):
+            if signal.decay and now.piece >= 0:
+                yield now.start + signal.decay_start
 
     def react(self, mode: State, time: float, state: FloatArray, fired: int | None) -> Reaction:
         """What follows an event; see `train.react`."""
