@@ -1,5 +1,7 @@
 """The matrix exponential, batched, without eigenvectors: they do not exist where a mass flies freely."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,6 +9,8 @@ FloatArray = NDArray[np.float64]
 
 DEGREE = 18
 """Degree of the Taylor polynomial; at a norm of 1 its remainder is below 1e-17."""
+_ORDERS = np.arange(1, DEGREE + 1)
+_FACTORIALS = [float(math.factorial(k)) for k in range(DEGREE + 1)]
 
 
 def balance(matrix: FloatArray, sweeps: int = 4) -> FloatArray:
@@ -59,11 +63,17 @@ def _usual(size: FloatArray, i: int) -> float:
 
 def powers(matrix: FloatArray, degree: int = DEGREE) -> FloatArray:
     """A^k/k! for k = 0 .. degree, shape (degree + 1, n, n)."""
-    stack = np.empty((degree + 1, *matrix.shape))
-    stack[0] = np.eye(len(matrix))
-    for k in range(1, degree + 1):
-        np.matmul(stack[k - 1], matrix / k, out=stack[k])
-    return stack
+    n, exponent = len(matrix), math.frexp(float(np.abs(matrix).max(initial=0.0)))[1]
+    stack = np.empty((degree + 1, n, n))
+    stack[0], stack[1] = np.eye(n), np.ldexp(matrix, -exponent)  # of size 1, or high powers overflow
+    filled = 1
+    while filled < degree:
+        more = min(filled, degree - filled)
+        np.matmul(stack[1 : more + 1], stack[filled], out=stack[filled + 1 : filled + more + 1])
+        filled += more
+    orders = np.arange(degree + 1)[:, None, None]
+    result: FloatArray = np.ldexp(stack / np.array(_FACTORIALS[: degree + 1])[:, None, None], exponent * orders)
+    return result
 
 
 def from_powers(stack: FloatArray, norm: float, times: FloatArray) -> FloatArray:
@@ -76,15 +86,29 @@ def from_powers(stack: FloatArray, norm: float, times: FloatArray) -> FloatArray
 
     **Error** rounding of the largest entry met on the way.
     """
-    longest = norm * float(np.abs(times).max(initial=0.0))
-    squarings = max(0, int(np.ceil(np.log2(longest)))) if longest > 1 else 0
-    terms = (times / 2.0**squarings)[:, None] ** np.arange(1, len(stack))
+    squarings = _squarings(norm * float(np.abs(times).max(initial=0.0)))
     n = stack.shape[1]
+    terms = (times / 2.0**squarings)[:, None] ** _ORDERS[: len(stack) - 1]
     change: FloatArray = (terms @ stack[1:].reshape(len(stack) - 1, n * n)).reshape(len(times), n, n)
     for _ in range(squarings):
         change = 2 * change + change @ change
-    change[:, np.arange(n), np.arange(n)] += 1.0
+    change.reshape(len(times), n * n)[:, :: n + 1] += 1.0
     return change
+
+
+def change_from_powers(stack: FloatArray, norm: float, time: float) -> FloatArray:
+    """exp(A t) - I at one time, shape (n, n); see `from_powers`."""
+    squarings = _squarings(norm * abs(time))
+    n = stack.shape[1]
+    terms = (time / 2.0**squarings) ** _ORDERS[: len(stack) - 1]
+    change: FloatArray = (terms @ stack[1:].reshape(len(stack) - 1, n * n)).reshape(n, n)
+    for _ in range(squarings):
+        change = 2 * change + change @ change
+    return change
+
+
+def _squarings(size: float) -> int:
+    return math.ceil(math.log2(size)) if size > 1 else 0
 
 
 def expm(matrix: FloatArray) -> FloatArray:

@@ -30,21 +30,22 @@ class Extremes:
 
     def see(self, starts: FloatArray, lengths: FloatArray, watch: FloatArray) -> None:
         """Take in signals at the nodes of panels, shape (panels, nodes, signals)."""
-        values = self.sign * watch
-        heights = values.max(axis=1)
+        heights, depths = watch.max(axis=1), watch.min(axis=1)
+        if self.sign < 0:
+            heights, depths = -depths, -heights
         peak = heights.max(axis=0)
         better = np.flatnonzero(peak > self.best)
         where = heights[:, better].argmax(axis=0)
-        place = panels.NODES[values[where, :, better].argmax(axis=1)]
+        place = panels.NODES[(self.sign * watch[where, :, better]).argmax(axis=1)]
         self.at[better] = starts[where] + lengths[where] * place
         self.best[better] = peak[better]
-        steps = np.abs(np.diff(values, axis=1)).max(axis=1)
-        index, signal = np.nonzero(heights + _OVERSHOOT * steps > self.best)
-        nodes = values[index, :, signal]
+        index, signal = np.nonzero(heights + _OVERSHOOT * (heights - depths) > self.best)
+        nodes = self.sign * watch[index, :, signal]
+        steps = np.abs(np.diff(nodes, axis=1)).max(axis=1)
+        limits = heights[index, signal] + _OVERSHOOT * steps
         ends, highest = nodes @ panels.SLOPES[[0, -1]].T, nodes.argmax(axis=1)
         outside = (highest == panels.COUNT - 1) & (ends[:, 1] >= 0) | (highest == 0) & (ends[:, 0] <= 0)
-        limits = heights[index, signal] + _OVERSHOOT * steps[index, signal]
-        kept = ~outside & (steps[index, signal] > 0)
+        kept = ~outside & (steps > 0) & (limits > self.best[signal])
         self._signals.append(signal[kept])
         self._limits.append(limits[kept])
         self._nodes.append(nodes[kept])

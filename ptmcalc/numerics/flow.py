@@ -1,11 +1,14 @@
 """The exact motion between two events: a linear system, and what is read from it at the nodes of panels."""
 
-from dataclasses import dataclass, field
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.numerics import expm
+from ptmcalc.numerics import expm, panels
+from ptmcalc.numerics.motion import DUST, NOISE
 from ptmcalc.numerics.panels import COUNT, NODES, FloatArray
 
 RESOLVED = 0.8
@@ -16,96 +19,166 @@ _WELL_POSED = 1e-6
 WORTH_A_LOOK = 400.0
 """Radians to come of the fastest component above which it is worth asking whether it has faded."""
 MOST_PANELS = 32
+_FEW = 4
+_ROUNDING = 1e-12
+_POWER_OF_TWO = 0.5
+"""What `frexp` leaves of one."""
 
-Readings = NDArray[np.float64]
-"""Signals at the nodes of panels, shape (panels, nodes, signals)."""
 
-
-@dataclass(slots=True)
 class Flow:
-    """z' = A z with the signals R z that are watched, in variables of like size.
+    """z' = A z with the guards G z that keep it and the signals R z that are watched, in variables of like size.
 
-    `rate` is A, shape (n, n); `rows` is R, shape (signals, n); both in the scaled variables z/scale.
+    `rate` is A, shape (n, n); `guards` is G, shape (guards, n); `watch` is R, shape (signals, n). The first `own`
+    states are the system's own; those after them are inputs, which depend on none of them, the fastest with the
+    frequency `input_speed` [rad/s].
     """
 
-    rate: FloatArray
-    rows: FloatArray
-    own: int
-    """how many states are the system's own; those after them are inputs, which depend on none of them"""
-    input_speed: float = 0.0
-    """frequency of the fastest input [rad/s]"""
-    faded: float = FADED
-    resolved: float = RESOLVED
-    worth: float = WORTH_A_LOOK
-    _stack: FloatArray = field(init=False)
-    _norm: float = field(init=False)
-    _largest: float = field(init=False)
-    _components: "_Components | None" = field(init=False, default=None)
-    magnitudes: FloatArray = field(init=False)
-    """|R|"""
-    _chunks: dict[float, "_Chunk"] = field(init=False, default_factory=dict)
+    def __init__(
+        self,
+        rate: FloatArray,
+        guards: FloatArray,
+        watch: FloatArray,
+        own: int,
+        input_speed: float = 0.0,
+        faded: float = FADED,
+        resolved: float = RESOLVED,
+        worth: float = WORTH_A_LOOK,
+    ) -> None:
+        self.rate, self.guards, self.watch, self.own = rate, guards, watch, own
+        self.input_speed, self.faded, self.resolved, self.worth = input_speed, faded, resolved, worth
+        slopes = guards @ rate
+        self._ladder = np.concatenate([guards, slopes, slopes @ rate])
+        self._magnitudes = np.abs(guards)
+        self._own_magnitudes = self._magnitudes[:, :own].sum(axis=1)
+        self._stack = expm.powers(rate)
+        self._norm = float(np.abs(rate).sum(axis=0).max(initial=0.0))
+        speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
+        self._largest = max(float(speeds.max(initial=0.0)), input_speed)
+        self._components: _Components | None = None
+        self._chunks: dict[float, Chunk] = {}
 
-    def __post_init__(self) -> None:
-        self._stack = expm.powers(self.rate)
-        self._norm = float(np.abs(self.rate).sum(axis=0).max(initial=0.0))
-        self.magnitudes = np.abs(self.rows)
-        speeds = np.abs(np.linalg.eigvals(self.rate[: self.own, : self.own]))
-        self._largest = max(float(speeds.max(initial=0.0)), self.input_speed)
-
-    def panel(self, state: FloatArray, longest: float, sizes: FloatArray) -> float:
+    def panel(self, state: FloatArray, longest: float, sizes: Callable[[], FloatArray]) -> float:
         """A panel that resolves every component still seen in a signal of these sizes: a power of two in seconds, or
         the longest one that is asked for."""
         fastest = self._largest
         if fastest * longest > self.worth:
+            rows = np.concatenate([self.guards, self.watch])
             if self._components is None:
-                self._components = _components(self.rate, self.rows, self.own)
-            limits = self.faded * np.maximum(self.magnitudes @ np.abs(state), sizes)
-            fastest = max(self._components.fastest(state, limits), self.input_speed)
+                self._components = _components(self.rate, rows, self.own)
+            seen = np.abs(rows) @ np.abs(state)
+            np.maximum(seen[len(self.guards) :], sizes(), out=seen[len(self.guards) :])
+            fastest = max(self._components.fastest(state, self.faded * seen), self.input_speed)
         if fastest * longest <= self.resolved:
             return longest
-        return float(2.0 ** np.floor(np.log2(self.resolved / fastest)))
+        return 2.0 ** math.floor(math.log2(self.resolved / fastest))
 
     def moved(self, state: FloatArray, time: float) -> FloatArray:
         """The state after some time, exact."""
-        result: FloatArray = expm.from_powers(self._stack, self._norm, np.array([time]))[0] @ state
+        result: FloatArray = state + expm.change_from_powers(self._stack, self._norm, time) @ state
         return result
 
-    def read(self, state: FloatArray, panel: float, count: int) -> tuple[Readings, FloatArray]:
-        """Signals at the nodes of panels in a row, and the states at their starts and at the last end."""
+    def at_nodes(self, panels: FloatArray) -> FloatArray:
+        """exp(A t) at the nodes of panels of some lengths, shape (panels, nodes, n, n)."""
+        n = len(self.rate)
+        times = (panels[:, None] * NODES).ravel()
+        return expm.from_powers(self._stack, self._norm, times).reshape(len(panels), COUNT, n, n)
+
+    def chunk(self, panel: float) -> "Chunk":
+        """What panels of one length need; kept where the length can come again."""
         chunk = self._chunks.get(panel)
         if chunk is None:
-            chunk = self._chunks[panel] = _Chunk(self.at_nodes(panel))
-        starts = chunk.starts(state, count)
-        readings = (starts[:-1] @ chunk.seen(self.rows)).reshape(count, COUNT, len(self.rows))
-        return readings, starts
+            chunk = Chunk(self.at_nodes(np.array([panel]))[0], self.guards)
+            if math.frexp(panel)[0] == _POWER_OF_TWO:
+                self._chunks[panel] = chunk
+        return chunk
 
-    def read_once(self, state: FloatArray, panel: float) -> tuple[Readings, FloatArray]:
-        """Signals at the nodes of one panel of any length, and the state at its end."""
-        nodes = self.at_nodes(panel) @ state
-        return (nodes @ self.rows.T)[None], nodes[-1]
+    def keeps(self, panel: float) -> bool:
+        """Whether what panels of a length need is at hand."""
+        return panel in self._chunks
 
-    def at_nodes(self, panel: float) -> FloatArray:
-        return expm.from_powers(self._stack, self._norm, panel * NODES)
+    # -- guards -------------------------------------------------------------------------------------------------
+
+    def guard(self, index: int, state: FloatArray) -> tuple[float, float]:
+        """A guard and its slope."""
+        count = len(self.guards)
+        value, slope = (self._ladder[index : 2 * count : count] @ state).tolist()
+        return value, slope
+
+    def on(self, index: int, state: FloatArray) -> FloatArray:
+        """A state at a guard's root, put onto the guard itself to the last digit: what follows starts from 0."""
+        row = self.guards[index]
+        own = row[: self.own]
+        size = float(own @ own)
+        if not size:
+            return state
+        move = own * (float(row @ state) / size)
+        if np.abs(move).max() > _ROUNDING * np.abs(state).max():
+            return state
+        result = state.copy()
+        result[: self.own] -= move
+        return result
+
+    def noise(self, states: FloatArray) -> FloatArray:
+        """Rounding of the guards along states, shape (guards,)."""
+        largest = np.abs(states).max(axis=0)
+        dust = DUST * float(largest[: self.own].max(initial=0.0))
+        result: FloatArray = NOISE * (self._magnitudes @ largest) + dust * self._own_magnitudes
+        return result
+
+    def soonest(self, state: FloatArray) -> float:
+        """Time in which a guard that starts at 0 and rises could be back, g = g' t + g'' t^2/2."""
+        count = len(self.guards)
+        found = (self._ladder @ state).tolist()
+        noise = (NOISE * (self._magnitudes @ np.abs(state))).tolist()
+        back = (
+            -4 * slope / bend
+            for value, slope, bend, least in zip(
+                found[:count], found[count : 2 * count], found[2 * count :], noise, strict=True
+            )
+            if slope > 0 > bend and abs(value) <= least
+        )
+        return min(back, default=math.inf)
+
+    # -- what is watched ----------------------------------------------------------------------------------------
+
+    def seen(self, panel: float, states: FloatArray) -> FloatArray:
+        """Signals at the nodes of panels of one length from these states on, shape (panels, nodes, signals)."""
+        n, count = len(self.rate), len(states)
+        nodes = (self._chunks[panel].at_nodes.reshape(-1, n) @ states.T).reshape(COUNT, n, count)
+        result: FloatArray = np.matmul(nodes.transpose(2, 0, 1), self.watch.T)
+        return result
+
+    def seen_once(self, panels: FloatArray, states: FloatArray) -> FloatArray:
+        """The same of panels that have each its own length."""
+        nodes = np.matmul(self.at_nodes(panels), states[:, None, :, None])[..., 0]
+        result: FloatArray = np.matmul(nodes, self.watch.T)
+        return result
 
 
-@dataclass(slots=True)
-class _Chunk:
+class Chunk:
     """What panels of one length need: the exponentials at the nodes, and powers of the last one."""
 
-    at_nodes: FloatArray
-    _powers: FloatArray | None = None
-    _seen: FloatArray | None = None
+    def __init__(self, at_nodes: FloatArray, guards: FloatArray) -> None:
+        self.at_nodes, self.guards = at_nodes, guards
+        n = at_nodes.shape[1]
+        controls = panels.TO_BERNSTEIN @ np.matmul(guards, at_nodes).reshape(COUNT, -1)
+        self._controls = controls.reshape(-1, n).T
+        self._powers: FloatArray | None = None
 
-    def seen(self, rows: FloatArray) -> FloatArray:
-        """Maps the state at a panel's start to the signals at its nodes, shape (n, nodes*signals)."""
-        if self._seen is None:
-            self._seen = np.ascontiguousarray((rows @ self.at_nodes).reshape(-1, rows.shape[1]).T)
-        return self._seen
+    def controls(self, starts: FloatArray) -> FloatArray:
+        """Bernstein coefficients of the guards in panels from these states on, shape (panels, nodes, guards)."""
+        result: FloatArray = (starts @ self._controls).reshape(len(starts), COUNT, len(self.guards))
+        return result
+
+    def readings(self, start: FloatArray) -> FloatArray:
+        """Guards at the nodes of one panel, shape (nodes, guards)."""
+        result: FloatArray = (self.at_nodes @ start) @ self.guards.T
+        return result
 
     def starts(self, state: FloatArray, count: int) -> FloatArray:
         """States after 0 .. count panels, shape (count + 1, n)."""
         whole, n = self.at_nodes[-1], len(state)
-        if count < 4:
+        if count < _FEW:
             found = np.empty((count + 1, n))
             found[0] = state
             for k in range(count):

@@ -4,6 +4,8 @@ The same nodes carry the work integrals (exact to degree 15), the search for roo
 event, peak or joule is read from samples.
 """
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,10 +29,18 @@ _DERIVATIVE = np.zeros((COUNT, COUNT))
 _DERIVATIVE[:-1] = np.polynomial.chebyshev.chebder(np.eye(COUNT), scl=2.0)
 SLOPES = np.polynomial.chebyshev.chebvander(2 * NODES - 1, COUNT - 1) @ _DERIVATIVE @ TO_CHEBYSHEV
 """Derivatives at the nodes from node values, per panel."""
+_BINOMIALS = np.array([math.comb(COUNT - 1, k) for k in range(COUNT)], dtype=float)
+TO_BERNSTEIN = np.linalg.inv(
+    _BINOMIALS * NODES[:, None] ** np.arange(COUNT) * (1 - NODES[:, None]) ** np.arange(COUNT)[::-1]
+)
+"""Bernstein coefficients from node values: where none is negative, the polynomial is not."""
+_HALVES = (np.diff(NODES) / 2).tolist()
 _FINE = np.linspace(0.0, 1.0, 33)
 _ON_FINE = np.polynomial.chebyshev.chebvander(2 * _FINE - 1, COUNT - 1) @ TO_CHEBYSHEV
 _ORDERS = np.arange(COUNT)
 _MOST_STEPS = 100
+_UNSURE = 1e-11
+"""Depth of a dip, as a share of the largest node, that the polynomial does not show reliably."""
 _MOST_HALVINGS = 48
 
 
@@ -41,6 +51,26 @@ def at(coefficients: list[float], place: float) -> float:
     for c in coefficients[:0:-1]:
         b0, b1 = c + x * b0 - b1, b0
     return coefficients[0] + x / 2 * b0 - b1
+
+
+def crossing(nodes: FloatArray, noise: float) -> float | None:
+    """Where the polynomial through the nodes first goes below 0 by more than noise, or None.
+
+    Between the nodes where its sign changes, and at every dip between nodes that could reach 0 and come back.
+    """
+    values, slopes, places = nodes.tolist(), (SLOPES @ nodes).tolist(), NODES.tolist()
+    for i, half in enumerate(_HALVES):
+        if values[i + 1] < -noise:
+            left = places[i]
+            if values[i] <= noise:  # from 0 up and back: the root is behind the summit
+                left = above(nodes, left, places[i + 1])
+            return root(nodes, left, places[i + 1])
+        falling, rising = slopes[i], slopes[i + 1]
+        if falling < 0 < rising and min(values[i], values[i + 1]) < half * max(-falling, rising):
+            lowest, place = dip(nodes, places[i], places[i + 1])
+            if lowest < -noise - _UNSURE * max(map(abs, values)):
+                return root(nodes, places[i], place)
+    return None
 
 
 def root(nodes: FloatArray, left: float, right: float) -> float:

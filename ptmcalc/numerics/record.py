@@ -1,13 +1,16 @@
 """What a march finds on its way: extremes, works, events, and the signals over time where they are kept."""
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.numerics.extremes import Extremes
-from ptmcalc.numerics.panels import NODES, WEIGHTS, FloatArray
+from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
+
+if TYPE_CHECKING:
+    from ptmcalc.numerics.flow import Flow
 
 _BATCH = 512
 """Panels that are worked off at once."""
@@ -31,6 +34,15 @@ class Samples:
     values: list[FloatArray] = field(default_factory=list)
 
 
+class _Panels(NamedTuple):
+    """Panels in a row that wait to be read."""
+
+    flow: "Flow"
+    start: float
+    panel: float
+    states: FloatArray
+
+
 @dataclass(slots=True)
 class Record:
     """What a march found: extremes of the watched signals with their times, integrals of products, events."""
@@ -51,10 +63,10 @@ class Record:
     finished: bool = False
     events: list[Event] = field(default_factory=list)
     steps: int = 0
-    sizes: FloatArray = field(default_factory=lambda: np.empty(0))
-    """largest magnitude of each signal so far"""
-    _waiting: list[tuple[float, float, FloatArray]] = field(default_factory=list)
+    _waiting: list["_Panels"] = field(default_factory=list)
     _count: int = 0
+    _sizes: FloatArray = field(default_factory=lambda: np.empty(0))
+    _sized: int = 0
 
     @classmethod
     def starting(cls, first: FloatArray, products: NDArray[np.intp], keep: bool) -> "Record":
@@ -66,27 +78,35 @@ class Record:
             np.zeros(len(products)),
             Samples() if keep else None,
             last=first,
-            sizes=np.abs(first),
+            _sizes=np.abs(first),
         )
 
-    def see(self, start: float, panel: float, watch: FloatArray) -> None:
-        """Take in signals at the nodes of panels in a row, shape (panels, nodes, signals)."""
-        self.sizes = np.maximum(self.sizes, np.abs(watch).max(axis=(0, 1)))
-        self._waiting.append((start, panel, watch))
-        self._count += len(watch)
+    def see(self, flow: "Flow", start: float, panel: float, states: FloatArray) -> None:
+        """Take in panels in a row from these states on; they are read when many have come."""
+        self._waiting.append(_Panels(flow, start, panel, states))
+        self._count += len(states)
         if self._count >= _BATCH:
             self.settle()
+
+    def sizes(self) -> FloatArray:
+        """Largest magnitude of each signal so far, at the starts of panels."""
+        for waiting in self._waiting[self._sized :]:
+            found = np.abs(waiting.states @ waiting.flow.watch.T).max(axis=0)
+            self._sizes = np.maximum(self._sizes, found)
+        self._sized = len(self._waiting)
+        return self._sizes
 
     def settle(self) -> None:
         """Work off what waits: many panels at once cost little more than one."""
         if not self._waiting:
             return
-        counts = [len(watch) for _, _, watch in self._waiting]
-        watch = np.concatenate([watch for _, _, watch in self._waiting])
-        lengths = np.repeat([panel for _, panel, _ in self._waiting], counts)
-        starts = np.concatenate([start + panel * np.arange(len(part)) for start, panel, part in self._waiting])
+        counts = [len(waiting.states) for waiting in self._waiting]
+        lengths = np.repeat([waiting.panel for waiting in self._waiting], counts)
+        starts = np.concatenate([one.start + one.panel * np.arange(len(one.states)) for one in self._waiting])
+        watch = self._watched(lengths)
         self.top.see(starts, lengths, watch)
         self.bottom.see(starts, lengths, watch)
+        self._sizes = np.maximum(self.top.best, self.bottom.best)
         if len(self.products):
             power = watch[:, :, self.products[:, 0]] * watch[:, :, self.products[:, 1]]
             self.integrals += lengths @ (WEIGHTS @ power)
@@ -96,7 +116,23 @@ class Record:
             self.samples.times.append((starts[:, None] + lengths[:, None] * NODES).ravel())
             self.samples.values.append(watch.reshape(-1, watch.shape[2]))
         self._waiting.clear()
-        self._count = 0
+        self._count = self._sized = 0
+
+    def _watched(self, lengths: FloatArray) -> FloatArray:
+        """Signals at the nodes of all that waits, shape (panels, nodes, signals): all panels of a flow at once."""
+        alike: dict[tuple[Flow, float], tuple[list[int], list[FloatArray]]] = {}
+        place = 0
+        for waiting in self._waiting:
+            panel = waiting.panel if waiting.flow.keeps(waiting.panel) else 0.0
+            places, states = alike.setdefault((waiting.flow, panel), ([], []))
+            places.extend(range(place, place + len(waiting.states)))
+            states.append(waiting.states)
+            place += len(waiting.states)
+        watch = np.empty((place, COUNT, len(self.first)))
+        for (flow, panel), (places, states) in alike.items():
+            found = np.concatenate(states)
+            watch[places] = flow.seen(panel, found) if panel else flow.seen_once(lengths[places], found)
+        return watch
 
     def close(self) -> None:
         """Nothing more comes."""

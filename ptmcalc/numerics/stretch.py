@@ -30,13 +30,12 @@ class Piece:
 
     def __init__(self, motion: Motion, system: System, resolved: float) -> None:
         self.motion, self.system, self.resolved = motion, system, resolved
-        self.guards = len(motion.guards)
         scale = system.scale
         n = len(scale)
-        rows = np.vstack([motion.guards, motion.watch])
         self.rate = motion.rate * scale / scale[:, None]
         self.gain = motion.gain / scale[:, None]
-        self.rows, self.direct = rows[:, :n] * scale, rows[:, n:]
+        self.guards, self.guards_direct = motion.guards[:, :n] * scale, motion.guards[:, n:]
+        self.watch, self.watch_direct = motion.watch[:, :n] * scale, motion.watch[:, n:]
         self.arguments = [curve.rows * scale for curve in motion.curves]
         self.reach = np.inf
         self.entry = np.inf
@@ -50,7 +49,7 @@ class Piece:
         flow = self._flows.get("linear")
         if flow is None:
             flow = self._flows["linear"] = Flow(
-                self.rate, self.rows, self.system.own, self.system.input_speed, resolved=self.resolved
+                self.rate, self.guards, self.watch, self.system.own, self.system.input_speed, resolved=self.resolved
             )
         return flow
 
@@ -122,19 +121,20 @@ class _Stretch:
         self.sizes = np.array([[curve.size] for curve in curves])
         rate = np.zeros((n + count * COUNT, n + count * COUNT))
         rate[:n, :n] = piece.rate
-        rows = np.zeros((len(piece.rows), len(rate)))
-        rows[:, :n] = piece.rows
+        outputs = [(piece.guards, piece.guards_direct), (piece.watch, piece.watch_direct)]
+        guards, watch = (np.hstack([rows, np.zeros((len(rows), count * COUNT))]) for rows, _ in outputs)
         for index, slope in enumerate(slopes):
             first = n + index * COUNT
             rate[:n, :n] += np.outer(piece.gain[:, index], slope * piece.arguments[index][0])
             rate[:n, first] = piece.gain[:, index]
-            rows[:, :n] += np.outer(piece.direct[:, index], slope * piece.arguments[index][0])
-            rows[:, first] = piece.direct[:, index]
+            for rows, (_, direct) in zip((guards, watch), outputs, strict=True):
+                rows[:, :n] += np.outer(direct[:, index], slope * piece.arguments[index][0])
+                rows[:, first] = direct[:, index]
             chain = np.arange(first, first + COUNT - 1)
             rate[chain, chain + 1] = 1 / span
         faded = max(FADED, _FADED_SHARE * tolerance)  # a curve joined within the tolerance keeps ringing at its size
-        self.flow = Flow(rate, rows, piece.system.own, piece.system.input_speed, faded, piece.resolved, _WORTH)
-        nodes = self.flow.at_nodes(span)
+        self.flow = Flow(rate, guards, watch, piece.system.own, piece.system.input_speed, faded, piece.resolved, _WORTH)
+        nodes = self.flow.chunk(span).at_nodes
         arguments = np.vstack(piece.arguments)
         self.seen_state = (arguments @ nodes[:, :n, :n]).transpose(1, 0, 2).reshape(-1, n)
         carried = (arguments @ nodes[:, :n, n:]).reshape(COUNT, -1, count, COUNT) @ _MONOMIALS
