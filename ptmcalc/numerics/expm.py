@@ -10,7 +10,7 @@ FloatArray = NDArray[np.float64]
 DEGREE = 18
 """Degree of the Taylor polynomial; at a norm of 1 its remainder is below 1e-17."""
 _ORDERS = np.arange(1, DEGREE + 1)
-_FACTORIALS = [float(math.factorial(k)) for k in range(DEGREE + 1)]
+_FACTORIALS = np.cumprod(_ORDERS, dtype=float)[:, None]
 
 
 def balance(matrix: FloatArray, sweeps: int = 4) -> FloatArray:
@@ -61,54 +61,52 @@ def _usual(size: FloatArray, i: int) -> float:
     return largest if largest > 0 else 1.0
 
 
-def powers(matrix: FloatArray, degree: int = DEGREE) -> FloatArray:
-    """A^k/k! for k = 0 .. degree, shape (degree + 1, n, n)."""
-    n, exponent = len(matrix), math.frexp(float(np.abs(matrix).max(initial=0.0)))[1]
-    stack = np.empty((degree + 1, n, n))
-    stack[0], stack[1] = np.eye(n), np.ldexp(matrix, -exponent)  # of size 1, or high powers overflow
-    filled = 1
-    while filled < degree:
-        more = min(filled, degree - filled)
-        np.matmul(stack[1 : more + 1], stack[filled], out=stack[filled + 1 : filled + more + 1])
-        filled += more
-    orders = np.arange(degree + 1)[:, None, None]
-    result: FloatArray = np.ldexp(stack / np.array(_FACTORIALS[: degree + 1])[:, None, None], exponent * orders)
-    return result
+class Powers:
+    """The powers of a matrix over their factorials, for its exponential at many times.
 
-
-def from_powers(stack: FloatArray, norm: float, times: FloatArray) -> FloatArray:
-    """exp(A t) at several times from the powers of A, shape (times, n, n).
-
-        exp(A t) - I = D,   D_0 = sum_k>0 (A t/2^s)^k/k!,   D <- 2 D + D^2  s times,   norm t_max/2^s <= 1
+        exp(A t) - I = D,   D_0 = sum_k>0 (A t/2^s)^k/k!,   D <- 2 D + D^2  s times,   |A| t_max/2^s <= 1
 
     The difference from I is squared, not the whole: what moves slowly beside something that fades fast is lost in the
     last digits of I + D_0 otherwise (4e-9 at rates 1e9 apart).
 
     **Error** rounding of the largest entry met on the way.
     """
-    squarings = _squarings(norm * float(np.abs(times).max(initial=0.0)))
-    n = stack.shape[1]
-    terms = (times / 2.0**squarings)[:, None] ** _ORDERS[: len(stack) - 1]
-    change: FloatArray = (terms @ stack[1:].reshape(len(stack) - 1, n * n)).reshape(len(times), n, n)
-    for _ in range(squarings):
-        change = 2 * change + change @ change
-    change.reshape(len(times), n * n)[:, :: n + 1] += 1.0
-    return change
 
+    def __init__(self, matrix: FloatArray) -> None:
+        n = len(matrix)
+        self.norm = float(np.abs(matrix).sum(axis=0).max(initial=0.0))
+        self._unit = 2.0 ** math.frexp(self.norm)[1] if self.norm else 1.0  # or high powers overflow
+        stack = np.empty((DEGREE, n, n))
+        stack[0], filled = matrix / self._unit, 1
+        while filled < DEGREE:
+            more = min(filled, DEGREE - filled)
+            np.matmul(stack[:more], stack[filled - 1], out=stack[filled : filled + more])
+            filled += more
+        self._stack = stack.reshape(DEGREE, n * n) / _FACTORIALS
+        self._n = n
 
-def change_from_powers(stack: FloatArray, norm: float, time: float) -> FloatArray:
-    """exp(A t) - I at one time, shape (n, n); see `from_powers`."""
-    squarings = _squarings(norm * abs(time))
-    n = stack.shape[1]
-    terms = (time / 2.0**squarings) ** _ORDERS[: len(stack) - 1]
-    change: FloatArray = (terms @ stack[1:].reshape(len(stack) - 1, n * n)).reshape(n, n)
-    for _ in range(squarings):
-        change = 2 * change + change @ change
-    return change
+    def at(self, times: FloatArray) -> FloatArray:
+        """exp(A t) at several times, shape (times, n, n)."""
+        n, squarings = self._n, self._squarings(float(np.abs(times).max(initial=0.0)))
+        terms = (times * (self._unit / 2.0**squarings))[:, None] ** _ORDERS
+        change: FloatArray = (terms @ self._stack).reshape(len(times), n, n)
+        for _ in range(squarings):
+            change = 2 * change + change @ change
+        change.reshape(len(times), n * n)[:, :: n + 1] += 1.0
+        return change
 
+    def change(self, time: float) -> FloatArray:
+        """exp(A t) - I at one time, shape (n, n)."""
+        squarings = self._squarings(abs(time))
+        terms = (time * (self._unit / 2.0**squarings)) ** _ORDERS
+        change: FloatArray = (terms @ self._stack).reshape(self._n, self._n)
+        for _ in range(squarings):
+            change = 2 * change + change @ change
+        return change
 
-def _squarings(size: float) -> int:
-    return math.ceil(math.log2(size)) if size > 1 else 0
+    def _squarings(self, longest: float) -> int:
+        size = self.norm * longest
+        return math.ceil(math.log2(size)) if size > 1 else 0
 
 
 def expm(matrix: FloatArray) -> FloatArray:
@@ -120,6 +118,5 @@ def expm(matrix: FloatArray) -> FloatArray:
     """
     scale = balance(matrix)
     balanced = matrix * scale / scale[:, None]
-    norm = float(np.abs(balanced).sum(axis=0).max(initial=0.0))
-    result: FloatArray = from_powers(powers(balanced), norm, np.ones(1))[0] * scale[:, None] / scale
+    result: FloatArray = Powers(balanced).at(np.ones(1))[0] * scale[:, None] / scale
     return result

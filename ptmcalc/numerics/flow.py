@@ -30,7 +30,7 @@ class Flow:
 
     `rate` is A, shape (n, n); `guards` is G, shape (guards, n); `watch` is R, shape (signals, n). The first `own`
     states are the system's own; those after them are inputs, which depend on none of them, the fastest with the
-    frequency `input_speed` [rad/s].
+    frequency `input_speed` [rad/s]; `largest` is that of the fastest own component, where it is known.
     """
 
     def __init__(
@@ -43,6 +43,7 @@ class Flow:
         faded: float = FADED,
         resolved: float = RESOLVED,
         worth: float = WORTH_A_LOOK,
+        largest: float | None = None,
     ) -> None:
         self.rate, self.guards, self.watch, self.own = rate, guards, watch, own
         self.input_speed, self.faded, self.resolved, self.worth = input_speed, faded, resolved, worth
@@ -50,10 +51,8 @@ class Flow:
         self._ladder = np.concatenate([guards, slopes, slopes @ rate])
         self._magnitudes = np.abs(guards)
         self._own_magnitudes = self._magnitudes[:, :own].sum(axis=1)
-        self._stack = expm.powers(rate)
-        self._norm = float(np.abs(rate).sum(axis=0).max(initial=0.0))
-        speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
-        self._largest = max(float(speeds.max(initial=0.0)), input_speed)
+        self._powers = expm.Powers(rate)
+        self._largest = max(fastest(rate[:own, :own]) if largest is None else largest, input_speed)
         self._components: _Components | None = None
         self._chunks: dict[float, Chunk] = {}
 
@@ -74,14 +73,14 @@ class Flow:
 
     def moved(self, state: FloatArray, time: float) -> FloatArray:
         """The state after some time, exact."""
-        result: FloatArray = state + expm.change_from_powers(self._stack, self._norm, time) @ state
+        result: FloatArray = state + self._powers.change(time) @ state
         return result
 
     def at_nodes(self, panels: FloatArray) -> FloatArray:
         """exp(A t) at the nodes of panels of some lengths, shape (panels, nodes, n, n)."""
         n = len(self.rate)
         times = (panels[:, None] * NODES).ravel()
-        return expm.from_powers(self._stack, self._norm, times).reshape(len(panels), COUNT, n, n)
+        return self._powers.at(times).reshape(len(panels), COUNT, n, n)
 
     def chunk(self, panel: float) -> "Chunk":
         """What panels of one length need; kept where the length can come again."""
@@ -153,6 +152,11 @@ class Flow:
         nodes = np.matmul(self.at_nodes(panels), states[:, None, :, None])[..., 0]
         result: FloatArray = np.matmul(nodes, self.watch.T)
         return result
+
+
+def fastest(rate: FloatArray) -> float:
+    """Frequency of the fastest component [rad/s]."""
+    return float(np.abs(np.linalg.eigvals(rate)).max(initial=0.0))
 
 
 class Chunk:

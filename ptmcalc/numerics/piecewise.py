@@ -114,12 +114,12 @@ class _March:
             state, fired = self._cross(record, piece.linear, record.state / scale, stop)
             record.state = state * scale
             return fired
-        self.reach, entering = min(self.reach, piece.entry), True
+        self.reach, entering = (piece.entry if math.isfinite(piece.entry) else self.reach), True
         while record.time < stop:
             flow, state, span = piece.stretch(record.state / scale, self.reach, stop - record.time, self.tolerance)
             self.reach = piece.reach
             if entering:
-                piece.entry, entering = 2 * span, False
+                piece.entry, entering = piece.reach, False
             until = min(stop, record.time + span)
             state, fired = self._cross(record, flow, state, until)
             record.state = state[: len(scale)] * scale

@@ -114,17 +114,26 @@ class TestSeveralTimes:
     def test_are_those_of_one_at_a_time(self) -> None:
         rng = np.random.default_rng(8)
         matrix, times = rng.normal(size=(4, 4)), np.array([0.0, 1e-9, 0.3, -0.7, 5.0])
-        norm = float(np.abs(matrix).sum(axis=0).max())
-        found = expm.from_powers(expm.powers(matrix), norm, times)
+        powers = expm.Powers(matrix)
+        found, norm = powers.at(times), powers.norm
         for time, one in zip(times, found, strict=True):
             exact = pade(matrix * time)
             assert np.abs(one - exact).max() <= 2e-14 * np.abs(exact).max() * max(1.0, norm * abs(time))
 
     def test_no_time_is_the_unit_matrix(self) -> None:
-        found = expm.from_powers(expm.powers(np.full((2, 2), 7.0)), 14.0, np.zeros(3))
+        found = expm.Powers(np.full((2, 2), 7.0)).at(np.zeros(3))
         assert np.array_equal(found, np.broadcast_to(np.eye(2), (3, 2, 2)))
 
-    def test_powers_over_factorials(self) -> None:
-        stack = expm.powers(np.array([[0.0, 2.0], [2.0, 0.0]]), 4)
-        assert np.array_equal(stack[2], 2 * np.eye(2))
-        assert stack[3][0, 1] == pytest.approx(8 / 6, rel=1e-15)
+    @pytest.mark.parametrize("time", [0.0, 1e-9, 0.3, -0.7, 5.0])
+    def test_the_change_at_one_time_is_what_is_beyond_the_unit_matrix(self, time: float) -> None:
+        powers = expm.Powers(np.random.default_rng(9).normal(size=(4, 4)))
+        whole = powers.at(np.array([time]))[0]
+        assert np.abs(np.eye(4) + powers.change(time) - whole).max() <= 1e-15 * np.abs(whole).max()
+
+    def test_a_small_change_keeps_its_digits(self) -> None:
+        """exp(-1e-20) - 1, of which the whole shows nothing."""
+        assert expm.Powers(np.array([[-1e-5]])).change(1e-15)[0, 0] == pytest.approx(-1e-20, rel=1e-15)
+
+    def test_large_entries_do_not_overflow(self) -> None:
+        found = expm.Powers(np.array([[0.0, 1e200], [0.0, 0.0]])).at(np.array([1e-190]))
+        assert found[0].tolist() == [[1.0, pytest.approx(1e10, rel=1e-15)], [0.0, 1.0]]
