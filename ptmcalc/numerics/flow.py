@@ -30,7 +30,7 @@ class Flow:
 
     `rate` is A, shape (n, n); `guards` is G, shape (guards, n); `watch` is R, shape (signals, n). The first `own`
     states are the system's own; those after them are inputs, which depend on none of them, the fastest with the
-    frequency `input_speed` [rad/s]; `largest` is that of the fastest own component, where it is known.
+    frequency `input_speed` [rad/s]; the last `carried` of them are coefficients, of any size.
     """
 
     def __init__(
@@ -43,33 +43,37 @@ class Flow:
         faded: float = FADED,
         resolved: float = RESOLVED,
         worth: float = WORTH_A_LOOK,
-        largest: float | None = None,
+        carried: int = 0,
     ) -> None:
         self.rate, self.guards, self.watch, self.own = rate, guards, watch, own
         self.input_speed, self.faded, self.resolved, self.worth = input_speed, faded, resolved, worth
+        self.plain = len(rate) - carried
+        self.unit = resolved / RESOLVED  # a lattice of its own for every `refined`: two runs share no panel
         slopes = guards @ rate
         self._ladder = np.concatenate([guards, slopes, slopes @ rate])
         self._magnitudes = np.abs(guards)
         self._own_magnitudes = self._magnitudes[:, :own].sum(axis=1)
         self._powers = expm.Powers(rate)
-        self._largest = max(fastest(rate[:own, :own]) if largest is None else largest, input_speed)
+        speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
+        self._largest = max(float(speeds.max(initial=0.0)), input_speed)
         self._components: _Components | None = None
         self._chunks: dict[float, Chunk] = {}
 
     def panel(self, state: FloatArray, longest: float, sizes: Callable[[], FloatArray]) -> float:
-        """A panel that resolves every component still seen in a signal of these sizes: a power of two in seconds, or
-        the longest one that is asked for."""
+        """A panel that resolves every component still seen in a signal of these sizes: a power of two in units, or the
+        longest one that is asked for."""
         fastest = self._largest
         if fastest * longest > self.worth:
-            rows = np.concatenate([self.guards, self.watch])
             if self._components is None:
-                self._components = _components(self.rate, rows, self.own)
-            seen = np.abs(rows) @ np.abs(state)
-            np.maximum(seen[len(self.guards) :], sizes(), out=seen[len(self.guards) :])
-            fastest = max(self._components.fastest(state, self.faded * seen), self.input_speed)
+                self._components = _components(self.rate, np.concatenate([self.guards, self.watch]), self.own)
+            fastest = max(self._components.fastest(state, self.faded, sizes()), self.input_speed)
         if fastest * longest <= self.resolved:
             return longest
-        return 2.0 ** math.floor(math.log2(self.resolved / fastest))
+        return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / fastest))
+
+    def lattice(self, panel: float) -> float:
+        """The shortest panel not below this one of those that can come again."""
+        return self.unit * 2.0 ** math.ceil(math.log2(panel / self.unit))
 
     def moved(self, state: FloatArray, time: float) -> FloatArray:
         """The state after some time, exact."""
@@ -87,7 +91,7 @@ class Flow:
         chunk = self._chunks.get(panel)
         if chunk is None:
             chunk = Chunk(self.at_nodes(np.array([panel]))[0], self.guards)
-            if math.frexp(panel)[0] == _POWER_OF_TWO:
+            if math.frexp(panel / self.unit)[0] == _POWER_OF_TWO:
                 self._chunks[panel] = chunk
         return chunk
 
@@ -105,13 +109,12 @@ class Flow:
 
     def on(self, index: int, state: FloatArray) -> FloatArray:
         """A state at a guard's root, put onto the guard itself to the last digit: what follows starts from 0."""
-        row = self.guards[index]
-        own = row[: self.own]
+        own = self.guards[index, : self.own]
         size = float(own @ own)
         if not size:
             return state
-        move = own * (float(row @ state) / size)
-        if np.abs(move).max() > _ROUNDING * np.abs(state).max():
+        move = own * (float(self.guards[index] @ state) / size)
+        if np.abs(move).max() > _ROUNDING * np.abs(state[: self.plain]).max():
             return state
         result = state.copy()
         result[: self.own] -= move
@@ -141,22 +144,15 @@ class Flow:
     # -- what is watched ----------------------------------------------------------------------------------------
 
     def seen(self, panel: float, states: FloatArray) -> FloatArray:
-        """Signals at the nodes of panels of one length from these states on, shape (panels, nodes, signals)."""
-        n, count = len(self.rate), len(states)
-        nodes = (self._chunks[panel].at_nodes.reshape(-1, n) @ states.T).reshape(COUNT, n, count)
-        result: FloatArray = np.matmul(nodes.transpose(2, 0, 1), self.watch.T)
+        """Signals at the nodes of panels of one length from these states on, shape (nodes, panels, signals)."""
+        result: FloatArray = np.matmul(states, self._chunks[panel].at_nodes.transpose(0, 2, 1)) @ self.watch.T
         return result
 
     def seen_once(self, panels: FloatArray, states: FloatArray) -> FloatArray:
         """The same of panels that have each its own length."""
         nodes = np.matmul(self.at_nodes(panels), states[:, None, :, None])[..., 0]
-        result: FloatArray = np.matmul(nodes, self.watch.T)
+        result: FloatArray = nodes.transpose(1, 0, 2) @ self.watch.T
         return result
-
-
-def fastest(rate: FloatArray) -> float:
-    """Frequency of the fastest component [rad/s]."""
-    return float(np.abs(np.linalg.eigvals(rate)).max(initial=0.0))
 
 
 class Chunk:
@@ -212,12 +208,17 @@ class _Components:
     shares: NDArray[np.complex128]
     shapes: FloatArray
     posed: NDArray[np.bool_]
+    magnitudes: FloatArray
+    """of what the guards and, last, the signals add up"""
 
-    def fastest(self, state: FloatArray, limits: FloatArray) -> float:
-        """Speed of the fastest component of a state that any signal sees above its limit."""
+    def fastest(self, state: FloatArray, faded: float, sizes: FloatArray) -> float:
+        """Speed of the fastest component of a state that any guard or signal sees as more than a share of its size."""
         if not len(self.speeds):
             return 0.0
-        seen = np.abs(self.shares @ state)[:, None] * self.shapes > limits + 1e-290
+        limits = self.magnitudes @ np.abs(state)
+        watched = limits[len(limits) - len(sizes) :]
+        np.maximum(watched, sizes, out=watched)
+        seen = np.abs(self.shares @ state)[:, None] * self.shapes > faded * limits + 1e-290
         there = ~self.posed | seen.any(axis=1)
         return float(self.speeds[there].max(initial=0.0))
 
@@ -239,4 +240,5 @@ def _components(rate: FloatArray, rows: FloatArray, own: int) -> _Components:
     gap = values[:, None, None] * np.eye(len(inputs)) - inputs
     gap[~posed] = np.eye(len(inputs))
     beyond = np.linalg.solve(gap.transpose(0, 2, 1), (left @ effect)[:, :, None])[:, :, 0]
-    return _Components(np.abs(values), np.hstack([left, beyond]), np.abs(rows[:, :own] @ right).T, posed)
+    shapes = np.abs(rows[:, :own] @ right).T
+    return _Components(np.abs(values), np.hstack([left, beyond]), shapes, posed, np.abs(rows))

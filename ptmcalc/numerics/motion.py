@@ -1,6 +1,6 @@
 """What is propagated: the equations of one mode, and the system that has them."""
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
@@ -47,10 +47,14 @@ class Motion:
     guards: FloatArray
     watch: FloatArray
     curves: tuple[Curve, ...] = ()
+    whole: FloatArray = field(init=False)
+    guard_sizes: FloatArray = field(init=False)
     ladder: "_Ladder | None" = field(init=False, default=None)
     """the derivatives of the guards, where no curve bends them"""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "whole", np.hstack([self.rate, self.gain]))
+        object.__setattr__(self, "guard_sizes", np.abs(self.guards))
         if not self.curves:
             object.__setattr__(self, "ladder", _Ladder.of(self.guards, self.rate))
 
@@ -129,47 +133,45 @@ class Look:
     def told(self, motion: Motion) -> list[int]:
         """The same of the equations of a mode."""
         count = len(motion.guards)
-        found, noise = self._derivatives(motion)
-        dust = (np.abs(motion.guards[:, : len(self.dust)]) @ self.dust).tolist()
-        sides = []
-        for guard in range(count):
-            side, beside = 0, dust[guard]
-            for value, least in zip(found[guard::count], noise[guard::count], strict=True):
-                if abs(value) > least + beside:
-                    side = 1 if value > 0 else -1
-                    break
-                beside = 0.0
-            sides.append(side)
+        sides, waiting = [0] * count, list(range(count))
+        beside = (motion.guard_sizes[:, : len(self.dust)] @ self.dust).tolist()
+        for found, noise in self._derivatives(motion):
+            undecided = []
+            for guard in waiting:
+                value = found[guard]
+                if abs(value) > noise[guard] + beside[guard]:
+                    sides[guard] = 1 if value > 0 else -1
+                else:
+                    undecided.append(guard)
+            if not undecided:
+                break
+            waiting, beside = undecided, [0.0] * count
         return sides
 
-    def _derivatives(self, motion: Motion) -> tuple[list[float], list[float]]:
-        """Guards and their derivatives, one order after the other, and the rounding of each.
+    def _derivatives(self, motion: Motion) -> Iterator[tuple[list[float], list[float]]]:
+        """Guards and their derivatives, one order after the other, with the rounding of each: NOISE 4^k |G| |A|^k |z|.
 
         The k-th derivative of g is G A^k z; where a curve takes part it counts with its tangent, which is exact to the
         second derivative.
         """
         if motion.ladder is not None:
-            return (motion.ladder.rows @ self.state).tolist(), (motion.ladder.noise @ self.magnitude).tolist()
-        rate, guards = _tangents(motion, self.state)
-        moved, larger = [np.append(self.state, 1.0)], [np.append(self.magnitude, 1.0)]
-        more = 4 * np.abs(rate)
-        for _ in range(_ORDERS):
-            moved.append(rate @ moved[-1])
-            larger.append(more @ larger[-1])
-        found = np.array(moved) @ guards.T
-        noise = NOISE * (np.array(larger) @ np.abs(guards).T)
-        return found.ravel().tolist(), noise.ravel().tolist()
-
-
-def _tangents(motion: Motion, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """A and G with the tangents of the curves, whose constant parts go with a last state that is 1."""
-    n = len(state)
-    rate, guards = np.zeros((n + 1, n + 1)), np.zeros((len(motion.guards), n + 1))
-    rate[:n, :n], guards[:, :n] = motion.rate, motion.guards[:, :n]
-    for index, curve in enumerate(motion.curves):
-        y = curve.rows @ state
-        slope, now = curve.slope(y), float(curve.value(y[:, None])[0])
-        tangent = np.append(slope * curve.rows[0], now - slope * y[0])
-        rate[:n] += motion.gain[:, index, None] * tangent
-        guards += motion.guards[:, n + index, None] * tangent
-    return rate, guards
+            count = len(motion.guards)
+            found, noise = (motion.ladder.rows @ self.state).tolist(), (motion.ladder.noise @ self.magnitude).tolist()
+            for first in range(0, len(found), max(count, 1)):
+                yield found[first : first + count], noise[first : first + count]
+            return
+        y = [curve.rows @ self.state for curve in motion.curves]
+        values = np.array([float(curve.value(at[:, None])[0]) for curve, at in zip(motion.curves, y, strict=True)])
+        slopes = [curve.slope(at) for curve, at in zip(motion.curves, y, strict=True)]
+        tangents = np.array([slope * curve.rows[0] for slope, curve in zip(slopes, motion.curves, strict=True)])
+        beyond = values - [slope * at[0] for slope, at in zip(slopes, y, strict=True)]
+        sizes = np.abs(tangents)
+        now = np.concatenate([self.state, values])
+        larger = np.concatenate([self.magnitude, sizes @ self.magnitude + np.abs(beyond)])
+        whole, more = motion.whole, 4 * np.abs(motion.whole)
+        for order in range(_ORDERS + 1):
+            yield (motion.guards @ now).tolist(), (NOISE * (motion.guard_sizes @ larger)).tolist()
+            if order < _ORDERS:
+                moved, larger_moved = whole @ now, more @ larger
+                now = np.concatenate([moved, tangents @ moved])
+                larger = np.concatenate([larger_moved, sizes @ larger_moved])

@@ -143,7 +143,7 @@ class _March:
             if hit is not None:
                 index, place, guard = hit
                 if index == 0 and 0 < place < _EARLY:  # so long a panel places it badly: look again from near by
-                    soon = 2 * place * panel
+                    soon = flow.lattice(2 * place * panel)
                     continue
                 if index:
                     record.see(flow, record.time, panel, starts[:index])

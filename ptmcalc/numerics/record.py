@@ -12,7 +12,7 @@ from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 if TYPE_CHECKING:
     from ptmcalc.numerics.flow import Flow
 
-_BATCH = 512
+_BATCH = 128
 """Panels that are worked off at once."""
 
 
@@ -103,13 +103,14 @@ class Record:
         counts = [len(waiting.states) for waiting in self._waiting]
         lengths = np.repeat([waiting.panel for waiting in self._waiting], counts)
         starts = np.concatenate([one.start + one.panel * np.arange(len(one.states)) for one in self._waiting])
-        watch = self._watched(lengths)
+        by_nodes = self._watched(lengths)
+        watch = by_nodes.transpose(1, 0, 2)
         self.top.see(starts, lengths, watch)
         self.bottom.see(starts, lengths, watch)
         self._sizes = np.maximum(self.top.best, self.bottom.best)
         if len(self.products):
-            power = watch[:, :, self.products[:, 0]] * watch[:, :, self.products[:, 1]]
-            self.integrals += lengths @ (WEIGHTS @ power)
+            power = by_nodes[:, :, self.products[:, 0]] * by_nodes[:, :, self.products[:, 1]]
+            self.integrals += lengths @ (WEIGHTS @ power.reshape(COUNT, -1)).reshape(len(lengths), -1)
         self.last = watch[-1, -1]
         self.steps += len(watch)
         if self.samples is not None:
@@ -119,7 +120,7 @@ class Record:
         self._count = self._sized = 0
 
     def _watched(self, lengths: FloatArray) -> FloatArray:
-        """Signals at the nodes of all that waits, shape (panels, nodes, signals): all panels of a flow at once."""
+        """Signals at the nodes of all that waits, shape (nodes, panels, signals): all panels of a flow at once."""
         alike: dict[tuple[Flow, float], tuple[list[int], list[FloatArray]]] = {}
         place = 0
         for waiting in self._waiting:
@@ -128,10 +129,10 @@ class Record:
             places.extend(range(place, place + len(waiting.states)))
             states.append(waiting.states)
             place += len(waiting.states)
-        watch = np.empty((place, COUNT, len(self.first)))
+        watch = np.empty((COUNT, place, len(self.first)))
         for (flow, panel), (places, states) in alike.items():
             found = np.concatenate(states)
-            watch[places] = flow.seen(panel, found) if panel else flow.seen_once(lengths[places], found)
+            watch[:, places] = flow.seen(panel, found) if panel else flow.seen_once(lengths[places], found)
         return watch
 
     def close(self) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import panels
-from ptmcalc.numerics.flow import FADED, RESOLVED, Flow, fastest
+from ptmcalc.numerics.flow import FADED, RESOLVED, Flow
 from ptmcalc.numerics.motion import Motion, System
 from ptmcalc.numerics.panels import COUNT, NODES, FloatArray
 
@@ -20,10 +20,11 @@ _MOST_ITERATIONS = 20
 _SHORTEST, _LONGEST = 1e-13, 1e6
 _FADED_SHARE = 0.1
 _WORTH = 40.0
-_DIVERGED, _TINY = 8.0, 1e-290
+_CONTRACTS = 1.0
 _ORDER, _MOST_HALVINGS = 8, 4
 """Power of a stretch with which the last coefficients rise; how often one is halved at once that does not do."""
-_CHAIN = np.eye(COUNT, k=1)
+_SHARED = 16.0
+"""Longest over shortest of the stretches that share a flow."""
 _LAST = panels.TO_CHEBYSHEV.T[:, -2:]
 
 _MONOMIALS = np.linalg.inv(NODES[:, None] ** np.arange(COUNT) / np.cumprod([1.0, *range(1, COUNT)]))
@@ -46,7 +47,7 @@ class Piece:
         self.entry = math.inf
         """stretch that should be short enough where this mode begins"""
         self._linear: Flow | None = None
-        self._tangents: dict[Hashable, _Tangent] = {}
+        self._flows: dict[Hashable, Flow] = {}
         self._stretches: dict[Hashable, _Stretch] = {}
 
     @property
@@ -59,11 +60,30 @@ class Piece:
             )
         return self._linear
 
-    def _tangent(self, slopes: tuple[float, ...]) -> "_Tangent":
-        tangent = self._tangents.get(slopes)
-        if tangent is None:
-            tangent = self._tangents[slopes] = _Tangent(self, slopes)
-        return tangent
+    def _flow(self, slopes: tuple[float, ...], ticks: float, tolerance: float) -> Flow:
+        """The linear system with slopes of the curves put into A, that carries along as polynomials what they leave:
+        m_k' = m_(k+1)/ticks, n = s y + m_0."""
+        flow = self._flows.get((slopes, ticks))
+        if flow is None:
+            n, count, system = len(self.rate), len(slopes), self.system
+            first = np.array([slope * rows[0] for slope, rows in zip(slopes, self.arguments, strict=True)])
+
+            def wide(rows: FloatArray, direct: FloatArray, height: int) -> FloatArray:
+                found = np.zeros((height, n + count * COUNT))
+                found[: len(rows), :n] = rows + direct @ first
+                found[: len(rows), n::COUNT] = direct
+                return found
+
+            rate = wide(self.rate, self.gain, n + count * COUNT)
+            rate[n:, n:] = np.kron(np.eye(count), np.eye(COUNT, k=1) / ticks)
+            guards = wide(self.guards, self.guards_direct, len(self.guards))
+            watch = wide(self.watch, self.watch_direct, len(self.watch))
+            faded = max(FADED, _FADED_SHARE * tolerance)  # a curve joined within it keeps ringing at its size
+            flow = Flow(
+                rate, guards, watch, system.own, system.input_speed, faded, self.resolved, _WORTH, count * COUNT
+            )
+            self._flows[slopes, ticks] = flow
+        return flow
 
     def now(self, state: FloatArray) -> FloatArray:
         """The watched signals of a state."""
@@ -79,65 +99,39 @@ class Piece:
         slopes = tuple(
             round(slope / curve.grain) * curve.grain for slope, curve in zip(exact, self.motion.curves, strict=True)
         )
-        unit = self.resolved / RESOLVED  # a lattice of its own for every `refined`: two runs share no stretch
+        unit = self.resolved / RESOLVED
         span = min(reach, unit * 2.0 ** math.ceil(math.log2(longest / unit)), unit * _LONGEST)
         while span > _SHORTEST:
             stretch = self._stretches.get((slopes, span))
             if stretch is None:
-                stretch = self._stretches[slopes, span] = _Stretch(self, self._tangent(slopes), span, tolerance)
+                ticks = unit * _SHARED ** math.ceil(math.log(span / unit, _SHARED))
+                flow = self._flow(slopes, ticks, tolerance)
+                stretch = self._stretches[slopes, span] = _Stretch(self, flow, slopes, span, ticks)
             rest, tail = stretch.solve(state, exact, tolerance)
             doublings = -math.log2(max(tail, _EPS**2) / tolerance) / _ORDER if math.isfinite(tail) else -_MOST_HALVINGS
             if rest is not None:
                 self.reach = span * 2.0 ** math.floor(doublings)
-                return stretch.flow, np.concatenate([state, (rest @ _MONOMIALS.T).ravel()]), span
+                return stretch.flow, np.concatenate([state, (rest @ stretch.monomials.T).ravel()]), span
             span *= 2.0 ** -min(max(math.ceil(-doublings), 1), _MOST_HALVINGS)
         raise NumericsError("NUM101", "a nonlinear torque could not be resolved by any step")
 
 
-class _Tangent:
-    """A mode with slopes of its curves put into A, in states that go on with the coefficients of what they leave."""
-
-    def __init__(self, piece: Piece, slopes: tuple[float, ...]) -> None:
-        n, own, self.slopes = len(piece.rate), piece.system.own, slopes
-        size = n + len(slopes) * COUNT
-        first = np.array([slope * rows[0] for slope, rows in zip(slopes, piece.arguments, strict=True)])
-
-        def wide(rows: FloatArray, direct: FloatArray, height: int) -> FloatArray:
-            found = np.zeros((height, size))
-            found[: len(rows), :n] = rows + direct @ first
-            found[: len(rows), n::COUNT] = direct
-            return found
-
-        self.rate = wide(piece.rate, piece.gain, size)
-        self.guards = wide(piece.guards, piece.guards_direct, len(piece.guards))
-        self.watch = wide(piece.watch, piece.watch_direct, len(piece.watch))
-        self.largest = fastest(self.rate[:own, :own])
-
-
 class _Stretch:
-    """The linear system that carries the curves along as polynomials: m_k' = m_(k+1)/H, n = m_0."""
+    """How the curves move their arguments over a stretch of a flow that carries them along as polynomials."""
 
-    def __init__(self, piece: Piece, tangent: _Tangent, span: float, tolerance: float) -> None:
-        self.curves, self.slopes = piece.motion.curves, tangent.slopes
-        n, count = len(piece.rate), len(self.curves)
-        self.sizes = np.array([[curve.size] for curve in self.curves])
-        rate = tangent.rate.copy()
-        rate[n:, n:] = np.kron(np.eye(count), _CHAIN) / span
-        faded = max(FADED, _FADED_SHARE * tolerance)  # a curve joined within the tolerance keeps ringing at its size
-        system = piece.system
-        self.flow = Flow(
-            rate, tangent.guards, tangent.watch, system.own, system.input_speed,
-            faded=faded, resolved=piece.resolved, worth=_WORTH, largest=tangent.largest,
-        )  # fmt: skip
+    def __init__(self, piece: Piece, flow: Flow, slopes: tuple[float, ...], span: float, ticks: float) -> None:
+        self.flow, self.curves, self.slopes = flow, piece.motion.curves, slopes
+        n, count = len(piece.rate), len(slopes)
+        self.per_size = np.repeat([1 / curve.size for curve in self.curves], COUNT)
+        self.monomials = _MONOMIALS * (ticks / span) ** np.arange(COUNT)[:, None]
         arguments = np.vstack(piece.arguments)
-        seen = (arguments @ self.flow.chunk(span).at_nodes[:, :n]).transpose(1, 0, 2)
+        seen = (arguments @ flow.chunk(span).at_nodes[:, :n]).transpose(1, 0, 2)
         self.seen_state = seen[:, :, :n].reshape(-1, n)
-        self.seen_rest = (seen[:, :, n:].reshape(-1, count, COUNT) @ _MONOMIALS).reshape(-1, count * COUNT)
+        self.seen_rest = (seen[:, :, n:].reshape(-1, count, COUNT) @ self.monomials).reshape(-1, count * COUNT)
         sizes = [len(rows) for rows in piece.arguments]
-        ends = np.cumsum(sizes)
-        self.parts = [slice(end - size, end) for end, size in zip(ends, sizes, strict=True)]
-        self.of = np.repeat(np.eye(count), sizes, axis=1)
-        """which arguments belong to a curve, shape (curves, arguments)"""
+        self.firsts = np.cumsum([0, *sizes[:-1]])
+        self.parts = [slice(first, first + size) for first, size in zip(self.firsts, sizes, strict=True)]
+        self.minus = -self.seen_rest.reshape(len(arguments), COUNT, -1)[self.firsts].reshape(count * COUNT, -1)
 
     def solve(self, state: FloatArray, slopes: list[float], tolerance: float) -> tuple[FloatArray | None, float]:
         """What the curves have beyond their linear parts at the nodes, if it fits the motion it causes within the
@@ -145,41 +139,39 @@ class _Stretch:
 
             r = n(y) - s y,   y = free + M r
 
-        by Newton's method from the slopes at the start, the tangents at the nodes by Broyden's update.
+        by Newton's method with the slopes at the start; a stretch is given up as soon as its tail is seen to be too
+        long. The last correction is made without another look where the one before tells that it will do.
         """
         free = (self.seen_state @ state).reshape(-1, COUNT)
-        y, change, tail = free[:, :1], math.inf, math.inf
-        found = self.rest(y)
-        tangents = np.zeros_like(free)
-        for part, slope, base in zip(self.parts, slopes, self.slopes, strict=True):
-            tangents[part.start] = slope - base
-        rows = self.seen_rest.reshape(len(free), COUNT, -1)
+        first, start = free[self.firsts], self.rest(free[:, :1])
+        tangents = np.repeat(np.subtract(slopes, self.slopes), COUNT)[:, None]
+        system = tangents * self.minus
+        system.reshape(-1)[:: len(system) + 1] += 1.0
+        inverse = np.linalg.inv(system)
+        used = inverse @ (start + tangents.reshape(-1, COUNT) * (first - first[:, :1])).ravel()
+        change, enough = math.inf, max(1e-3 * tolerance, 64 * _EPS)
         for _ in range(_MOST_ITERATIONS):
-            system = -(self.of @ (tangents[:, :, None] * rows).reshape(len(free), -1)).reshape(
-                found.shape[0] * COUNT, -1
-            )
-            system.ravel()[:: len(system) + 1] += 1.0
-            right = found + self.of @ (tangents * (free - y))
-            used = np.linalg.solve(system, right.ravel())
-            last, y_last = found, y
-            y = free + (self.seen_rest @ used).reshape(free.shape)
-            found = self.rest(y)
-            before, change = change, float((np.abs(found - used.reshape(found.shape)) / self.sizes).max())
-            tail = float((np.abs(found @ _LAST) / self.sizes).max())
-            if change <= max(1e-3 * tolerance, 64 * _EPS):
-                return (found if tail <= tolerance else None), tail
-            if not change <= _DIVERGED * before or tail > max(tolerance, change):
+            found = self.rest(free + (self.seen_rest @ used).reshape(free.shape))
+            miss = found.ravel() - used
+            before, change = change, float(np.abs(miss * self.per_size).max())
+            if not change <= _CONTRACTS * before:
                 break
-            step = y - y_last
-            bend = (found - last - self.of @ (tangents * step)) / np.maximum(self.of @ (step * step), _TINY)
-            tangents = tangents + (self.of.T @ bend) * step
-        return None, tail
+            if before == math.inf and self._tail(found) > max(tolerance, change):
+                break
+            used = used + inverse @ miss
+            if change <= enough or change**2 <= enough * before < math.inf:
+                rest = used.reshape(found.shape)
+                tail = self._tail(rest)
+                return (rest if tail <= tolerance else None), tail
+        return None, self._tail(found)
+
+    def _tail(self, rest: FloatArray) -> float:
+        return float((np.abs(rest @ _LAST) * self.per_size[::COUNT, None]).max())
 
     def rest(self, y: FloatArray) -> FloatArray:
         """What the curves have beyond their linear parts, at the nodes."""
-        return np.array(
-            [
-                curve.value(y[part]) - slope * y[part][0]
-                for curve, slope, part in zip(self.curves, self.slopes, self.parts, strict=True)
-            ]
-        )
+        beyond = [
+            curve.value(y[part]) - slope * y[part.start]
+            for curve, slope, part in zip(self.curves, self.slopes, self.parts, strict=True)
+        ]
+        return np.array(beyond)
