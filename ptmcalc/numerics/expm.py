@@ -31,34 +31,35 @@ def balance(matrix: FloatArray, sweeps: int = 4) -> FloatArray:
     """
     size = np.abs(matrix)
     np.fill_diagonal(size, 0.0)
-    scale = np.ones(len(size))
+    rows: list[list[float]] = size.tolist()
+    scale = [1.0] * len(rows)
     for _ in range(sweeps):
         steady = True
-        for i in range(len(size)):
-            row, column = size[i].sum(), size[:, i].sum()
+        for i in range(len(rows)):
+            row, column = sum(rows[i]), sum(line[i] for line in rows)
             if row > 0 and column > 0:
-                factor = 2.0 ** np.round(np.log2(row / column) / 2)
+                factor = 2.0 ** round(math.log2(row / column) / 2)
             elif row > 0:  # nothing comes back: make what it feeds on no larger than the rest
-                factor = 2.0 ** np.ceil(np.log2(row / _usual(size, i)))
+                factor = 2.0 ** math.ceil(math.log2(row / _usual(rows, i)))
             elif column > 0:
-                factor = 2.0 ** -np.ceil(np.log2(column / _usual(size, i)))
+                factor = 2.0 ** -math.ceil(math.log2(column / _usual(rows, i)))
             else:
                 factor = 1.0
             if factor != 1.0:
                 steady = False
-                size[i] /= factor
-                size[:, i] *= factor
+                rows[i] = [one / factor for one in rows[i]]
+                for line in rows:
+                    line[i] *= factor
                 scale[i] *= factor
         if steady:
             break
-    return scale
+    return np.array(scale)
 
 
-def _usual(size: FloatArray, i: int) -> float:
+def _usual(rows: list[list[float]], i: int) -> float:
     """Largest entry that has nothing to do with an index, 1 where there is none."""
-    rest = np.delete(np.delete(size, i, 0), i, 1)
-    largest = float(rest.max(initial=0.0))
-    return largest if largest > 0 else 1.0
+    rest = (one for k, line in enumerate(rows) if k != i for j, one in enumerate(line) if j != i)
+    return max(rest, default=0.0) or 1.0
 
 
 class Powers:
@@ -90,8 +91,7 @@ class Powers:
         n, squarings = self._n, self._squarings(float(np.abs(times).max(initial=0.0)))
         terms = (times * (self._unit / 2.0**squarings))[:, None] ** _ORDERS
         change: FloatArray = (terms @ self._stack).reshape(len(times), n, n)
-        for _ in range(squarings):
-            change = 2 * change + change @ change
+        change = _squared(change, squarings)
         change.reshape(len(times), n * n)[:, :: n + 1] += 1.0
         return change
 
@@ -100,13 +100,22 @@ class Powers:
         squarings = self._squarings(abs(time))
         terms = (time * (self._unit / 2.0**squarings)) ** _ORDERS
         change: FloatArray = (terms @ self._stack).reshape(self._n, self._n)
-        for _ in range(squarings):
-            change = 2 * change + change @ change
-        return change
+        return _squared(change, squarings)
 
     def _squarings(self, longest: float) -> int:
         size = self.norm * longest
         return math.ceil(math.log2(size)) if size > 1 else 0
+
+
+def _squared(change: FloatArray, times: int) -> FloatArray:
+    """D <- 2 D + D^2 several times, in two arrays."""
+    other = np.empty_like(change) if times else change
+    for _ in range(times):
+        np.matmul(change, change, out=other)
+        other += change
+        other += change
+        change, other = other, change
+    return change
 
 
 def expm(matrix: FloatArray) -> FloatArray:

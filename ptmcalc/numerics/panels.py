@@ -34,6 +34,7 @@ TO_BERNSTEIN = np.linalg.inv(
     _BINOMIALS * NODES[:, None] ** np.arange(COUNT) * (1 - NODES[:, None]) ** np.arange(COUNT)[::-1]
 )
 """Bernstein coefficients from node values: where none is negative, the polynomial is not."""
+_PLACES = NODES.tolist()
 _HALVES = (np.diff(NODES) / 2).tolist()
 _FINE = np.linspace(0.0, 1.0, 33)
 _ON_FINE = np.polynomial.chebyshev.chebvander(2 * _FINE - 1, COUNT - 1) @ TO_CHEBYSHEV
@@ -58,7 +59,7 @@ def crossing(nodes: FloatArray, noise: float) -> float | None:
 
     Between the nodes where its sign changes, and at every dip between nodes that could reach 0 and come back.
     """
-    values, slopes, places = nodes.tolist(), (SLOPES @ nodes).tolist(), NODES.tolist()
+    values, slopes, places = nodes.tolist(), (SLOPES @ nodes).tolist(), _PLACES
     for i, half in enumerate(_HALVES):
         if values[i + 1] < -noise:
             left = places[i]

@@ -23,6 +23,7 @@ _WORTH = 40.0
 _CONTRACTS = 1.0
 _ORDER, _MOST_HALVINGS = 8, 4
 """Power of a stretch with which the last coefficients rise; how often one is halved at once that does not do."""
+_CHAIN = np.eye(COUNT, k=1)
 _SHARED = 16.0
 """Longest over shortest of the stretches that share a flow."""
 _LAST = panels.TO_CHEBYSHEV.T[:, -2:]
@@ -75,7 +76,8 @@ class Piece:
                 return found
 
             rate = wide(self.rate, self.gain, n + count * COUNT)
-            rate[n:, n:] = np.kron(np.eye(count), np.eye(COUNT, k=1) / ticks)
+            for place in range(n, len(rate), COUNT):
+                rate[place : place + COUNT, place : place + COUNT] = _CHAIN / ticks
             guards = wide(self.guards, self.guards_direct, len(self.guards))
             watch = wide(self.watch, self.watch_direct, len(self.watch))
             faded = max(FADED, _FADED_SHARE * tolerance)  # a curve joined within it keeps ringing at its size

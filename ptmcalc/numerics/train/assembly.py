@@ -26,8 +26,19 @@ class Assembly:
     # -- the motion ---------------------------------------------------------------------------------------------
 
     def motion(self) -> tuple[Motion, tuple[Change, ...]]:
-        system, n, count = self.system, self.system.size, self.system.groups.count
         solved, held = self.balances.solve(self.state)
+        rate, gain = self._rate(solved)
+        pairs = list(self._guards(solved, held))
+        guards = np.array([row for row, _ in pairs]).reshape(-1, self.balances.width)
+        motion = Motion(rate, gain, guards, self._watch(solved, held), tuple(self.balances.curves))
+        return motion, tuple(change for _, change in pairs)
+
+    def rate(self) -> FloatArray:
+        """A alone."""
+        return self._rate(self.balances.solve(self.state)[0])[0]
+
+    def _rate(self, solved: Solved) -> tuple[FloatArray, FloatArray]:
+        system, n, count = self.system, self.system.size, self.system.groups.count
         inverse = system.coordinates.inverse
         whole = inverse @ solved.acceleration
         whole[np.abs(whole) <= 1e-14 * (np.abs(inverse) @ np.abs(solved.acceleration))] = 0.0
@@ -39,10 +50,7 @@ class Assembly:
         rate[:count, count : 2 * count] = np.eye(count)
         rate[count : 2 * count], gain[count : 2 * count] = whole[:, :n], whole[:, n:]
         rate[system.own :, system.own :] = system.inputs.rate()
-        pairs = list(self._guards(solved, held))
-        guards = np.array([row for row, _ in pairs]).reshape(-1, self.balances.width)
-        motion = Motion(rate, gain, guards, self._watch(solved, held), tuple(self.balances.curves))
-        return motion, tuple(change for _, change in pairs)
+        return rate, gain
 
     def _guards(self, solved: Solved, held: list[Hold]) -> Iterator[tuple[FloatArray, Change]]:
         for index, one in enumerate(self.balances.links_now()):

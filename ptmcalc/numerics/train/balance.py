@@ -81,7 +81,7 @@ class Balances:
         return [(index, curve) for index, curve in enumerate(found) if curve is not None]
 
     def wide(self, row: FloatArray) -> FloatArray:
-        return np.concatenate([row, np.zeros(self.width - len(row))])
+        return row if len(row) == self.width else np.concatenate([row, np.zeros(self.width - len(row))])
 
     def _forces(self, state: State, static: bool) -> FloatArray:
         """Forces on the bodies as functionals; `static` takes the friction of what is at rest as it is overcome."""

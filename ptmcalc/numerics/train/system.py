@@ -162,8 +162,7 @@ class TrainSystem:
         )
         turning = tuple(1 if one == 0 else one for one in state.turning)
         clutches = (1,) * len(state.clutches)
-        motion = self.motion(state._replace(contacts=closed, turning=turning, clutches=clutches))
-        return expm.balance(motion.rate)
+        return expm.balance(Assembly(self, state._replace(contacts=closed, turning=turning, clutches=clutches)).rate())
 
     # -- one contact state --------------------------------------------------------------------------------------
 
