@@ -122,8 +122,8 @@ class Flow:
 
     def noise(self, states: FloatArray) -> FloatArray:
         """Rounding of the guards along states, shape (guards,)."""
-        largest = np.abs(states).max(axis=0)
-        dust = DUST * float(largest[: self.own].max(initial=0.0))
+        largest = np.maximum.reduce(np.abs(states))
+        dust = DUST * max(largest[: self.own].tolist(), default=0.0)
         result: FloatArray = NOISE * (self._magnitudes @ largest) + dust * self._own_magnitudes
         return result
 

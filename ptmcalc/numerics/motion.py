@@ -47,15 +47,21 @@ class Motion:
     guards: FloatArray
     watch: FloatArray
     curves: tuple[Curve, ...] = ()
-    whole: FloatArray = field(init=False)
     guard_sizes: FloatArray = field(init=False)
+    """|G|"""
+    whole: FloatArray = field(init=False)
+    """A and B side by side, where there are curves"""
+    sizes: FloatArray = field(init=False)
+    """what a derivative's rounding grows by: 4 |A|, 4 |B|"""
     ladder: "_Ladder | None" = field(init=False, default=None)
     """the derivatives of the guards, where no curve bends them"""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "whole", np.hstack([self.rate, self.gain]))
         object.__setattr__(self, "guard_sizes", np.abs(self.guards))
-        if not self.curves:
+        if self.curves:
+            object.__setattr__(self, "whole", np.hstack([self.rate, self.gain]))
+            object.__setattr__(self, "sizes", 4 * np.abs(self.whole))
+        else:
             object.__setattr__(self, "ladder", _Ladder.of(self.guards, self.rate))
 
 
@@ -168,10 +174,10 @@ class Look:
         sizes = np.abs(tangents)
         now = np.concatenate([self.state, values])
         larger = np.concatenate([self.magnitude, sizes @ self.magnitude + np.abs(beyond)])
-        whole, more = motion.whole, 4 * np.abs(motion.whole)
+        larger *= NOISE
         for order in range(_ORDERS + 1):
-            yield (motion.guards @ now).tolist(), (NOISE * (motion.guard_sizes @ larger)).tolist()
+            yield (motion.guards @ now).tolist(), (motion.guard_sizes @ larger).tolist()
             if order < _ORDERS:
-                moved, larger_moved = whole @ now, more @ larger
+                moved, more = motion.whole @ now, motion.sizes @ larger
                 now = np.concatenate([moved, tangents @ moved])
-                larger = np.concatenate([larger_moved, sizes @ larger_moved])
+                larger = np.concatenate([more, sizes @ more])

@@ -180,13 +180,13 @@ def _first_hit(flow: Flow, chunk: Chunk, starts: FloatArray, unheard: int | None
     low: NDArray[np.bool_] = chunk.controls(starts[:-1]) < -noise
     if unheard is not None:
         low[:, :, unheard] = False
-    if not low.any():
+    if not low.size or not low.ravel()[first := int(low.argmax())]:
         return None
-    suspects = np.logical_or.reduce(low, axis=1)
-    for index in np.flatnonzero(suspects.any(axis=1)).tolist():
-        readings = chunk.readings(starts[index])
+    for index in range(first * len(low) // low.size, len(low)):
+        guards = np.flatnonzero(np.logical_or.reduce(low[index])).tolist()
+        readings = chunk.readings(starts[index]) if guards else starts
         found = []
-        for guard in np.flatnonzero(suspects[index]).tolist():
+        for guard in guards:
             place = panels.crossing(readings[:, guard], float(noise[guard]))
             if place is not None:
                 found.append((place, guard))

@@ -48,7 +48,7 @@ from ptmcalc.numerics.train.signals import ONE, Signal, Sine, Trigger
 from ptmcalc.numerics.train.statics import link_forces
 from ptmcalc.numerics.train.tree import Groups
 
-_SLOPES = 5
+_SLOPES = 2.5
 """Steps in which the slope of a smooth torque curve is used, over its steepest."""
 REACHED = "start over"
 """Name of the event of a start that is over; no part can be called so."""
