@@ -1,7 +1,7 @@
 """A mode in variables of like size, and stretches of time on which its smooth curves are polynomials.
 
-A nonlinear n is the polynomial through its values at the nodes of a stretch, found by iteration; its slope is put into
-A, and a stretch is halved until the last coefficients of what is left fall below the tolerance.
+A nonlinear n is the polynomial through its values at the nodes of a stretch, found by Newton's method; its slope is put
+into A, and a stretch is as long as the last coefficients of what is left stay below the tolerance.
 """
 
 import math
@@ -20,7 +20,8 @@ _MOST_ITERATIONS = 20
 _SHORTEST, _LONGEST = 1e-13, 1e6
 _FADED_SHARE = 0.1
 _WORTH = 40.0
-_CONTRACTS = 1.0
+_STALLED = 0.1
+"""Share of the tolerance below which rounding may end an iteration."""
 _ORDER, _MOST_HALVINGS = 8, 4
 """Power of a stretch with which the last coefficients rise; how often one is halved at once that does not do."""
 _CHAIN = np.eye(COUNT, k=1)
@@ -101,7 +102,7 @@ class Piece:
         slopes = tuple(
             round(slope / curve.grain) * curve.grain for slope, curve in zip(exact, self.motion.curves, strict=True)
         )
-        unit = self.resolved / RESOLVED
+        unit = self.resolved / RESOLVED  # that of the flow, see there
         span = min(reach, unit * 2.0 ** math.ceil(math.log2(longest / unit)), unit * _LONGEST)
         while span > _SHORTEST:
             stretch = self._stretches.get((slopes, span))
@@ -137,7 +138,7 @@ class _Stretch:
 
     def solve(self, state: FloatArray, slopes: list[float], tolerance: float) -> tuple[FloatArray | None, float]:
         """What the curves have beyond their linear parts at the nodes, if it fits the motion it causes within the
-        tolerance, and the size of its last coefficients.
+        tolerance, and its tail: the size of its last coefficients.
 
             r = n(y) - s y,   y = free + M r
 
@@ -156,12 +157,13 @@ class _Stretch:
             found = self.rest(free + (self.seen_rest @ used).reshape(free.shape))
             miss = found.ravel() - used
             before, change = change, float(np.abs(miss * self.per_size).max())
-            if not change <= _CONTRACTS * before:
+            stalled = not change < before
+            if stalled and not change <= _STALLED * tolerance:
                 break
             if before == math.inf and self._tail(found) > max(tolerance, change):
                 break
             used = used + inverse @ miss
-            if change <= enough or change**2 <= enough * before < math.inf:
+            if stalled or change <= enough or change**2 <= enough * before < math.inf:
                 rest = used.reshape(found.shape)
                 tail = self._tail(rest)
                 return (rest if tail <= tolerance else None), tail
