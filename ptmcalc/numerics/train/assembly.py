@@ -111,6 +111,8 @@ class Assembly:
 
     def _parts(self) -> list[Part]:
         """Groups at rest, with all that locked clutches and closed rigid contacts tie to them."""
+        if 0 not in self.state.turning:
+            return []
         system, groups = self.system, self.system.groups
         locks: dict[tuple[str, int], FloatArray] = {}
         for index, slip in zip(system.clutches, self.state.clutches, strict=True):
@@ -219,7 +221,11 @@ class Assembly:
                 rows["link", which] = -force
             elif what == "rest":
                 self._share_of_brakes(which, force, rows)
-        return np.array([self.balances.wide(rows[name]) for name in system.watched]).reshape(-1, self.balances.width)
+        found = np.zeros((len(system.watched), self.balances.width))
+        for name, place in system.watched.items():
+            row = rows[name]
+            found[place, : len(row)] = row
+        return found
 
     def _share_of_brakes(self, group: int, force: FloatArray, rows: dict[tuple[str, int], FloatArray]) -> None:
         """What holds a group at rest, told as the torque of the brake that acts."""

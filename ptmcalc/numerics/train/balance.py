@@ -13,7 +13,7 @@ import numpy as np
 
 from ptmcalc.numerics.motion import Curve
 from ptmcalc.numerics.train import drives, links
-from ptmcalc.numerics.train.drives import DriveState, Place, SignalRows
+from ptmcalc.numerics.train.drives import DriveState, Place
 from ptmcalc.numerics.train.links import Contact, Stretch
 from ptmcalc.numerics.train.parts import Mesh
 from ptmcalc.numerics.train.signals import FloatArray
@@ -50,15 +50,7 @@ class Balances:
 
     def __init__(self, system: "TrainSystem", state: State) -> None:
         self.system, self.state, self.train = system, state, system.train
-        rows = {
-            signal: np.concatenate([np.zeros(system.own), system.inputs.row(signal, now)])
-            for signal, now in zip(system.signals, state.signals, strict=True)
-        }
-        self.now = SignalRows(rows, dict(zip(system.signals, state.signals, strict=True)))
-        self.places = [
-            Place(system.body_speed[drive.body], system.body_position[drive.body], system.one, self.now)
-            for drive in self.train.drives
-        ]
+        self.now, self.places = system.signals_now(state.signals)
         self.link_curves = self._curves(links.curve(*one) for one in self.links_now())
         self.drive_curves = self._curves(drives.drive_curve(*one) for one in self.drives_now())
         self.curves = [curve for _, curve in self.link_curves + self.drive_curves]
@@ -81,7 +73,11 @@ class Balances:
         return [(index, curve) for index, curve in enumerate(found) if curve is not None]
 
     def wide(self, row: FloatArray) -> FloatArray:
-        return row if len(row) == self.width else np.concatenate([row, np.zeros(self.width - len(row))])
+        if len(row) == self.width:
+            return row
+        found = np.zeros(self.width)
+        found[: len(row)] = row
+        return found
 
     def _forces(self, state: State, static: bool) -> FloatArray:
         """Forces on the bodies as functionals; `static` takes the friction of what is at rest as it is overcome."""

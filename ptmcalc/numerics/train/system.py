@@ -14,6 +14,7 @@ from ptmcalc.numerics.motion import Motion, Reaction
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.assembly import Assembly
 from ptmcalc.numerics.train.balance import CANCELS
+from ptmcalc.numerics.train.drives import Place, SignalRows
 from ptmcalc.numerics.train.links import Stretch
 from ptmcalc.numerics.train.parts import Grip, Spring, Train
 from ptmcalc.numerics.train.react import Candidates, Reactor, Ties
@@ -41,6 +42,7 @@ class TrainSystem:
         }
         self.locking = any(train.meshes[index].reverse < 0 for index in self.lossy)
         self._motions: dict[State, tuple[Motion, tuple[Change, ...]]] = {}
+        self._signals: dict[tuple[Now, ...], tuple[SignalRows, list[Place]]] = {}
         self._breaks: dict[tuple[object, ...], tuple[float, tuple[float, ...]]] = {}
         self.ties: dict[tuple[object, ...], Ties] = {}
         self.candidates: dict[tuple[object, ...], Candidates] = {}
@@ -203,6 +205,19 @@ class TrainSystem:
         for signal, now in zip(self.signals, state.signals, strict=True):
             if signal.decay and now.piece >= 0:
                 yield now.start + signal.decay_start
+
+    def signals_now(self, state: tuple[Now, ...]) -> tuple[SignalRows, list[Place]]:
+        """Functionals of the signals, and where the drives act."""
+        known = self._signals.get(state)
+        if known is None:
+            pieces = dict(zip(self.signals, state, strict=True))
+            rows = {signal: np.zeros(self.size) for signal in pieces}
+            for signal, now in pieces.items():
+                rows[signal][self.own :] = self.inputs.row(signal, now)
+            now_rows, bodies = SignalRows(rows, pieces), [drive.body for drive in self.train.drives]
+            places = [Place(self.body_speed[one], self.body_position[one], self.one, now_rows) for one in bodies]
+            known = self._signals[state] = now_rows, places
+        return known
 
     def react(self, mode: State, time: float, state: FloatArray, fired: int | None) -> Reaction:
         """What follows an event; see `train.react`."""
