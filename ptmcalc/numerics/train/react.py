@@ -46,7 +46,6 @@ class Reactor:
     def __init__(self, system: "TrainSystem", state: State, time: float, z: FloatArray) -> None:
         self.system, self.state, self.time, self.z = system, state, time, z.copy()
         self.before, self.lost = state, 0.0
-        self.look = Look(system, self.z)
         self.resting = {group for group, turn in enumerate(state.turning) if turn == 0}
         self.locked = {index for index, slip in zip(system.clutches, state.clutches, strict=True) if slip == 0}
         self.jammed: list[Event] = []
@@ -119,8 +118,7 @@ class Reactor:
         of = system.groups.of
         self.locked -= {
             index
-            for index in system.clutches
-            for grip in (system.train.grips[index],)
+            for index, grip in ((index, system.train.grips[index]) for index in system.clutches)
             if struck[of[grip.first]] or struck[of[grip.second or 0]]
         }
 
@@ -285,8 +283,9 @@ class Reactor:
         Returns the other guards that do not.
         """
         for _ in range(2):
+            look = Look(self.system, self.z)
             for candidate in self._candidates():
-                fitted = self._with_signs(candidate)
+                fitted = self._with_signs(candidate, look)
                 if fitted is not None:
                     self.state, broken = fitted
                     return broken
@@ -316,7 +315,7 @@ class Reactor:
             known = system.candidates[key] = Candidates(_combined(system.clutch_rows, state, ways))
         return iter(known)
 
-    def _with_signs(self, state: State) -> tuple[State, list[Change]] | None:
+    def _with_signs(self, state: State, look: Look) -> tuple[State, list[Change]] | None:
         """The candidate with signs of its mesh torques that agree with the motion, and the other guards it breaks.
 
         None where friction itself does not hold in it.
@@ -327,7 +326,7 @@ class Reactor:
             tried = state._replace(meshes=tuple(signs))
             for _ in range(4 ** len(system.lossy) + 1):
                 motion, changes = system.described(tried)
-                sides = zip(self.look.told(motion), changes, strict=True)
+                sides = zip(look.told(motion), changes, strict=True)
                 broken = [change for side, change in sides if side < 0]
                 wrong = [one for one in broken if one.kind == "mesh"][:1]
                 wrong += [one for one in broken if one.kind == "released"]
