@@ -91,6 +91,47 @@ class TestRoot:
         assert panels.above(-panels.NODES, 0.25, 1.0) == 0.25
 
 
+class TestCrossing:
+    @pytest.mark.parametrize("order", range(9))
+    def test_bernstein_coefficients_of_one_bernstein_polynomial(self, order: int) -> None:
+        x = panels.NODES
+        found = panels.TO_BERNSTEIN @ (math.comb(8, order) * x**order * (1 - x) ** (8 - order))
+        assert found == pytest.approx(np.eye(9)[order], abs=1e-11)
+
+    @pytest.mark.parametrize("seed", range(60))
+    def test_the_polynomial_lies_above_its_smallest_coefficient(self, seed: int) -> None:
+        p = random_polynomial(seed)
+        assert (panels.TO_BERNSTEIN @ p(panels.NODES)).min() <= p(DENSE).min() + 1e-12
+
+    @pytest.mark.parametrize("seed", range(60))
+    def test_first_of_smooth_signals(self, seed: int) -> None:
+        """Sines as slow as panels show them, against dense sampling."""
+        rng = np.random.default_rng(seed)
+        level, speed, phase, drift = rng.uniform([-1, 0.1, 0, -1], [1, 0.8, 2 * math.pi, 1])
+
+        def signal(x: np.ndarray) -> np.ndarray:
+            return np.sin(speed * x + phase) + drift * speed * x - level
+
+        shown = panels.crossing(signal(panels.NODES), 1e-15)
+        dense = signal(DENSE)
+        below = np.flatnonzero((dense[1:] < 0) & (dense[:-1] >= 0))
+        if len(below):
+            exact = brentq(signal, DENSE[below[0]], DENSE[below[0] + 1], xtol=1e-16)
+            assert shown == pytest.approx(exact, abs=1e-9)
+        elif dense[0] < 0:
+            assert shown == 0.0
+        else:
+            assert shown is None
+
+    @pytest.mark.parametrize("depth", [1e-2, 1e-5, 1e-9])
+    @pytest.mark.parametrize("place", [0.01, 0.2, 0.43, 0.5, 0.97])
+    def test_at_a_dip(self, depth: float, place: float) -> None:
+        nodes = (panels.NODES - place) ** 2
+        assert panels.crossing(nodes + depth, 1e-15) is None
+        exact = max(place - math.sqrt(depth), 0.0)
+        assert panels.crossing(nodes - depth, 1e-15) == pytest.approx(exact, abs=1e-15 / math.sqrt(depth) + 1e-15)
+
+
 class TestHighest:
     @pytest.mark.parametrize("seed", range(40))
     def test_of_random_polynomials(self, seed: int) -> None:
