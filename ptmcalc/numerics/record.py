@@ -12,7 +12,7 @@ from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 if TYPE_CHECKING:
     from ptmcalc.numerics.flow import Flow
 
-_BATCH = 128
+_BATCH = 256
 """Panels that are worked off at once."""
 
 
