@@ -123,9 +123,9 @@ class _Stretch:
     """How the curves move their arguments over a stretch of a flow that carries them along as polynomials."""
 
     def __init__(self, piece: Piece, flow: Flow, slopes: tuple[float, ...], span: float, ticks: float) -> None:
-        self.flow, self.curves, self.slopes = flow, piece.motion.curves, slopes
-        n, count = len(piece.rate), len(slopes)
-        self.per_size = np.repeat([1 / curve.size for curve in self.curves], COUNT)
+        curves, n, count = piece.motion.curves, len(piece.rate), len(slopes)
+        self.flow, self.slopes = flow, slopes
+        self.per_size = np.repeat([1 / curve.size for curve in curves], COUNT)
         self.monomials = _MONOMIALS * (ticks / span) ** np.arange(COUNT)[:, None]
         arguments = np.vstack(piece.arguments)
         seen = (arguments @ flow.chunk(span).at_nodes[:, :n]).transpose(1, 0, 2)
@@ -133,7 +133,10 @@ class _Stretch:
         self.seen_rest = (seen[:, :, n:].reshape(-1, count, COUNT) @ self.monomials).reshape(-1, count * COUNT)
         sizes = [len(rows) for rows in piece.arguments]
         self.firsts = np.cumsum([0, *sizes[:-1]])
-        self.parts = [slice(first, first + size) for first, size in zip(self.firsts, sizes, strict=True)]
+        self.parts = [
+            (curve.value, slope, slice(first, first + size))
+            for curve, slope, first, size in zip(curves, slopes, self.firsts.tolist(), sizes, strict=True)
+        ]
         self.minus = -self.seen_rest.reshape(len(arguments), COUNT, -1)[self.firsts].reshape(count * COUNT, -1)
 
     def solve(self, state: FloatArray, slopes: list[float], tolerance: float) -> tuple[FloatArray | None, float]:
@@ -174,8 +177,7 @@ class _Stretch:
 
     def rest(self, y: FloatArray) -> FloatArray:
         """What the curves have beyond their linear parts, at the nodes."""
-        beyond = [
-            curve.value(y[part]) - slope * y[part.start]
-            for curve, slope, part in zip(self.curves, self.slopes, self.parts, strict=True)
-        ]
-        return np.array(beyond)
+        found = np.empty((len(self.parts), y.shape[1]))
+        for row, (value, slope, part) in zip(found, self.parts, strict=True):
+            np.subtract(value(y[part]), slope * y[part.start], out=row)
+        return found
