@@ -30,7 +30,7 @@ from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import Run, Settled, sensitive, settle, without
-from ptmcalc.engine.solve import solve, variants
+from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
 from ptmcalc.engine.textbook import far_from_textbook
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
@@ -308,7 +308,16 @@ class _Assembly:
         path = ruling.check.repair(self.spec, scene)
         try:
             solution = (
-                solve(self.kind, self.spec, ruling.check, path, scene.label, self.loaded.assumed, digits=3)
+                solve(
+                    self.kind,
+                    self.spec,
+                    ruling.check,
+                    path,
+                    scene.label,
+                    self.loaded.assumed,
+                    digits=3,
+                    seconds=REPAIR_SECONDS,
+                )
                 if path
                 else None
             )

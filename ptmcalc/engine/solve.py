@@ -20,6 +20,8 @@ from ptmcalc.spec.machine import MachineSpec
 _DECADES = 3
 _STEPS_PER_DECADE = 4
 _MOST_STEPS = 60
+REPAIR_SECONDS = 6.0
+"""Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
 
 Clearance = Callable[[float], float]
 """How far the whole error bar lies on the sound side of the limit; the check passes from 0 up."""
@@ -67,12 +69,14 @@ def solve(
     assumed: Iterable[AssumedReport] = (),
     *,
     digits: int = 4,
+    seconds: float = math.inf,
 ) -> Solution | None:
     """The value nearest to the present one at which the check just passes, or None when there is none within 3 decades.
 
     Values at growing distances on both sides of the present one are tried, the first change between pass and fail is
     narrowed down, and the value is rounded to so many digits of its unit towards the passing side. It is a value at
-    which the check was seen to pass, error bar included, with every assumed value at both ends of its interval.
+    which the check was seen to pass, error bar included, with every assumed value at both ends of its interval. None
+    too when the search is predicted to take more than `seconds`.
 
     Raises:
         UsageError: the key is not a number of this file.
@@ -85,17 +89,37 @@ def solve(
     wanted = _Wanted(digits)
     decisive = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
     machines = [decisive, *(machine for value, _, machine in variants(decisive, assumed) if value.path != path)]
-    clearances = [_clearance(kind, one, check, path, measure, scene_name, wanted.finest) for one in machines]
+    purse = _Purse(seconds)
+    clearances = [_clearance(kind, one, check, path, measure, scene_name, wanted.finest, purse) for one in machines]
     clearance: Clearance | None = clearances[0]
-    for _ in clearances:
-        if clearance is None:
-            break
-        bracket = _bracket(clearance, float(present))
-        if bracket is None:
-            return None
-        good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
-        clearance = next((other for other in clearances if other(good) < 0), None)
+    try:
+        for _ in clearances:
+            if clearance is None:
+                break
+            bracket = _bracket(clearance, float(present))
+            if bracket is None:
+                return None
+            good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
+            clearance = next((other for other in clearances if other(good) < 0), None)
+    except _SpentError:
+        return None
     return Solution(path, good, measure.quantity) if clearance is None else None
+
+
+class _SpentError(Exception):
+    """A search has no seconds left."""
+
+
+@dataclass
+class _Purse:
+    """Predicted seconds that a search may still spend."""
+
+    left: float
+
+    def pay(self, seconds: float) -> None:
+        self.left -= seconds
+        if self.left < 0:
+            raise _SpentError
 
 
 def _clearance(
@@ -106,6 +130,7 @@ def _clearance(
     measure: Measure,
     scene_name: str,
     finest: int,
+    purse: _Purse,
 ) -> Clearance:
     """The worst clearance of the check over its scenes as a function of the key; remembers what it has tried."""
     tried: dict[float, float] = {}
@@ -121,16 +146,17 @@ def _clearance(
             if not measure.broken_by(value):
                 changed = spec.with_value(path, value)
                 tried[value] = min(
-                    (_of_scene(kind, changed, check, index, finest) for index in scenes), default=-math.inf
+                    (_of_scene(kind, changed, check, index, finest, purse) for index in scenes), default=-math.inf
                 )
         return tried[value]
 
     return clearance
 
 
-def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int, finest: int) -> float:
+def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int, finest: int, purse: _Purse) -> float:
     scene = plan_scene(kind, spec, spec.all_scenes[index])
     settled = settle(kind, spec, scene, only=check, until=lambda rung: rung.level <= finest)
+    purse.pay(sum(run.rung.seconds for run in settled.runs))
     return min((_of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
 

@@ -37,7 +37,7 @@ _CELLS, _CELLS_OF_JUMP = 60, 240
 _MARGIN, _SECOND_ORDER, _FIRST_ORDER, _SLOWEST = 3.0, 0.25, 0.5, 0.9
 _ROUNDING = 1e-11
 _SHIFT_STEPS = 3
-_SHORTER = 6
+_SHORTER, _LONGER = 6, 4
 _SHARING = frozenset(
     {
         "tension_run_on_max",
@@ -73,7 +73,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     findings = list(_findings(case, drawn))
     if "sag" in carried and deep_sag.too_deep(case, drawn):
         window = deep_sag.trusted_window(case, drawn, lambda end: _finest(replace(case, window=end), carried, level))
-        early, more = _computed(replace(case, window=window), carried, level) if window else ({}, [])
+        early, more = _computed(replace(case, window=window), carried, level, whole=False) if window else ({}, [])
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
@@ -112,7 +112,7 @@ def _before(case: Moving, carried: frozenset[str], level: int, lost: _GripLostEr
     for _ in range(_SHORTER):
         window *= 0.75
         try:
-            early, runs = _computed(replace(case, window=window), carried, level)
+            early, runs = _computed(replace(case, window=window), carried, level, whole=False)
         except _GripLostError:
             continue
         return Result(
@@ -126,9 +126,11 @@ def _before(case: Moving, carried: frozenset[str], level: int, lost: _GripLostEr
     raise NumericsError("NUM102", f"the belt loses its tension on a slipping drum at {lost.time:.3g} s")
 
 
-def _computed(case: Moving, carried: frozenset[str], level: int) -> tuple[dict[str, Found], list[tuple[Drawn, Set]]]:
+def _computed(
+    case: Moving, carried: frozenset[str], level: int, whole: bool = True
+) -> tuple[dict[str, Found], list[tuple[Drawn, Set]]]:
     """Loads from three grids with their bars, and what the belt did on each."""
-    runs = [_once(case, carried, cells) for cells in _grids(case.scene, level)]
+    runs = [_once(case, carried, cells, whole) for cells in _grids(case.scene, level)]
     (coarsest, _), (coarse, (before, _)), (fine, (drawn, ready)) = runs
     apart = _apart(before, drawn, not _jumps(case.scene))
     bars = _bars(case, (coarsest, coarse, fine), apart, ready.course.step)
@@ -138,14 +140,20 @@ def _computed(case: Moving, carried: frozenset[str], level: int) -> tuple[dict[s
 
 def _finest(case: Moving, carried: frozenset[str], level: int) -> Drawn:
     """The motion on the finest grid of a level."""
-    return _once(case, carried, _grids(case.scene, level)[-1])[1][0]
+    return _once(case, carried, _grids(case.scene, level)[-1], whole=False)[1][0]
 
 
-def _once(case: Moving, carried: frozenset[str], cells: int) -> tuple[Values, tuple[Drawn, Set]]:
-    ready = set_up(case, carried, cells)
-    still = _still(case)
-    drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, still, ready.give)
-    return _loads(case, drawn, ready), (drawn, ready)
+def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool = True) -> tuple[Values, tuple[Drawn, Set]]:
+    """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips."""
+    for _ in range(_LONGER):
+        ready = set_up(case, carried, cells)
+        still = _still(case)
+        drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, still, ready.give)
+        rests = case.brings_to_rest and math.isfinite(case.rigid_time)
+        if not (whole and rests) or any(seen.belt <= 0 for seen in drawn.head):
+            return _loads(case, drawn, ready), (drawn, ready)
+        case = replace(case, window=2 * case.window)
+    raise NumericsError("NUM101", f"the belt still runs after {case.window / 2:.3g} s")
 
 
 def _still(case: Moving) -> Callable[[float, Seen], bool]:
@@ -457,5 +465,5 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     source="method of characteristics with lumped idlers; derived in ptmcalc.numerics.belt",
     valid=valid,
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
-    levels=3,
+    levels=2,
 )
