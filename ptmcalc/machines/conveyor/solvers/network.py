@@ -88,8 +88,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
 
 def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
-    """Cells of the three grids; a jam is short, and its steps ask for more."""
-    coarsest = (_CELLS_OF_JUMP if _jumps(scene) else _CELLS) << level
+    """Cells of the three grids; a jam is short, and its steps ask for more. The finest of a setting is the coarsest of
+    the next."""
+    coarsest = _CELLS_OF_JUMP << level if _jumps(scene) else _CELLS << 2 * level
     return coarsest, 2 * coarsest, 4 * coarsest
 
 
