@@ -24,10 +24,10 @@ MOST_EVALUATIONS = {
     "short_conveyor.yaml": 10,
     "reference/bw_02.yaml": 2_000_000,
     "conveyor/decline_conveyor.yaml": 8_000_000,
-    "conveyor/hollow_conveyor.yaml": 14_000_000,
+    "conveyor/hollow_conveyor.yaml": 35_000_000,
     "conveyor/two_drive_conveyor.yaml": 15_000_000,
     "conveyor/screw_takeup_conveyor.yaml": 14_000_000,
-    "conveyor/overland_conveyor.yaml": 14_000_000,
+    "conveyor/overland_conveyor.yaml": 22_000_000,
 }
 
 
