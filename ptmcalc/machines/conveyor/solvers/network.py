@@ -88,9 +88,8 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
 
 def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
-    """Cells of the three grids; a jam is short, and its steps ask for more. The finest of a setting is the coarsest of
-    the next."""
-    coarsest = _CELLS_OF_JUMP << level if _jumps(scene) else _CELLS << 2 * level
+    """Cells of the three grids; a jam is short, and its steps ask for more."""
+    coarsest = (_CELLS_OF_JUMP if _jumps(scene) else _CELLS) << level
     return coarsest, 2 * coarsest, 4 * coarsest
 
 
@@ -466,5 +465,5 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     source="method of characteristics with lumped idlers; derived in ptmcalc.numerics.belt",
     valid=valid,
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
-    levels=2,
+    levels=3,
 )
