@@ -1,8 +1,9 @@
 """How a drive brings a machine up to speed, and how far an undamped mode can stray from the quasi-static answer.
 
 A profile is a factor that rises from 0 to 1 in the time `rise`: `step` at once, `ramp` linearly, `cosine` as
-(1 - cos(pi t/t_s))/2 (Harrison), `parabolic` as two parabolas that meet in the middle (Nordell). Imposed on the
-torque it is the force; imposed on the speed its rate is the acceleration.
+(1 - cos(pi t/t_s))/2 (Harrison), `parabolic` as two parabolas that meet in the middle (Nordell); a table says it
+point by point, straight between them. Imposed on the torque it is the force; imposed on the speed its rate is the
+acceleration.
 """
 
 from dataclasses import dataclass
@@ -13,16 +14,19 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 STEP, RAMP, COSINE, PARABOLIC = "step", "ramp", "cosine", "parabolic"
+Shape = str | tuple[tuple[float, float], ...]
+"""One of these words, or points (share of the rise time, factor): the shares rise from 0 to 1, the factors do not
+fall and end at 1."""
 
 
-def rise(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+def rise(shape: Shape, rise_time: float, time: ArrayLike) -> FloatArray:
     """The factor of a start profile.
 
         step: 1      ramp: u = t/t_s      cosine: (1 - cos(pi u))/2      each 1 after t_s
-        parabolic: 2 u^2 up to the middle, then 1 - 2 (1 - u)^2
+        parabolic: 2 u^2 up to the middle, then 1 - 2 (1 - u)^2      points: straight between them
 
     Args:
-        shape: `step`, `ramp`, `cosine` or `parabolic`.
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
         rise_time: t_s [s].
         time: t [s].
 
@@ -37,19 +41,22 @@ def rise(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     if shape == STEP:
         return np.ones_like(times)
     share = np.clip(times / rise_time, 0.0, 1.0)
+    if isinstance(shape, tuple):
+        return np.asarray(np.interp(share, *_columns(shape)))
     if shape == PARABOLIC:
         return np.where(share < 0.5, 2 * share**2, 1 - 2 * (1 - share) ** 2)
     return share if shape == RAMP else np.asarray(np.sin(np.pi / 2 * share) ** 2)
 
 
-def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+def rise_integral(shape: Shape, rise_time: float, time: ArrayLike) -> FloatArray:
     """Time integral of `rise` from 0.
 
         step: t    ramp: t^2/(2 t_s)    cosine: t/2 - t_s sin(pi t/t_s)/(2 pi)    each + (t - t_s) after t_s
         parabolic: 2 t^3/(3 t_s^2) up to the middle, then t - t_s/2 + 2 (t_s - t)^3/(3 t_s^2)
+        points: trapezia
 
     Args:
-        shape: `step`, `ramp`, `cosine` or `parabolic`.
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
         rise_time: t_s [s].
         time: t [s].
 
@@ -64,7 +71,14 @@ def rise_integral(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
     if shape == STEP:
         return times.copy()
     inside = np.minimum(times, rise_time)
-    if shape == RAMP:
+    if isinstance(shape, tuple):
+        shares, factors = _columns(shape)
+        whole = np.concatenate([[0.0], np.cumsum(np.diff(shares) * (factors[1:] + factors[:-1]) / 2)])
+        u = inside / rise_time
+        before = np.clip(np.searchsorted(shares, u, "right") - 1, 0, len(shares) - 2)
+        mean = (factors[before] + np.interp(u, shares, factors)) / 2
+        area = rise_time * (whole[before] + (u - shares[before]) * mean)
+    elif shape == RAMP:
         area = inside**2 / (2 * rise_time)
     elif shape == PARABOLIC:
         u = inside / rise_time
@@ -82,40 +96,45 @@ def _angle_less_sine(y: FloatArray) -> FloatArray:
     return np.where(y < 0.5, series, y - np.sin(y))
 
 
-def rise_rate(shape: str, rise_time: float, time: ArrayLike) -> FloatArray:
+def rise_rate(shape: Shape, rise_time: float, time: ArrayLike) -> FloatArray:
     """Slope of `rise`.
 
-        ramp: 1/t_s      cosine: pi/(2 t_s) sin(pi t/t_s)      parabolic: 4 min(t, t_s - t)/t_s^2      0 after t_s
+        ramp: 1/t_s      cosine: pi/(2 t_s) sin(pi t/t_s)      parabolic: 4 min(t, t_s - t)/t_s^2
+        points: (q_k+1 - q_k)/(t_k+1 - t_k)      0 after t_s
 
     Args:
-        shape: `ramp`, `cosine` or `parabolic`.
+        shape: `ramp`, `cosine`, `parabolic`, or points.
         rise_time: t_s [s].
         time: t [s].
 
     Returns:
         slope [Hz].
 
-    **Range** t >= 0, t_s > 0; at t_s itself the slope from the left.
+    **Range** t >= 0, t_s > 0; at t_s and at points the slope from the left.
     **Error** exact.
     **Source** derivative of `rise`.
     """
     times = np.asarray(time, float)
     inside = times <= rise_time
     slope = np.full_like(times, 1 / rise_time)
-    if shape == COSINE:
+    if isinstance(shape, tuple):
+        shares, slopes = _columns(shape)[0], _slopes(shape)
+        after = np.searchsorted(shares, np.minimum(times / rise_time, 1.0))
+        slope = slopes[np.clip(after - 1, 0, len(slopes) - 1)] / rise_time
+    elif shape == COSINE:
         slope = np.pi / (2 * rise_time) * np.sin(np.pi * np.minimum(times / rise_time, 1.0))
     elif shape == PARABOLIC:
         slope = 4 / rise_time * np.minimum(times / rise_time, 1 - times / rise_time)
     return np.where(inside, slope, 0.0)
 
 
-def peak_rate(shape: str, rise_time: float) -> float:
+def peak_rate(shape: Shape, rise_time: float) -> float:
     """Steepest slope of `rise`.
 
-        ramp: 1/t_s      cosine: pi/(2 t_s)      parabolic: 2/t_s
+        ramp: 1/t_s      cosine: pi/(2 t_s)      parabolic: 2/t_s      points: the steepest between two
 
     Args:
-        shape: `ramp`, `cosine` or `parabolic`.
+        shape: `ramp`, `cosine`, `parabolic`, or points.
         rise_time: t_s [s].
 
     Returns:
@@ -125,17 +144,32 @@ def peak_rate(shape: str, rise_time: float) -> float:
     **Error** exact.
     **Source** derivative of `rise`.
     """
+    if isinstance(shape, tuple):
+        return float(_slopes(shape).max()) / rise_time
     return {RAMP: 1.0, COSINE: np.pi / 2, PARABOLIC: 2.0}[shape] / rise_time
 
 
-def residual(shape: str, rise_time: float, frequency: ArrayLike) -> FloatArray:
+def _columns(points: tuple[tuple[float, float], ...]) -> tuple[FloatArray, FloatArray]:
+    """Shares of the rise time, and factors."""
+    shares, factors = np.array(points, float).T
+    return shares, factors
+
+
+def _slopes(points: tuple[tuple[float, float], ...]) -> FloatArray:
+    """Slope between neighbouring points over the rise time."""
+    shares, factors = _columns(points)
+    return np.asarray(np.diff(factors) / np.diff(shares))
+
+
+def residual(shape: Shape, rise_time: float, frequency: ArrayLike) -> FloatArray:
     """Swing that a profile leaves in a mode after its end, over the one that a step would leave.
 
         R = |integral of q'(t) exp(i w t) dt|,   x = w t_s/2
         ramp: |sin x/x|      cosine: |cos x/(1 - (2 x/pi)^2)|      parabolic: (sin(x/2)/(x/2))^2      step: 1
+        points: |q_0 + sum (q_k+1 - q_k) sin y_k/y_k exp(i w t_k)|,   y_k = w (t_k+1 - t_k)/2, t_k in the middle
 
     Args:
-        shape: `step`, `ramp`, `cosine` or `parabolic`.
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
         rise_time: t_s [s].
         frequency: w, of the mode [rad/s].
 
@@ -150,6 +184,12 @@ def residual(shape: str, rise_time: float, frequency: ArrayLike) -> FloatArray:
     if shape == STEP:
         return np.ones_like(w)
     x = w * rise_time / 2
+    if isinstance(shape, tuple):
+        shares, factors = _columns(shape)
+        turns = 2 * x[..., None]
+        middles, halves = (shares[1:] + shares[:-1]) / 2, np.diff(shares) / 2
+        gained = np.diff(factors) * np.sinc(turns * halves / np.pi) * np.exp(1j * turns * middles)
+        return np.asarray(np.abs(factors[0] + gained.sum(axis=-1)))
     if shape == RAMP:
         return np.asarray(np.abs(np.sinc(x / np.pi)))
     if shape == PARABOLIC:
@@ -168,7 +208,7 @@ class Phase:
     stray: float
 
 
-def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: float) -> tuple[Phase, ...]:
+def phases(shape: Shape, imposed_speed: bool, rise_time: float, lowest_frequency: float) -> tuple[Phase, ...]:
     """Bounds on the answer of every undamped mode with at least this frequency, phase by phase of a start.
 
     For x'' + w^2 x = w^2 q(t), q the force factor (torque) or the acceleration over its peak (speed), b = pi/(w t_s):
@@ -180,12 +220,15 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
         speed ramp     |x - 1| <= 1 in the ramp, then |x| <= 2
         speed cosine   |x - q| <= b/(1 - b) in the rise, then |x| <= 2 b/(1 - b^2)
         speed parab.   |x - q| <= 6/(w t_s) in the rise, then |x| <= 8/(w t_s)
+        torque points  |x - q| <= q_0 + sum |change of slope|/w in and after the rise
+        speed points   |x - q| <= sum |change of acceleration| in the rise, the last not counted, |x| <= all after it
 
     each capped by the response to its increases one by one: 1 for a torque (it only rises), 2 for a speed (the
-    acceleration rises and falls by its peak). All decrease with w, so the lowest frequency bounds every mode.
+    acceleration rises and falls by its peak; that of points by all its changes). All decrease with w, so the lowest
+    frequency bounds every mode.
 
     Args:
-        shape: `step`, `ramp`, `cosine` or `parabolic`.
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
         imposed_speed: True when the speed is imposed, False for the torque.
         rise_time: t_s [s].
         lowest_frequency: w, a lower bound of the natural frequencies [rad/s].
@@ -205,6 +248,8 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
             raise ValueError("a step of speed needs an infinite force")
         return (Phase(1.0, 1.0, 1.0),)
     x = lowest_frequency * rise_time
+    if isinstance(shape, tuple):
+        return _phases_of_points(shape, imposed_speed, x)
     b = np.pi / x if x > 0 else np.inf
     if shape == RAMP:
         if imposed_speed:
@@ -225,6 +270,19 @@ def phases(shape: str, imposed_speed: bool, rise_time: float, lowest_frequency: 
         )
     stray = _capped(b**2 / (1 - b**2) if b < 1 else np.inf, 1)
     return Phase(0.0, 1.0, stray), Phase(1.0, 1.0, stray)
+
+
+def _phases_of_points(points: tuple[tuple[float, float], ...], imposed_speed: bool, turns: float) -> tuple[Phase, ...]:
+    """`phases` where every corner leaves its own swing behind; `turns` is w t_s."""
+    slopes = _slopes(points)
+    changes = np.abs(np.diff(np.concatenate([[0.0], slopes, [0.0]])))
+    if imposed_speed:
+        peak = slopes.max()
+        inside = float(changes[:-1].sum() / peak)
+        return Phase(float(slopes.min() / peak), 1.0, inside), Phase(0.0, 0.0, inside + float(changes[-1] / peak))
+    first = points[0][1]
+    stray = _capped(first + changes.sum() / turns if turns > 0 else np.inf, 1)
+    return Phase(first, 1.0, stray), Phase(1.0, 1.0, stray)
 
 
 def _capped(value: float, cap: float) -> float:

@@ -14,12 +14,13 @@ from ptmcalc.base.units import unit_of
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.solver import always_valid
 from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.laws import start_profile
 
 KINDS = [load_kind(name) for name in kind_names()]
 PARTS = ("Range", "Error", "Source")
 ARGUMENT = re.compile(r"^    (\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
 UNIT = re.compile(r"\[([^\]\s]+)\]")
-NO_NUMBER = (bool, int, str)  # flags, names of strands and shapes of profiles have no unit
+NO_NUMBER = (bool, int, str, start_profile.Shape)  # flags, names of strands and shapes of profiles have no unit
 
 Function = Callable[..., Any]
 

@@ -121,6 +121,7 @@ HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
 SHAPES = ("step", "ramp", "cosine", "parabolic")
+POINTS = ((0.0, 0.0), (0.3, 0.1), (1.0, 1.0))
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
@@ -263,15 +264,15 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     sag.sag_ratio: [(900.0, 5e4), (900.0, -1.0)],
     sag.tension_at_sag: [(900.0, 0.015)],
     sag.softening: [(1.2e8, 900.0, 5e4), (1.2e8, 900.0, 0.0)],
-    start_profile.rise: [(shape, 4.0, t) for shape in SHAPES for t in (0.0, 1.3, 9.0)],
-    start_profile.rise_integral: [(shape, 4.0, t) for shape in SHAPES for t in (0.0, 1.3, 9.0)],
-    start_profile.rise_rate: [(shape, 4.0, t) for shape in SHAPES[1:] for t in (1.3, 9.0)],
-    start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0), ("parabolic", 4.0)],
-    start_profile.residual: [(shape, 4.0, 3.0) for shape in SHAPES],
+    start_profile.rise: [(shape, 4.0, t) for shape in (*SHAPES, POINTS) for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_integral: [(shape, 4.0, t) for shape in (*SHAPES, POINTS) for t in (0.0, 1.3, 9.0)],
+    start_profile.rise_rate: [(shape, 4.0, t) for shape in (*SHAPES[1:], POINTS) for t in (1.3, 9.0)],
+    start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0), ("parabolic", 4.0), (POINTS, 4.0)],
+    start_profile.residual: [(shape, 4.0, 3.0) for shape in (*SHAPES, POINTS)],
     start_profile.phases: [
         ("step", False, 4.0, 3.0), ("ramp", False, 4.0, 3.0), ("cosine", False, 4.0, 3.0), ("ramp", True, 4.0, 3.0),
         ("cosine", True, 4.0, 3.0), ("cosine", True, 0.5, 3.0), ("parabolic", False, 4.0, 3.0),
-        ("parabolic", True, 4.0, 3.0),
+        ("parabolic", True, 4.0, 3.0), (POINTS, False, 4.0, 3.0), (POINTS, True, 4.0, 3.0),
     ],
     shaft.acceleration: [(90.0, 30.0, -8.0, 12.0)],
     shaft.torque_of_motion: [(30.0, -8.0, 12.0, 3.0)],
@@ -472,7 +473,9 @@ def test_every_law_is_called_here() -> None:
 def test_every_number_has_a_unit(law: Law) -> None:
     parameters = inspect.signature(law).parameters
     assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
-    numbers = {name for name, p in parameters.items() if p.annotation not in (str, bool, int, LoopMasses)}
+    numbers = {
+        name for name, p in parameters.items() if p.annotation not in (str, bool, int, LoopMasses, start_profile.Shape)
+    }
     assert set(argument_units(law)) == numbers
     for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:
         assert dimension(unit) is not None

@@ -5,6 +5,7 @@ answers with two running integrals of the slope of q (Gauss points inside the ri
 form of any shape is used.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -282,3 +283,88 @@ class TestResidual:
 
     def test_a_step_leaves_all(self) -> None:
         assert start_profile.residual(STEP, RISE, np.array([0.1, 3.0])) == pytest.approx([1.0, 1.0])
+
+
+# --- points -----------------------------------------------------------------------------------------------------
+
+
+def some_points(seed: int, imposed_speed: bool = True) -> tuple[tuple[float, float], ...]:
+    """A random table: from 0, or from somewhere above it for a torque, to 1."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(2, 8))
+    shares = np.concatenate([[0.0], np.cumsum(rng.uniform(0.05, 1.0, count - 1))])
+    factors = np.concatenate([[0.0 if imposed_speed else rng.uniform(0, 0.5)], rng.uniform(0, 1.0, count - 1)])
+    factors = np.maximum.accumulate(factors)
+    factors[-1] = 1.0
+    return tuple(zip((shares / shares[-1]).tolist(), factors.tolist(), strict=True))
+
+
+def oscillator(points: tuple[tuple[float, float], ...], imposed_speed: bool, frequency: float) -> tuple[float, float]:
+    """Largest |x - q| in the rise and after it, by an ODE solver from corner to corner."""
+    shares, factors = np.array(points).T
+    slopes = np.diff(factors) / np.diff(shares)
+    state, worst = [0.0, 0.0], 0.0
+    for k, slope in enumerate(slopes):
+
+        def load(t: float, k: int = k, slope: float = slope) -> float:
+            return slope / slopes.max() if imposed_speed else factors[k] + slope * (t - shares[k])
+
+        times = np.linspace(shares[k], shares[k + 1], 200)
+        motion = solve_ivp(
+            lambda t, y, load=load: [y[1], frequency**2 * (load(t) - y[0])],
+            (shares[k], shares[k + 1]), state, method="DOP853", t_eval=times, rtol=1e-10, atol=1e-12,
+        )  # fmt: skip
+        worst = max(worst, float(np.max(np.abs(motion.y[0] - [load(t) for t in times]))))
+        state = [float(motion.y[0, -1]), float(motion.y[1, -1])]
+    rest = 0.0 if imposed_speed else 1.0
+    return worst, math.hypot(state[0] - rest, state[1] / frequency)
+
+
+class TestPoints:
+    @pytest.mark.parametrize("seed", range(12))
+    def test_area_and_slope_are_those_of_the_factor(self, seed: int) -> None:
+        points = some_points(seed, imposed_speed=False)
+        corners = [share * RISE for share, _ in points]
+        for until in (0.1, 1.0, 2.7, 3.0, 5.0):
+            ends = sorted({0.0, until, *(corner for corner in corners if corner < until)})
+            area = sum(
+                quad(lambda t: float(start_profile.rise(points, RISE, t)), a, b)[0] for a, b in itertools.pairwise(ends)
+            )
+            assert start_profile.rise_integral(points, RISE, until) == pytest.approx(area, rel=1e-12)
+        middles = np.array([(a + b) / 2 for a, b in itertools.pairwise(corners)])
+        h = 1e-5
+        slope = (start_profile.rise(points, RISE, middles + h) - start_profile.rise(points, RISE, middles - h)) / (
+            2 * h
+        )
+        assert start_profile.rise_rate(points, RISE, middles) == pytest.approx(slope, abs=1e-9)
+        assert start_profile.peak_rate(points, RISE) == pytest.approx(slope.max(), rel=1e-8)
+        assert start_profile.rise_rate(points, RISE, 4.0) == 0.0
+
+    @pytest.mark.parametrize("shape", [RAMP, COSINE, PARABOLIC])
+    def test_many_points_along_another_shape_are_that_shape(self, shape: str) -> None:
+        shares = np.linspace(0, 1, 2001)
+        points = tuple(zip(shares.tolist(), start_profile.rise(shape, 1.0, shares).tolist(), strict=True))
+        times = np.linspace(0, 4, 37)
+        for law in (start_profile.rise, start_profile.rise_integral):
+            assert law(points, RISE, times) == pytest.approx(law(shape, RISE, times), abs=1e-6)
+        for frequency in (0.3, 1.7, 9.0):
+            left = start_profile.residual(shape, RISE, frequency)
+            assert start_profile.residual(points, RISE, frequency) == pytest.approx(left, abs=1e-6)
+
+    @pytest.mark.parametrize("imposed_speed", [False, True])
+    @pytest.mark.parametrize("seed", range(15))
+    def test_no_oscillator_strays_further_than_its_corners_let_it(self, seed: int, imposed_speed: bool) -> None:
+        points = some_points(seed, imposed_speed)
+        for lowest in (0.5, 4.0, 30.0):
+            claimed = start_profile.phases(points, imposed_speed, RISE, lowest / RISE)
+            for frequency in (lowest, 1.6 * lowest, 3.1 * lowest):
+                in_rise, after = oscillator(points, imposed_speed, frequency)
+                assert in_rise <= claimed[0].stray * (1 + 1e-9)
+                assert after <= claimed[1].stray * (1 + 1e-9)
+
+    @pytest.mark.parametrize("seed", range(6))
+    def test_swing_left_behind_is_that_of_the_oscillator(self, seed: int) -> None:
+        points = some_points(seed, imposed_speed=False)
+        for frequency in (0.7, 3.3, 17.0):
+            _, after = oscillator(points, False, frequency)
+            assert start_profile.residual(points, 1.0, frequency) == pytest.approx(after, abs=1e-8)

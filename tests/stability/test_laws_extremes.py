@@ -96,7 +96,10 @@ class Draw:
     def loop(self, fixed_length: bool, imposed_speed: bool) -> LoopMasses:
         return LoopMasses(*self.positive(6), fixed_length=fixed_length, imposed_speed=imposed_speed)
 
-    def shape(self, *among: str) -> str:
+    def shape(self, *among: str) -> str | tuple[tuple[float, float], ...]:
+        """One of the words, or points that rise from 0 to 1."""
+        if "ramp" in among and self.rng.random() < 0.2:
+            return (0.0, 0.0), (self.share() / 2 + 1e-12, self.share()), (1.0, 1.0)
         return str(self.rng.choice(among))
 
 

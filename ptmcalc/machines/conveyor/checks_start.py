@@ -18,9 +18,14 @@ def _no_needs(spec: Conveyor, scene: Start) -> tuple[KeyPath, ...]:
     return ()
 
 
-def _profile_key(key: str) -> Callable[[Conveyor, Start], KeyPath]:
-    """Where a key of the profile of a scene stands in the file."""
-    return lambda spec, scene: ("scenes", list(spec.all_scenes).index(scene), "profile", key)
+def _profile_key(key: str = "") -> Callable[[Conveyor, Start], KeyPath]:
+    """Where a key of the profile of a scene stands in the file; without one, the key that says how long it takes."""
+    return lambda spec, scene: (
+        "scenes",
+        list(spec.all_scenes).index(scene),
+        "profile",
+        key or scene.profile.time_key,
+    )
 
 
 def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
@@ -31,7 +36,7 @@ def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
     return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
 
 
-_time_key, _ripple_key = _profile_key("time"), _profile_key("ripple")
+_time_key, _ripple_key = _profile_key(), _profile_key("ripple")
 
 
 # -- heat of the motors ---------------------------------------------------------------------------------------------
@@ -102,12 +107,12 @@ def _sharp_checks(spec: Conveyor, scene: Start) -> Checks:
 
 
 def _sharp_key(spec: Conveyor, scene: Start) -> KeyPath:
-    return _time_key(spec, scene) if scene.profile.time is not None else starting_torque_key(spec)
+    return _time_key(spec, scene) if scene.profile.rise_time else starting_torque_key(spec)
 
 
 def _sharp_repair(spec: Conveyor, scene: Start) -> KeyPath:
     key = _sharp_key(spec, scene)
-    return () if key[-1] == "curve" else key
+    return () if key[-1] in ("curve", "points") else key
 
 
 SHARP: Check[Conveyor, Start] = Check(
@@ -142,7 +147,7 @@ def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
 
 
 def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
-    if spec.checks.start_residual is not None and scene.profile.time is not None:
+    if spec.checks.start_residual is not None and scene.profile.rise_time:
         yield replace(RESIDUAL, each=None)
 
 
@@ -155,7 +160,7 @@ RESIDUAL: Check[Conveyor, Start] = Check(
     limit=_residual_limit,
     needs=_no_needs,
     blame=lambda spec, scene, loads: _time_key(spec, scene),
-    repair=_time_key,
+    repair=lambda spec, scene: () if scene.profile.points else _time_key(spec, scene),
     each=_residual_checks,
     what="The swing that the profile leaves in the lowest mode of the belt stays below the limit of the file.",
     why="A belt that swings on after its start wears splices and take-up; a rise of whole periods leaves it at rest.",

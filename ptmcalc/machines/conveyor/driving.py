@@ -69,7 +69,7 @@ def rigid_start(
     full = sum(drive_force(drive) for drive in spec.all_drives.values())
     if full <= resistance:
         return 0.0, 0.0
-    latest = max(drive.delay for drive in spec.all_drives.values()) + (scene.profile.time or 0.0)
+    latest = max(drive.delay for drive in spec.all_drives.values()) + scene.profile.rise_time
     latest += (scene.aborted.run + scene.aborted.pause) if scene.aborted else 0.0
     end = latest + mass * line.speed / (full - resistance)
     times = np.linspace(0.0, end, 20_001)

@@ -271,7 +271,7 @@ def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
-        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve
+        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table
 
     A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
 
@@ -281,9 +281,9 @@ def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
-    unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape == "curve")
+    unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape in ("curve", "table"))
     count = parts + len(spec.all_drives) + unusual
-    meaning = "slopes, drives, aborted starts and motor curves: 2 for one slope and one drive"
+    meaning = "slopes, drives, aborted starts, curves and tables: 2 for one slope and one drive"
     return Criterion("n", count, 3, meaning, "count")
 
 
@@ -363,7 +363,7 @@ class StartCase:
 
     line: BeltLine
     masses: LoopMasses
-    shape: str
+    shape: start_profile.Shape
     rise_time: float
     imposed_speed: bool
     available_force: float
@@ -405,14 +405,14 @@ class StartCase:
         """Bounds on the answer of every mode of at least this frequency [rad/s], relative to the plateau's.
 
         Of a torque that rises through the static resistance only the part above it acts, and only until the rated
-        speed is reached: a part of a ramp is a ramp, a part of a cosine is only known to rise. A resistance that
+        speed is reached: a part of a ramp is a ramp, a part of anything else is only known to rise. A resistance that
         drives acts at once, as a step.
         """
         if not self.moves:
             return (start_profile.Phase(0.0, 0.0, 0.0),)
         if self.imposed_speed or self.shape == start_profile.STEP:
             return start_profile.phases(self.shape, self.imposed_speed, self.rise_time, lowest_frequency)
-        if self.shape in (start_profile.COSINE, start_profile.PARABOLIC) and self.rise < self.rise_time:
+        if self.shape not in (start_profile.STEP, start_profile.RAMP) and self.rise < self.rise_time:
             return (start_profile.Phase(0.0, 1.0, 1.0),)
         at_once = max(-self.line.static_resistance / self.excess, 0.0)
         rising = start_profile.phases(self.shape, False, self.rise, lowest_frequency)
@@ -450,7 +450,7 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
     profile = scene.profile
     imposed = profile.imposes_speed
     masses = loop_masses(line, imposed)
-    rise_time = profile.time or 0.0
+    rise_time = profile.rise_time
     available = starting_force(spec)
     if imposed:
         acceleration = line.speed * start_profile.peak_rate(profile.rise, rise_time)
@@ -467,16 +467,25 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
     return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
 
 
-def _held(shape: str, rise_time: float, share: float) -> float:
+def _held(shape: start_profile.Shape, rise_time: float, share: float) -> float:
     """Time until a rising force reaches a share of its plateau."""
     if shape == start_profile.STEP or share <= 0:
         return 0.0
+    if isinstance(shape, tuple):
+        shares, factors = zip(*shape, strict=True)
+        above = next(k for k, factor in enumerate(factors) if factor >= share)
+        if not above:
+            return 0.0
+        part = (share - factors[above - 1]) / (factors[above] - factors[above - 1])
+        return rise_time * float(shares[above - 1] + part * (shares[above] - shares[above - 1]))
     if shape == start_profile.PARABOLIC:
         return rise_time * (math.sqrt(share / 2) if share < 0.5 else 1 - math.sqrt((1 - share) / 2))
     return rise_time * (share if shape == start_profile.RAMP else math.acos(1 - 2 * share) / math.pi)
 
 
-def _time_to_speed(line: BeltLine, shape: str, rise_time: float, available: float, held: float, mass: float) -> float:
+def _time_to_speed(
+    line: BeltLine, shape: start_profile.Shape, rise_time: float, available: float, held: float, mass: float
+) -> float:
     """Time after release at which the rigid body reaches the rated speed, by bisection on its momentum."""
     needed = mass * line.speed
     w = line.static_resistance

@@ -80,12 +80,12 @@ def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
 
 def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
     profile = scene.profile
-    rise = profile.time or 0.0
+    rise = profile.rise_time
     if profile.imposes_speed:
         window = rise + 4 * line.contour_time
 
         def imposed(time: float) -> float:
-            return line.speed * float(start_profile.rise(profile.shape, rise, time))
+            return line.speed * float(start_profile.rise(profile.rise, rise, time))
 
         pulls = {name: _constant(0.0) for name in spec.all_drives}
         return Moving(spec, scene, line, pulls, imposed, 0.0, window, rise, math.nan)

@@ -1,5 +1,6 @@
 """How a designer writes a belt conveyor."""
 
+import itertools
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 
@@ -8,6 +9,7 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import AnyMotor
+from ptmcalc.laws import start_profile
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.belt_data import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.resisting import RatioFromOne, Resistance
@@ -226,14 +228,25 @@ class ConveyorChecks(CheckSettings):
     """largest heat a drum may burn off by slip in one scene"""
 
 
+class ProfilePoint(Fragment):
+    """One point of a start profile."""
+
+    time: Time
+    """from switching on"""
+    share: Fraction
+    """of the rated speed, or of the mean starting torque"""
+
+
 class Profile(Fragment):
     """How the drive comes up."""
 
-    shape: Literal["step", "ramp", "cosine", "parabolic", "curve"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `curve` as the motors'
-    torque over their speed"""
+    shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
+    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
+    `curve` as the motors' torque over their speed"""
     time: PositiveTime | None = None
     """duration of the rise"""
+    points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
+    """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
     control: Literal["torque", "speed"] | None = None
     """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
     ripple: PositiveFrequency | None = None
@@ -241,18 +254,25 @@ class Profile(Fragment):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """A step is at once and of torque; anything else takes its time."""
+        """A step is at once and of torque; a table has its points; anything else takes its time."""
         shape = given.word("shape")
+        if shape in ("step", "curve", "table") and "time" in given:
+            hint = (
+                "delete `time`: the last point has it" if shape == "table" else "delete `time`, or write `shape: ramp`"
+            )
+            yield Conflict(("time",), f"a `{shape}` has no `time`", hint)
         if shape in ("step", "curve"):
-            if "time" in given:
-                yield Conflict(("time",), f"a `{shape}` has no `time`", "delete `time`, or write `shape: ramp`")
             if given.word("control") == "speed":
                 reason = "a step of speed needs an infinite force"
                 if shape == "curve":
                     reason = "a motor's curve is of torque"
                 yield Conflict(("control",), reason, "write `shape: ramp` and a `time`")
+        elif shape == "table":
+            yield from _faulty_points(given)
         elif shape is not None and "time" not in given:
             yield given.missing("time", f"a `{shape}` needs its `time`")
+        if shape not in ("table", None) and "points" in given:
+            yield Conflict(("points",), f"a `{shape}` has no `points`", "write `shape: table`")
 
     @property
     def imposes_speed(self) -> bool:
@@ -260,9 +280,47 @@ class Profile(Fragment):
         return self.shape not in ("step", "curve") and self.control != "torque"
 
     @property
-    def rise(self) -> str:
+    def rise(self) -> start_profile.Shape:
         """How the mean starting torque or the speed rises; on a motor's curve it is there at once."""
+        if self.points is not None:
+            return tuple((point.time / self.rise_time, point.share) for point in self.points)
         return "step" if self.shape == "curve" else self.shape
+
+    @property
+    def rise_time(self) -> float:
+        """Duration of the rise [s], 0 where it is at once."""
+        return self.points[-1].time if self.points is not None else self.time or 0.0
+
+    @property
+    def time_key(self) -> str:
+        """The key that says how long the rise takes; empty where it is at once."""
+        return "points" if self.points is not None else "time" if self.time is not None else ""
+
+
+def _faulty_points(given: Given) -> Iterator[Conflict]:
+    """A table starts at 0, and rises to 1: of speed from 0."""
+    if "points" not in given:
+        hint = "add `points: [{time: 0 s, share: 0}, {time: 10 s, share: 1}]`"
+        yield Conflict((), "a `table` needs its `points`", hint)
+        return
+    points = given.blocks("points")
+    times = [point.number("time") if point else None for point in points]
+    shares = [point.number("share") if point else None for point in points]
+    if times and times[0]:
+        yield Conflict(("points", 0, "time"), "a table begins at time 0", "write `time: 0 s`")
+    for index, (one, other) in enumerate(itertools.pairwise(times), 1):
+        if one is not None and other is not None and other <= one:
+            reason = "the time is not after that of the point before"
+            yield Conflict(("points", index, "time"), reason, "sort the points by time, and give each time once")
+    for index, (one, other) in enumerate(itertools.pairwise(shares), 1):
+        if one is not None and other is not None and other < one:
+            yield Conflict(("points", index, "share"), "the share falls", "a start profile only rises: sort the shares")
+    if shares and shares[0] and given.word("control") != "torque":
+        reason = "the speed of a belt at rest is 0, and it does not jump"
+        yield Conflict(("points", 0, "share"), reason, "write `share: 0`, or `control: torque`")
+    if len(points) > 1 and shares[-1] is not None and shares[-1] != 1:
+        reason = "a table ends at 1, the whole of the speed or of the mean starting torque"
+        yield Conflict(("points", len(points) - 1, "share"), reason, "write `share: 1`")
 
 
 class ConveyorScene(Scene):
@@ -306,7 +364,7 @@ class Start(ConveyorScene):
         """Only a torque can be broken off."""
         yield from super().conflicts(given)
         profile = given.block("profile")
-        if "aborted" not in given or profile is None or profile.word("shape") not in ("ramp", "cosine", "parabolic"):
+        if "aborted" not in given or profile is None or profile.word("shape") in ("step", "curve", None):
             return
         if profile.word("control") != "torque":
             yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")

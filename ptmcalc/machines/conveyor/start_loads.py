@@ -41,7 +41,7 @@ def start_parts(spec: Conveyor) -> Iterator[LoadInfo]:
 def start_loads(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Found]:
     """What the file gives enough for."""
     found: dict[str, float] = {}
-    left = spec.checks.start_residual is not None and scene.profile.time is not None and case.moves
+    left = spec.checks.start_residual is not None and scene.profile.rise_time > 0 and case.moves
     if scene.profile.ripple is not None or left:
         frequencies = belt_modes.natural_frequencies(case.masses, spec.takeup.mass or 0.0, FREQUENCIES)
         if scene.profile.ripple is not None:

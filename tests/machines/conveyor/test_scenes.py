@@ -39,6 +39,21 @@ def ramp(time: float) -> float:
     return min(time / RAMP_TIME, 1.0)
 
 
+def filling(time: float) -> float:
+    """A coupling that fills: at once to a fifth, to half, and to the whole."""
+    return float(np.interp(time, [0.0, 1.0, 4.0, 5.0], [0.2, 0.5, 0.6, 1.0]))
+
+
+FILLING = {
+    "shape": "table",
+    "control": "torque",
+    "points": [
+        {"time": "0 s", "share": 0.2},
+        {"time": "1 s", "share": 0.5},
+        {"time": "4 s", "share": 0.6},
+        {"time": "5 s", "share": 1},
+    ],
+}
 RAMP = {"shape": "ramp", "control": "torque", "time": f"{RAMP_TIME} s"}
 
 
@@ -55,8 +70,8 @@ def told(rig_name: str, scene_key: str) -> SceneReport:
     return scene_of(report_of(rig.data(scene)))
 
 
-def start_of(**options: Any) -> Callable[[Rig, float, int], Any]:
-    return lambda rig, window, elements: rig.started(ramp, window, elements, **options)
+def start_of(rise: Callable[[float], float] = ramp, **options: Any) -> Callable[[Rig, float, int], Any]:
+    return lambda rig, window, elements: rig.started(rise, window, elements, **options)
 
 
 def stop_of(**options: Any) -> Callable[[Rig, float, int], Any]:
@@ -82,6 +97,7 @@ CASES: dict[tuple[str, str], tuple[Any, dict[str, Any], Callable[[Rig, float, in
         {"type": "start", "load": "downhill", "profile": RAMP},
         start_of(loaded="downhill"),
     ),
+    ("hill", "filling"): (STARTED, {"type": "start", "profile": FILLING}, start_of(filling)),
     ("two drums", "start"): (TWO, {"type": "start", "profile": RAMP}, start_of()),
     ("both ends", "start"): (BOTH_ENDS, {"type": "start", "profile": RAMP}, start_of()),
     ("both ends", "coast"): (BOTH_ENDS, {"type": "coast"}, stop_of(braked=False)),
