@@ -11,6 +11,9 @@ from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion, EffectState
 from ptmcalc.contract.result import Event, History, LoadInfo
 
+_INVISIBLE = 1e-6
+"""A smaller relative change is rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -45,10 +48,19 @@ class LoadReport:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """What leaving out an effect near its threshold changes: the load it moves most, relative."""
+    """What leaving out an effect near its threshold changes: the load it moves most, relative.
+
+    A change is `clear` where the bars of the two numbers do not meet; else nobody can say what the effect does.
+    """
 
     load: str
     relative: float
+    clear: bool = True
+
+    @property
+    def visible(self) -> bool:
+        """Whether it is more than rounding."""
+        return abs(self.relative) >= _INVISIBLE
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +123,8 @@ class Judgement:
     reason: str = ""
     without: tuple[str, ...] = ()
     repair: Repair | None = None
+    loads: tuple[str, ...] = ()
+    """the loads it read"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """What a solver hands back."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.units import Quantity
@@ -18,11 +18,15 @@ class LoadInfo:
     title: str
     quantity: Quantity
     headline: bool = True
-    """whether the summary table shows it; the JSON always does"""
+    """whether the whole table shows it; the JSON always does"""
+
+    governing: bool = False
+    """whether a designer looks at it first: the short table shows these, and those that a check of the file reads"""
 
     def of(self, element: str, quantity: Quantity | None = None) -> "LoadInfo":
         """The load of one part."""
-        return LoadInfo(of(self.name, element), f"{self.title}, {element}", quantity or self.quantity, self.headline)
+        title = f"{self.title}, {element}"
+        return replace(self, name=of(self.name, element), title=title, quantity=quantity or self.quantity)
 
 
 def of(family: str, element: str) -> str:

@@ -211,20 +211,20 @@ class _Assembly:
         return "; ".join(notes)
 
     def _change(self, name: str) -> Change | None:
-        """The load of a check that leaving the effect out changes most."""
+        """The load of a check that leaving the effect out changes most; one whose change is clear goes first."""
         other = without(self.settled, self.spec, name)
         loads = dict.fromkeys(load for ruling in self.settled.rulings for load in ruling.check.loads)
         changes = [
-            Change(load, other[load].value / best.value - 1)
+            Change(load, changed.value / best.value - 1, clear=changed.low > best.high or changed.high < best.low)
             for load in loads
             if other is not None
             and load in other
             and (known := self.settled.loads.get(load)) is not None
             and (best := known.estimate).bounded
-            and other[load].bounded
+            and (changed := other[load]).bounded
             and best.value != 0
         ]
-        return max(changes, key=lambda change: abs(change.relative), default=None)
+        return max(changes, key=lambda change: (change.clear and change.visible, abs(change.relative)), default=None)
 
     def _solvers(self) -> Iterator[SolverReport]:
         for run in self.settled.runs:
@@ -301,6 +301,7 @@ class _Assembly:
                 if planned.forced_off and verdict is not Verdict.NOT_CHECKED
             ),
             repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
+            loads=check.loads,
         )
 
     def _repair(self, ruling: Ruling) -> Repair | None:

@@ -356,6 +356,7 @@ def test_an_effect_near_its_threshold_is_left_out_once_and_the_change_is_told(nu
     change = effect_of(found, "sag").change
     assert change is not None
     assert (change.load, change.relative) == ("pull", pytest.approx(9 / 9.5 - 1))
+    assert change.clear
     assert load_of(found).estimate == pull(9.5)
 
 
@@ -365,6 +366,39 @@ def test_an_effect_far_from_its_threshold_is_not_run_again(number: float) -> Non
     found = report(near_kind(number, log), effects={"sag": "on"})
     assert len(log.runs) == 1
     assert effect_of(found, "sag").change is None
+
+
+@pytest.mark.parametrize(("without", "clear"), [(pull(8.9, 9.09), True), (pull(8.9, 9.11), False), (pull(9.3), False)])
+def test_a_change_is_clear_where_the_bars_do_not_meet(without: Estimate, clear: bool) -> None:
+    kind = kind_of(
+        solver("rich", lambda carried, level: pull(9.1, 9.5) if "sag" in carried else without, carries=("sag",)),
+        effects=[effect("sag", 0.15)],
+    )
+    change = effect_of(report(kind), "sag").change
+    assert change is not None
+    assert change.clear is clear
+
+
+@pytest.mark.parametrize(("gale", "told"), [(2.2, "gale"), (2.0, "pull")], ids=["clear", "rounding"])
+def test_a_clear_change_is_told_before_a_larger_one_within_the_bars(gale: float, told: str) -> None:
+    """The pull changes by half, but nobody knows it so well; the gale without a bar by a tenth, or by rounding."""
+    info = LoadInfo("gale", "gale", FORCE)
+
+    def found_loads(carried: frozenset[str], level: int) -> dict[str, Estimate]:
+        if "sag" in carried:
+            return {"pull": pull(2, 6), "gale": pull(2.0)}
+        return {"pull": pull(4, 8), "gale": pull(gale * (1 + 1e-15))}
+
+    kind = kind_of(
+        solver("rich", found_loads, carries=("sag",), gives=("pull", "gale")),
+        effects=[effect("sag", 0.15)],
+        loads=(PULL, info),
+        checks=(OVERLOAD, replace(OVERLOAD, code="TOY102", loads=("gale",))),
+    )
+    change = effect_of(report(kind), "sag").change
+    assert change is not None
+    assert change.load == told
+    assert change.clear is (told == "gale")
 
 
 def test_leaving_out_a_whole_leaves_out_its_parts() -> None:

@@ -1,28 +1,29 @@
 """The loads a drive train can report: most of them once for each of its parts."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 
-TORQUE_PEAK = LoadInfo("torque_peak", "largest torque", units.TORQUE)
+TORQUE_PEAK = LoadInfo("torque_peak", "largest torque", units.TORQUE, governing=True)
 TORQUE_STEADY = LoadInfo("torque_steady", "torque of the rigid train at the end", units.TORQUE)
 DYNAMIC_FACTOR = LoadInfo("dynamic_factor", "largest torque over that of the rigid train", units.RATIO)
 SPEED_MAX = LoadInfo("speed_max", "largest speed", units.ANGULAR_SPEED)
 SPEED_MIN = LoadInfo("speed_min", "smallest speed", units.ANGULAR_SPEED, headline=False)
 SPEED_END = LoadInfo("speed_end", "speed at the end", units.ANGULAR_SPEED)
 ANGLE_END = LoadInfo("angle_end", "angle at the end", units.ANGLE, headline=False)
-START_TIME = LoadInfo("start_time", "start time", units.TIME)
-STOP_TIME = LoadInfo("stop_time", "stop time", units.TIME)
-STOP_ANGLE = LoadInfo("stop_angle", "way of the stop", units.ANGLE)
+START_TIME = LoadInfo("start_time", "start time", units.TIME, governing=True)
+STOP_TIME = LoadInfo("stop_time", "stop time", units.TIME, governing=True)
+STOP_ANGLE = LoadInfo("stop_angle", "way of the stop", units.ANGLE, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "start time, efficiency term by term", units.TIME)
 STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stop time, efficiency term by term", units.TIME)
-MOTOR_PEAK = LoadInfo("motor_torque_peak", "largest motor torque", units.TORQUE)
-MOTOR_RMS = LoadInfo("motor_torque_rms", "heating motor torque (rms)", units.TORQUE)
+MOTOR_PEAK = LoadInfo("motor_torque_peak", "largest motor torque", units.TORQUE, governing=True)
+MOTOR_RMS = LoadInfo("motor_torque_rms", "heating motor torque (rms)", units.TORQUE, governing=True)
 FREQUENCY = LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY)
-SEPARATION = LoadInfo("resonance_separation", "distance of an excitation from resonance", units.SHARE)
-WEAR = LoadInfo("wear_share", "worn part of the tooth", units.SHARE)
+SEPARATION = LoadInfo("resonance_separation", "distance of an excitation from resonance", units.SHARE, governing=True)
+WEAR = LoadInfo("wear_share", "worn part of the tooth", units.SHARE, governing=True)
 RESIDUAL = LoadInfo("energy_residual", "energy the ledger leaves over", units.RATIO, headline=False)
 
 LOADS = (
@@ -79,6 +80,6 @@ def parts(spec: Drivetrain) -> Iterator[LoadInfo]:
                     yield info.of(name)
         elif info is STOP_ANGLE:
             turns = spec.turns(spec.stopped)
-            yield info if turns else LoadInfo(info.name, info.title, units.LENGTH)
+            yield info if turns else replace(info, quantity=units.LENGTH)
         else:
             yield info
