@@ -137,6 +137,10 @@ def check(
         list[str] | None,
         typer.Option("--output", "-o", help="FORMAT=FILE, besides what is printed; may be repeated."),
     ] = None,
+    verbose: Annotated[
+        bool,
+        typer.Option("--verbose", "-v", help="The whole table: every load, check, effect, event and run."),
+    ] = False,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -165,12 +169,12 @@ def check(
     options = Options(tuple(scene or ()), accuracy, _effects(effects), histories=bool(history))
     reports = check_paths(paths, options)
     for target, name in files:
-        _write(Path(name), _rendered(Format(target), reports, to_terminal=False))
+        _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))
     for name in courses:
         _write(Path(name), histories.render(reports))
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
-    say(_rendered(chosen, reports, to_terminal=terminal))
+    say(_rendered(chosen, reports, verbose, to_terminal=terminal))
     if history and not courses and Format.JSON not in {chosen, *(form for form, _ in files)}:
         say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
     status = exit_status(reports)
@@ -179,15 +183,15 @@ def check(
     raise typer.Exit(status)
 
 
-def _rendered(form: Any, reports: "Sequence[FileReport]", *, to_terminal: bool) -> str:
+def _rendered(form: Any, reports: "Sequence[FileReport]", verbose: bool, *, to_terminal: bool) -> str:
     from shutil import get_terminal_size
 
     from ptmcalc.report import render
 
     if not to_terminal:
-        return render(form, reports)
+        return render(form, reports, verbose=verbose)
     color = "NO_COLOR" not in os.environ and os.environ.get("TERM") != "dumb"
-    return render(form, reports, width=get_terminal_size((120, 40)).columns, color=color)
+    return render(form, reports, width=get_terminal_size((120, 40)).columns, color=color, verbose=verbose)
 
 
 def _reaches(reports: "Sequence[FileReport]", level: Severity) -> bool:

@@ -18,8 +18,10 @@ class Format(StrEnum):
     JSON = "json"
 
 
-def render(form: Format, reports: Sequence[FileReport], *, width: int = 120, color: bool = False) -> str:
-    """The reports in one format; `width` and `color` matter to the table only."""
+def render(
+    form: Format, reports: Sequence[FileReport], *, width: int = 120, color: bool = False, verbose: bool = False
+) -> str:
+    """The reports in one format; `width`, `color` and `verbose` matter to the table only."""
     module = import_module(f"{__name__}.{form.value}")
-    text: str = module.render(tuple(reports), width=width, color=color)
+    text: str = module.render(tuple(reports), width=width, color=color, verbose=verbose)
     return text

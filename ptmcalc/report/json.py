@@ -24,7 +24,7 @@ from ptmcalc.contract.report import (
 SCHEMA_VERSION = "1"
 
 
-def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
+def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
     """The document; the same reports give the same bytes."""
     return dump(
         {

@@ -8,7 +8,7 @@ from ptmcalc.report import words
 _RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
 
 
-def render(reports: tuple[FileReport, ...], *, width: int, color: bool) -> str:
+def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
     """All lines, and a summary."""
     lines = [line for report in words.printable(reports) for line in _lines(report)]
     return "\n".join([*lines, words.summary(count(reports))]) + "\n"

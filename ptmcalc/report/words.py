@@ -7,9 +7,9 @@ from typing import Any
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
-from ptmcalc.base.units import Quantity, digits, display_unit, unit_of
+from ptmcalc.base.units import TIME, Quantity, digits, display_unit, show, unit_of
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.report import FileReport, Judgement
+from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSolver, SceneReport
 
 
 def printable(node: Any) -> Any:
@@ -58,7 +58,8 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
     if min(high - middle, middle - low) < 0.5 * bar:
         return f"{digits(middle)} [{digits(low)}, {digits(high)}]{suffix}"
     places = max(1 - math.floor(math.log10(bar)), 0)
-    return f"{middle:.{places}f} ±{bar:.{places}f}{suffix}"
+    rounded = round(middle, places) + 0.0  # of a zero without its sign
+    return f"{rounded:.{places}f} ±{bar:.{places}f}{suffix}"
 
 
 def common_unit(values: Iterable[float], quantity: Quantity) -> str:
@@ -113,6 +114,22 @@ def compared(number: Criterion) -> str:
     return f"{number.symbol} = {value} {relation} {digits(number.threshold, 3)}"
 
 
+def priced(following: NextSolver) -> str:
+    """The next solver of the ladder with its price."""
+    return f"{following.name}, {show(following.predicted_seconds, TIME, 2)}"
+
+
+def interval(value: AssumedReport) -> str:
+    """What an assumed value may be."""
+    low, high = (number(end, value.quantity) for end in (value.interval.low, value.interval.high))
+    return f"{low} to {high}"
+
+
+def balance(scene: SceneReport) -> float | None:
+    """What the balance of works of a scene leaves over, relative; None where nothing moved that has one."""
+    return scene.health.get("energy_residual")
+
+
 def place(span: Span | None) -> str:
     """`line:column`, or nothing where there is none."""
     return f"{span.line}:{span.column}" if span else ""
@@ -121,7 +138,7 @@ def place(span: Span | None) -> str:
 def worst_first(report: FileReport) -> list[tuple[str, Judgement]]:
     """(scene, judgement) of a file, the worst verdict and the smallest margin first."""
     rows = [(scene.name, judgement) for scene, judgement in report.judgements]
-    return sorted(rows, key=lambda row: (row[1].verdict.rank, relative_margin(row[1])))
+    return sorted(rows, key=lambda row: (row[1].verdict.rank, relative_margin(row[1]), row[1].margin or 0.0))
 
 
 def summary(totals: dict[str, int]) -> str:

@@ -224,6 +224,19 @@ def test_formats_are_written_to_files_besides_what_is_printed(tmp_path: Path) ->
     assert "CNV101 belt slip at the drive drum" in outputs["table"].read_text("utf-8")
 
 
+@pytest.mark.parametrize("option", ["--verbose", "-v"])
+def test_the_whole_table_is_to_be_had(option: str, tmp_path: Path) -> None:
+    """On the screen and in a file; the other formats do not know it."""
+    file = tmp_path / "report.txt"
+    short = ptmcalc("check", PASSING, "--format", "table").out
+    done = ptmcalc("check", PASSING, "--format", "table", option, "-o", f"table={file}")
+    assert (done.status, done.err) == (0, "")
+    assert file.read_text("utf-8") == done.out
+    assert len(done.out.splitlines()) > len(short.splitlines())
+    assert short.splitlines()[-1].startswith("More with --verbose: ")
+    assert ptmcalc("check", PASSING, option).out == ptmcalc("check", PASSING).out
+
+
 def test_one_scene_may_be_checked() -> None:
     scenes = checked(PASSING, "--scene", "run_loaded")["scenes"]
     assert [scene["name"] for scene in scenes] == ["run_loaded"]

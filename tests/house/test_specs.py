@@ -1,9 +1,10 @@
 """The design files that come with the project are sound, and every kind has one."""
 
+import re
 from pathlib import Path
 
 import pytest
-from support.command import ROOT, ptmcalc
+from support.command import ROOT, Done, ptmcalc
 
 from ptmcalc.engine.check import design_files
 from ptmcalc.engine.registry import kind_names
@@ -12,10 +13,35 @@ from ptmcalc.text.document import parse
 SPECS = design_files(ROOT / "specs")
 
 
-def test_the_specs_as_a_whole_pass() -> None:
-    done = ptmcalc("check", ROOT / "specs")
-    assert (done.status, done.err) == (0, "")
-    assert f"{len(SPECS)} file" in done.out
+SCREEN = 50
+"""Lines of a terminal that is not small."""
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("specs") / "table.txt"
+
+
+@pytest.fixture(scope="module")
+def checked(table: Path) -> Done:
+    """All of them, checked once."""
+    return ptmcalc("check", ROOT / "specs", "-o", f"table={table}")
+
+
+def test_the_specs_as_a_whole_pass(checked: Done) -> None:
+    assert (checked.status, checked.err) == (0, "")
+    assert f"{len(SPECS)} file" in checked.out
+
+
+def test_the_report_of_an_overland_conveyor_fits_one_screen(checked: Done, table: Path) -> None:
+    """That of each file begins with the line that names it; behind the last one stand two lines for all."""
+    assert checked.status == 0
+    titled = [part.splitlines() for part in re.split(r"^(?=\S*specs/)", table.read_text("utf-8"), flags=re.MULTILINE)]
+    reports = {Path(lines[0].split("  ")[0]).stem: lines for lines in titled if lines}
+    assert sorted(reports) == sorted(path.stem for path in SPECS)
+    lines = reports["overland_conveyor"]
+    assert len(lines) + 2 <= SCREEN
+    assert {"Loads", "Checks", "Effects", "Solvers"} <= {line.split("  ")[0] for line in lines}
 
 
 @pytest.mark.parametrize("kind", kind_names())

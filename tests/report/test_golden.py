@@ -22,6 +22,7 @@ from ptmcalc.report import Format, render
 
 GOLDEN = ROOT / "tests" / "golden"
 MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
+VIEWS = {"table": (Format.TABLE, False), "table.verbose": (Format.TABLE, True), "plain": (Format.PLAIN, False)}
 CLOSE = 1e-6
 STORED_DIGITS = 9  # more than are compared, so that rounding cannot make two close numbers differ
 NOISE = ("energy_residual", "grid_mismatch")  # differences of large numbers: only their size means something
@@ -68,11 +69,12 @@ def test_json(name: str) -> None:
     assert_close(found, json.loads(golden(GOLDEN / f"{name}.json", text)))
 
 
-@pytest.mark.parametrize("form", [Format.TABLE, Format.PLAIN])
+@pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("name", MACHINES)
-def test_text(name: str, form: Format) -> None:
-    found = render(form, [report_of_file(MACHINES[name])])
-    stored = golden(GOLDEN / f"{name}.{form.value}.txt", found)
+def test_text(name: str, view: str) -> None:
+    form, verbose = VIEWS[view]
+    found = render(form, [report_of_file(MACHINES[name])], verbose=verbose)
+    stored = golden(GOLDEN / f"{name}.{view}.txt", found)
     assert DECIMAL.sub("0.0", found) == DECIMAL.sub("0.0", stored)
     for one, other in zip(DECIMAL.findall(found), DECIMAL.findall(stored), strict=True):
         last_digit = max(Decimal(1).scaleb(int(Decimal(number).as_tuple().exponent)) for number in (one, other))
@@ -81,7 +83,7 @@ def test_text(name: str, form: Format) -> None:
 
 def test_every_snapshot_belongs_to_a_test() -> None:
     expected = {f"{name}.json" for name in MACHINES}
-    expected |= {f"{name}.{form}.txt" for name in MACHINES for form in ("table", "plain")}
+    expected |= {f"{name}.{view}.txt" for name in MACHINES for view in VIEWS}
     assert {path.name for path in GOLDEN.iterdir()} == expected
 
 

@@ -1,4 +1,4 @@
-"""The table on a terminal: what a designer must find in it, at the width of any screen."""
+"""The whole table, and what it has in common with the short one: what a designer must find in it, on any screen."""
 
 import re
 from collections.abc import Mapping
@@ -15,8 +15,8 @@ CONVEYOR, SLIPPING = "specs/conveyor.yaml", "tests/cli/specs/slipping.yaml"
 HEADINGS = ("Loads", "Checks", "Effects", "Events", "Solvers", "Assumed: the file does not say")
 
 
-def table(report: FileReport, width: int = 120) -> str:
-    return render(Format.TABLE, [report], width=width)
+def table(report: FileReport, width: int = 120, *, verbose: bool = True) -> str:
+    return render(Format.TABLE, [report], width=width, verbose=verbose)
 
 
 def parts(text: str) -> Mapping[str, list[str]]:
@@ -103,7 +103,7 @@ def test_the_ledger_shows_every_effect_with_the_number_that_decided() -> None:
     _, *found = rows(SAMPLES["passing"], "Effects")
     ledger = {row[1]: row[2:] for row in found if row[0] == "hang"}
     assert ledger["waves"] == ["simulated", "x = 3 ≥ 0.1", "a number"]
-    assert ledger["sag"] == ["simulated", "x = 0.15 ≥ 0.1", "a number", "pull -2.2 %"]
+    assert ledger["sag"] == ["simulated", "x = 0.15 ≥ 0.1", "a number", "pull -2.2 %, within the bars"]
     assert ledger["wind"] == ["skipped", "x = 0.01 < 0.1", "a number"]
     assert ledger["frost"] == ["bounded", "x = 5 ≥ 0.1", "a number"]
     assert ledger["rain"] == ["skipped (forced)", "x = 5 ≥ 0.1", "a number; forced off by the file"]
@@ -177,37 +177,43 @@ def test_the_first_line_is_file_kind_name_and_verdict(name: str, verdict: str) -
     assert first.startswith(SAMPLES[name].path)
     assert first.endswith(f"  {verdict}")
     assert SAMPLES[name].name in first
+    assert table(SAMPLES[name], verbose=False).splitlines()[0] == first
 
 
+@pytest.mark.parametrize("verbose", [False, True])
 @pytest.mark.parametrize("width", [80, 100, 120, 200])
 @pytest.mark.parametrize("name", SAMPLES)
-def test_no_line_is_wider_than_the_screen(name: str, width: int) -> None:
-    assert max(map(len, table(SAMPLES[name], width).splitlines())) <= width
+def test_no_line_is_wider_than_the_screen(name: str, width: int, verbose: bool) -> None:
+    assert max(map(len, table(SAMPLES[name], width, verbose=verbose).splitlines())) <= width
 
 
+@pytest.mark.parametrize("verbose", [False, True])
 @pytest.mark.parametrize("width", [80, 100, 120])
 @pytest.mark.parametrize("path", [CONVEYOR, SLIPPING])
-def test_no_line_of_a_real_machine_is_wider_than_the_screen(path: str, width: int) -> None:
-    assert max(map(len, table(report_of_file(path), width).splitlines())) <= width
+def test_no_line_of_a_real_machine_is_wider_than_the_screen(path: str, width: int, verbose: bool) -> None:
+    assert max(map(len, table(report_of_file(path), width, verbose=verbose).splitlines())) <= width
 
 
+@pytest.mark.parametrize("verbose", [False, True])
 @pytest.mark.parametrize("width", [80, 120])
 @pytest.mark.parametrize("path", [CONVEYOR, SLIPPING])
-def test_nothing_is_cut_off_on_a_narrow_screen(path: str, width: int) -> None:
+def test_nothing_is_cut_off_on_a_narrow_screen(path: str, width: int, verbose: bool) -> None:
     """An ellipsis would hide which scene a column is of, or which load a number."""
-    cut = [line for line in table(report_of_file(path), width).splitlines() if "…" in line]
+    cut = [line for line in table(report_of_file(path), width, verbose=verbose).splitlines() if "…" in line]
     assert cut == []
 
 
+@pytest.mark.parametrize("verbose", [False, True])
 @pytest.mark.parametrize("name", SAMPLES)
-def test_no_line_ends_in_spaces_and_no_colour_leaks(name: str) -> None:
-    text = table(SAMPLES[name])
+def test_no_line_ends_in_spaces_and_no_colour_leaks(name: str, verbose: bool) -> None:
+    text = table(SAMPLES[name], verbose=verbose)
     assert all(line == line.rstrip() for line in text.splitlines())
     assert "\x1b" not in text
 
 
-def test_colour_is_only_paint() -> None:
-    painted = render(Format.TABLE, [SAMPLES["failing"]], color=True)
+@pytest.mark.parametrize("verbose", [False, True])
+def test_colour_is_only_paint(verbose: bool) -> None:
+    painted = render(Format.TABLE, [SAMPLES["failing"]], color=True, verbose=verbose)
     assert "\x1b[" in painted
     plain = re.sub(r"\x1b\[[0-9;]*m", "", painted)
-    assert [line.rstrip() for line in plain.splitlines()] == table(SAMPLES["failing"]).splitlines()
+    assert [line.rstrip() for line in plain.splitlines()] == table(SAMPLES["failing"], verbose=verbose).splitlines()

@@ -1,0 +1,93 @@
+"""What only the whole report shows: effects with their meaning, events, runs, sources of what is assumed."""
+
+from collections.abc import Iterable
+
+from rich.console import Console
+
+from ptmcalc.base.span import dotted
+from ptmcalc.base.units import digits
+from ptmcalc.contract.report import EffectReport, FileReport, SceneReport
+from ptmcalc.report import words
+from ptmcalc.report.drawing import new_table
+from ptmcalc.report.pick import MOST_EVENTS
+
+_GRID = ("steps", "cells")
+
+
+def effects(console: Console, scenes: Iterable[SceneReport]) -> None:
+    """The ledger: what became of each effect, by what number, and what it changes where that is close."""
+    rows = [(scene.name, effect) for scene in scenes for effect in scene.effects]
+    if not rows:
+        return
+    table = new_table("Effects", "scene", "effect", "state", "number", "what it says", "without it")
+    for scene, effect in rows:
+        number = effect.criterion
+        table.add_row(
+            scene,
+            effect.name,
+            f"{effect.state.value}{' (forced)' if effect.forced else ''}",
+            words.compared(number) if number else "",
+            "; ".join(filter(None, (number.meaning if number else "", effect.note))),
+            _change(effect),
+        )
+    console.print(table)
+
+
+def _change(effect: EffectReport) -> str:
+    """What is without the effect; a change within the bars of the two runs may be none, or the other way round."""
+    change = effect.change
+    if change is None:
+        return ""
+    if not change.visible:
+        return "no change"
+    within = "" if change.clear else ", within the bars"
+    return f"{change.load} {100 * change.relative:+.2g} %{within}"
+
+
+def events(console: Console, scenes: tuple[SceneReport, ...]) -> None:
+    """What changed its state and when, the first of each scene; the JSON has all."""
+    if not any(scene.events for scene in scenes):
+        return
+    table = new_table("Events", "scene", "time", "element", "from", "to")
+    for scene in scenes:
+        for event in scene.events[:MOST_EVENTS]:
+            table.add_row(scene.name, f"{digits(event.time, 5)} s", event.element, event.before, event.after)
+        left = len(scene.events) - MOST_EVENTS
+        if left > 0:
+            table.add_row(scene.name, f"... and {left} more")
+    console.print(table)
+
+
+def solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
+    """The runs that were made, and the price of the next one."""
+    table = new_table("Solvers", "scene", "solver", "effects carried", "work", "next would take")
+    for scene in scenes:
+        for solver in scene.solvers:
+            table.add_row(
+                scene.name,
+                solver.name if solver.decides else f"{solver.name} (shown only)",
+                ", ".join(solver.effects) if solver.decides else "",
+                str(solver.work),
+                words.priced(solver.next) if solver.next else "",
+            )
+    console.print(table)
+
+
+def assumed(console: Console, report: FileReport) -> None:
+    """Values that the file does not give."""
+    if not report.assumed:
+        return
+    table = new_table("Assumed: the file does not say", "key", "value", "may be", "source")
+    for value in report.assumed:
+        shown = words.number(value.value, value.quantity)
+        table.add_row(dotted(value.path), shown, words.interval(value), value.source)
+    console.print(table)
+
+
+def health(console: Console, scenes: Iterable[SceneReport]) -> None:
+    """How well the energy of each scene balances, and in how fine a grid."""
+    for scene in scenes:
+        residual = words.balance(scene)
+        if residual is not None:
+            grid = "".join(f", {scene.health[name]:.0f} {name}" for name in _GRID if scene.health.get(name))
+            console.print(f"{scene.name}: work balance closes to {residual:.1e}{grid}", style="dim")

@@ -1,0 +1,107 @@
+"""What the short table shows of a report: what governs, and everything that is not passed. The rest is counted."""
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.contract.report import FileReport, Judgement, SceneReport
+from ptmcalc.contract.result import LoadInfo, family
+from ptmcalc.report import words
+
+MOST_EVENTS = 30
+"""Events of a scene that the whole table lists; the JSON has all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A verdict that is shown, and how many passed ones of its code it stands for besides itself."""
+
+    scene: str
+    judgement: Judgement
+    more: int = 0
+
+
+def all_checks(report: FileReport) -> list[Row]:
+    """Every verdict, the worst first."""
+    return [Row(scene, judgement) for scene, judgement in words.worst_first(report)]
+
+
+def checks(report: FileReport) -> list[Row]:
+    """Every verdict that is not a pass, and of those that are the closest one of each code, the worst first."""
+    rows = all_checks(report)
+    passed = Counter(row.judgement.code for row in rows if row.judgement.verdict is Verdict.PASS)
+    shown = []
+    for row in rows:
+        if row.judgement.verdict is not Verdict.PASS:
+            shown.append(row)
+        elif more := passed.pop(row.judgement.code, 0):
+            shown.append(Row(row.scene, row.judgement, more - 1))
+    return shown
+
+
+def all_loads(report: FileReport) -> frozenset[str]:
+    """Names of the loads of the whole table: the headlines, and what a check that is not passed reads."""
+    return _of_bad_verdicts(report).union(info.name for info in _headlines(report))
+
+
+def loads(report: FileReport) -> frozenset[str]:
+    """Names of the loads of the short table.
+
+    Of the headlines those that the kind calls governing or that a check of this file reads, all where there is none,
+    the whole machine for its parts; and whatever a check that is not passed reads.
+    """
+    read = {name for _, judgement in report.judgements for name in judgement.loads}
+    read |= {family(name) for name in read}
+    headlines = _headlines(report)
+    governing = {info.name for info in headlines if info.governing or info.name in read}
+    shown = governing or {info.name for info in headlines}
+    return _of_bad_verdicts(report).union(name for name in shown if not _stood_for(name, report.scenes))
+
+
+def _headlines(report: FileReport) -> set[LoadInfo]:
+    return {load.info for scene in report.scenes for load in scene.loads if load.info.headline}
+
+
+def _of_bad_verdicts(report: FileReport) -> frozenset[str]:
+    found = {load.info.name for scene in report.scenes for load in scene.loads}
+    return frozenset(
+        name
+        for _, judgement in report.judgements
+        if judgement.verdict is not Verdict.PASS
+        for name in judgement.loads
+        if name in found
+    )
+
+
+def _stood_for(name: str, scenes: Sequence[SceneReport]) -> bool:
+    """Whether the load of a part is told by that of the machine wherever there is one: by the worst of all parts."""
+    whole = family(name)
+    if whole == name:
+        return False
+    values = [{load.info.name: load.estimate.value for load in scene.loads} for scene in scenes]
+    return all(_is_extreme(whole, own) for own in values if name in own)
+
+
+def _is_extreme(whole: str, values: Mapping[str, float]) -> bool:
+    """Whether a machine's value is the largest or the smallest of those of its parts."""
+    parts = [value for name, value in values.items() if name != whole and family(name) == whole]
+    return whole in values and any(math.isclose(values[whole], end) for end in (max(parts), min(parts)))
+
+
+def left_out(reports: Sequence[FileReport]) -> str:
+    """One line that counts what the whole table shows besides; empty where that is nothing."""
+    counted = {
+        "load": sum(len(all_loads(report)) - len(loads(report)) for report in reports),
+        "passed check": sum(row.more for report in reports for row in checks(report)),
+        "event": sum(min(len(scene.events), MOST_EVENTS) for report in reports for scene in report.scenes),
+    }
+    whole = {
+        "what the effects are": any(scene.effects for report in reports for scene in report.scenes),
+        "all runs": any(scene.solvers for report in reports for scene in report.scenes),
+        "why values are assumed": any(report.assumed for report in reports),
+    }
+    parts = [f"{number} {name}{'' if number == 1 else 's'}" for name, number in counted.items() if number]
+    parts += [name for name, there in whole.items() if there]
+    return f"More with --verbose: {', '.join(parts)}" if parts else ""
