@@ -3,11 +3,14 @@
 A key that is too much is blamed itself, a missing one is blamed on the key of its block, a wrong value on the value.
 """
 
+from functools import partial
+
 import pytest
+from support import design_files
+from support.design_files import problem_in, read
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.span import dotted
-from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.machines.conveyor.spec import Conveyor
 
 MACHINE = """\
@@ -68,33 +71,12 @@ takeup: {type: gravity, tension: 120 kN}
 tail_drum: {inertia: 50 kg*m^2, diameter: 800 mm}
 scenes: [{type: run}]
 """
+edited = partial(design_files.edited, MACHINE)
 
 CEMA = (
     ("coefficient: 0.022", "cema: {roll: 6in, flexure: 0.03}"),
     ("secondary_force: 12 kN", "secondary_force: 2 kN"),
 )
-
-
-def read(text: str) -> Loaded:
-    return load_text(text.encode(), "case.yaml")
-
-
-def edited(*edits: tuple[str, str]) -> str:
-    """The machine with the first line of such words replaced, without its indentation; an empty text deletes it."""
-    lines = MACHINE.splitlines()
-    for old, new in edits:
-        number = next(index for index, line in enumerate(lines) if line.strip() == old)
-        indent = lines[number][: -len(old)]
-        lines[number : number + 1] = [indent + line for line in new.splitlines()]
-    return "\n".join(lines) + "\n"
-
-
-def problem_in(text: str) -> Diagnostic:
-    """The one thing said about a faulty file."""
-    result = read(text)
-    assert result.spec is None
-    assert len(result.diagnostics) == 1, [(d.code, d.message) for d in result.diagnostics]
-    return result.diagnostics[0]
 
 
 def at(problem: Diagnostic, text: str) -> str:

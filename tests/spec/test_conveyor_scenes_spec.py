@@ -4,14 +4,16 @@ A key that is too much is blamed itself, a missing one is blamed on the key of i
 """
 
 import re
+from functools import partial
 from typing import Any
 
 import pytest
 import yaml
+from support import design_files
+from support.design_files import place, problem_in, problems_in, read
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.span import dotted
-from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Jam, Start, Stop
 
 MACHINE = """\
@@ -75,6 +77,7 @@ checks:
   stop_time: 30 s
   slip_heat: 50 kJ
 """
+edited = partial(design_files.edited, MACHINE)
 
 DRIVE: dict[str, Any] = {
     "motor": {"inertia": "6 kg*m^2", "mean_starting_torque": "2200 N*m"},
@@ -83,37 +86,10 @@ DRIVE: dict[str, Any] = {
 }
 
 
-def read(text: str) -> Loaded:
-    return load_text(text.encode(), "case.yaml")
-
-
-def edited(*edits: tuple[str, str]) -> str:
-    """The machine with the first line of such words replaced, without its indentation."""
-    lines = MACHINE.splitlines()
-    for old, new in edits:
-        number = next(index for index, line in enumerate(lines) if line.strip() == old)
-        indent = lines[number][: -len(old)]
-        lines[number : number + 1] = [indent + line for line in new.splitlines()]
-    return "\n".join(lines) + "\n"
-
-
 def with_blocks(**blocks: Any) -> str:
     """The machine with whole blocks replaced, in the order of the file; None deletes one."""
     data = yaml.safe_load(MACHINE) | blocks
     return yaml.safe_dump({key: value for key, value in data.items() if value is not None}, sort_keys=False)
-
-
-def problems_in(text: str) -> tuple[Diagnostic, ...]:
-    result = read(text)
-    assert result.spec is None
-    return result.diagnostics
-
-
-def problem_in(text: str) -> Diagnostic:
-    """The one thing said about a faulty file."""
-    found = problems_in(text)
-    assert len(found) == 1, [(d.code, d.message) for d in found]
-    return found[0]
 
 
 def warnings_of(text: str) -> list[Diagnostic]:
@@ -121,11 +97,6 @@ def warnings_of(text: str) -> list[Diagnostic]:
     assert result.spec is not None, [(d.code, d.message) for d in result.diagnostics]
     assert all((d.code, d.severity) == ("SPC201", Severity.WARNING) for d in result.diagnostics)
     return list(result.diagnostics)
-
-
-def place(problem: Diagnostic) -> tuple[int, int]:
-    assert problem.span is not None
-    return problem.span.line, problem.span.column
 
 
 def place_of(text: str, words: str, nth: int = 0) -> tuple[int, int]:

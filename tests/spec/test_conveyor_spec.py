@@ -7,16 +7,18 @@ is missing from, a wrong value on the value.
 import copy
 import re
 from collections.abc import Iterator
+from functools import partial
 from typing import Any, get_args
 
 import pytest
 import yaml
 from pydantic import BaseModel, ValidationError
+from support import design_files
+from support.design_files import place, problem_in, problems_of, read
 from support.machines import changed, loaded, spec_of, template
 
-from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.span import KeyPath, dotted, key_path
-from ptmcalc.engine.load import Loaded, load_text, measure_at
+from ptmcalc.engine.load import load_text, measure_at
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.conveyor.spec import Conveyor, Run, Start
 from ptmcalc.spec.fields import Measure
@@ -65,39 +67,7 @@ scenes:
       shape: ramp
       time: 12 s
 """
-
-
-def read(text: str) -> Loaded:
-    return load_text(text.encode(), "case.yaml")
-
-
-def edited(*edits: tuple[str, str]) -> str:
-    """The machine with lines replaced, each written as it stands, without its indentation."""
-    lines = MACHINE.splitlines()
-    for old, new in edits:
-        number = next(index for index, line in enumerate(lines) if line.strip() == old)
-        indent = lines[number][: -len(old)]
-        lines[number : number + 1] = [indent + line for line in new.splitlines()]
-    return "\n".join(lines) + "\n"
-
-
-def problems_of(data: dict[str, Any]) -> tuple[Diagnostic, ...]:
-    result = read(yaml.safe_dump(data, sort_keys=False))
-    assert result.spec is None
-    return result.diagnostics
-
-
-def problem_in(text: str) -> Diagnostic:
-    """The one thing said about a faulty file."""
-    result = read(text)
-    assert result.spec is None
-    assert len(result.diagnostics) == 1, [(d.code, d.message) for d in result.diagnostics]
-    return result.diagnostics[0]
-
-
-def place(problem: Diagnostic) -> tuple[int, int]:
-    assert problem.span is not None
-    return problem.span.line, problem.span.column
+edited = partial(design_files.edited, MACHINE)
 
 
 def place_of(text: str, key: str) -> tuple[int, int]:

@@ -5,16 +5,18 @@ A key that does not go with the others is blamed itself, a missing one on its bl
 
 import inspect
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import pytest
 import yaml
 from pydantic import BaseModel
+from support import design_files
+from support.design_files import place, problem_in, read
 from support.drivetrains import EVERYTHING, data_of, report_of, spec_of
 
-from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.span import KeyPath, dotted, key_path
-from ptmcalc.engine.load import Loaded, load_text, measure_at
+from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.drivetrain import bodies, spec
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop
@@ -56,39 +58,13 @@ scenes:
   - {type: run, duration: 1 s, speed: 10 rad/s}
   - {type: stop, duration: 2 s}
 """
-
-
-def read(text: str) -> Loaded:
-    return load_text(text.encode(), "case.yaml")
-
-
-def edited(*edits: tuple[str, str]) -> str:
-    """The machine with lines replaced, each written as it stands, without its indentation."""
-    lines = MACHINE.splitlines()
-    for old, new in edits:
-        number = next(index for index, line in enumerate(lines) if line.strip() == old)
-        indent = lines[number][: -len(old)]
-        lines[number : number + 1] = [indent + line for line in new.splitlines()]
-    return "\n".join(lines) + "\n"
+edited = partial(design_files.edited, MACHINE)
 
 
 def one_edit(old: str, new: str) -> tuple[tuple[str, str], ...]:
     """A part of one line replaced."""
     line = next(line.strip() for line in MACHINE.splitlines() if old in line)
     return ((line, line.replace(old, new)),)
-
-
-def problem_in(text: str) -> Diagnostic:
-    """The one thing said about a faulty file."""
-    result = read(text)
-    assert result.spec is None
-    assert len(result.diagnostics) == 1, [(d.code, dotted(d.path), d.message) for d in result.diagnostics]
-    return result.diagnostics[0]
-
-
-def place(problem: Diagnostic) -> tuple[int, int]:
-    assert problem.span is not None
-    return problem.span.line, problem.span.column
 
 
 def place_of(text: str, words: str) -> tuple[int, int]:

@@ -10,12 +10,13 @@ from typing import Any
 import pytest
 import yaml
 from pydantic import BaseModel
+from support.design_files import place, problem_in, read
 from support.machines import loaded, report_of
 from support.shafts import spec_of
 
-from ptmcalc.base.diagnostic import Diagnostic, Severity
+from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.span import KeyPath, dotted, key_path
-from ptmcalc.engine.load import Loaded, load_text, measure_at
+from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.shaft import spec
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
@@ -106,24 +107,6 @@ scenes:
 
 def file(*parts: str) -> str:
     return "kind: shaft\n" + "".join(parts)
-
-
-def read(text: str) -> Loaded:
-    return load_text(text.encode(), "case.yaml")
-
-
-def problem_in(text: str, severity: Severity = Severity.ERROR) -> Diagnostic:
-    """The one thing said about a faulty file."""
-    result = read(text)
-    assert (result.spec is None) == (severity is Severity.ERROR)
-    assert len(result.diagnostics) == 1, [(d.code, dotted(d.path), d.message) for d in result.diagnostics]
-    assert result.diagnostics[0].severity is severity
-    return result.diagnostics[0]
-
-
-def place(problem: Diagnostic) -> tuple[int, int]:
-    assert problem.span is not None
-    return problem.span.line, problem.span.column
 
 
 def place_of(text: str, words: str) -> tuple[int, int]:
