@@ -15,7 +15,7 @@ from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_BELT, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 
 FloatArray = NDArray[np.float64]
@@ -371,11 +371,6 @@ def anything(name: str, load: Estimate) -> Interval:
 
 def _less(end: float, value: float) -> float:
     return 0.0 if end == value else end - value
-
-
-def changed_by_motion(case: StartCase) -> frozenset[str]:
-    """Loads that depend on how the belt moves; the others are closed forms, among them what a torque must exceed."""
-    return OF_BELT.union(DRIVE if case.imposed_speed else ())
 
 
 def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:

@@ -32,10 +32,6 @@ def motor_key(spec: Shaft) -> KeyPath:
     return ("drive", "motor", "torque_limit") if isinstance(motor, ConverterMotor) else ("drive", "motor", "points")
 
 
-def _motor(spec: Shaft, scene: ShaftScene) -> KeyPath:
-    return motor_key(spec)
-
-
 def _motor_that_can_vary(spec: Shaft, scene: ShaftScene) -> KeyPath:
     return () if isinstance(spec.drive.motor, TableMotor) else motor_key(spec)
 
