@@ -9,6 +9,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.effect import C, S
 from ptmcalc.contract.result import of
+from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 
 
@@ -86,3 +87,13 @@ class Check(Generic[S, C]):
 
 
 AnyCheck = Check[Any, Any]
+
+
+def no_needs(spec: MachineSpec, scene: Scene) -> tuple[KeyPath, ...]:
+    """For a check that is always made."""
+    return ()
+
+
+def no_repair(spec: MachineSpec, scene: Scene) -> KeyPath:
+    """For a check that no single key can make pass."""
+    return ()

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.braking import brakes_of, braking
 from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
@@ -40,10 +40,6 @@ _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 _STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
 
 _TENSION: KeyPath = ("takeup", "tension")
-
-
-def _no_needs(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
-    return ()
 
 
 def _takeup_tension(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
@@ -237,7 +233,7 @@ START: Check[Conveyor, Start] = Check(
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
     limit=_start_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: starting_torque_key(spec),
     repair=lambda spec, scene: () if (key := starting_torque_key(spec))[-1] == "curve" else key,
     what="The mean starting force at the rim exceeds the static resistance (torque) or what the profile asks (speed).",
@@ -266,7 +262,7 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
     loads=("slack_margin_min",),
     sense=Sense.AT_LEAST,
     limit=_slack_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=_blame_tension,
     repair=_takeup_tension,
     what="Every section keeps more tension than a slack belt, at every moment.",
@@ -337,7 +333,7 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
     loads=("stop_distance",),
     sense=Sense.AT_MOST,
     limit=_stop_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _stop_key(spec, scene),
     repair=_stop_repair,
     each=_only_with("CNV106", _distance_key),
@@ -365,7 +361,7 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=_time_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _brake_key(spec, scene) if brakes_of(spec, scene) else ("checks", "stop_time"),
     repair=_brake_repair,
     each=_only_with("CNV107", lambda scene: ("checks", "stop_time")),
@@ -396,7 +392,7 @@ BRAKE: Check[Conveyor, ConveyorScene] = Check(
     loads=("brake_torque_required",),
     sense=Sense.AT_MOST,
     limit=_brake_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
     each=_only_with("CNV108", _distance_key),
@@ -424,7 +420,7 @@ BACKSTOP: Check[Conveyor, Hold] = Check(
     loads=("backstop_torque",),
     sense=Sense.AT_MOST,
     limit=_backstop_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("backstop", "torque") if spec.backstop else ("backstop",),
     repair=lambda spec, scene: ("backstop", "torque") if spec.backstop else (),
     what="What pulls the loaded belt back is held by friction, or by the backstop with its reserve.",
@@ -451,7 +447,7 @@ STROKE: Check[Conveyor, Run] = Check(
     loads=("takeup_travel",),
     sense=Sense.AT_MOST,
     limit=_stroke_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("takeup", "stroke"),
     repair=lambda spec, scene: ("takeup", "stroke"),
     each=_only_with("CNV110", lambda scene: ("takeup", "stroke")),
@@ -490,9 +486,9 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
     loads=("slip_heat",),
     sense=Sense.AT_MOST,
     limit=_heat_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=_blame_tension,
-    repair=lambda spec, scene: (),
+    repair=no_repair,
     each=_heat_checks,
     what="A drum that slips for a moment burns off no more than the file allows.",
     why="A slipping drum sets the belt on fire before anybody sees it.",

@@ -6,16 +6,12 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.start_loads import allowed_acceleration
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]
-
-
-def _no_needs(spec: Conveyor, scene: Start) -> tuple[KeyPath, ...]:
-    return ()
 
 
 def _profile_key(key: str = "") -> Callable[[Conveyor, Start], KeyPath]:
@@ -75,9 +71,9 @@ MOTOR_HEAT: Check[Conveyor, Start] = Check(
     loads=("motor_start_heat",),
     sense=Sense.AT_MOST,
     limit=_heat_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: starting_torque_key(spec),
-    repair=lambda spec, scene: (),
+    repair=no_repair,
     each=_heat_checks,
     what="The rotor of each motor on the mains takes up no more heat in a start than its maker allows.",
     why="A rotor that is slow to come up to speed melts its bars before any relay in the stator notices.",
@@ -122,7 +118,7 @@ SHARP: Check[Conveyor, Start] = Check(
     loads=("acceleration_rigid",),
     sense=Sense.AT_MOST,
     limit=_sharp_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _sharp_key(spec, scene),
     repair=_sharp_repair,
     each=_sharp_checks,
@@ -158,7 +154,7 @@ RESIDUAL: Check[Conveyor, Start] = Check(
     loads=("start_residual",),
     sense=Sense.AT_MOST,
     limit=_residual_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=lambda spec, scene: () if scene.profile.points else _time_key(spec, scene),
     each=_residual_checks,
@@ -191,7 +187,7 @@ RESONANCE: Check[Conveyor, Start] = Check(
     loads=("resonance_distance",),
     sense=Sense.AT_LEAST,
     limit=_band_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: _ripple_key(spec, scene),
     repair=_ripple_key,
     each=_band_checks,

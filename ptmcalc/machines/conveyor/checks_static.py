@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.laws import vertical_curve
 from ptmcalc.machines.conveyor.belt_data import Transition
 from ptmcalc.machines.conveyor.model import breaking_force
@@ -19,14 +19,6 @@ Checks = Iterable[AnyCheck]
 
 _WIDTH: KeyPath = ("belt", "width")
 _TROUGH: KeyPath = ("idlers", "carry", "trough")
-
-
-def _no_needs(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
-    return ()
-
-
-def _no_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
-    return ()
 
 
 # -- cross-section of the load --------------------------------------------------------------------------------------
@@ -96,7 +88,7 @@ DRUM: Check[Conveyor, Run] = Check(
     loads=("drum_diameter_required",),
     sense=Sense.AT_MOST,
     limit=_drum_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: (*spec.main_path, "drum", "diameter"),
     repair=lambda spec, scene: (*spec.main_path, "drum", "diameter"),
     each=_drum_checks,
@@ -181,9 +173,9 @@ FIBRE: Check[Conveyor, Run] = Check(
     loads=("fibre_tension_max",),
     sense=Sense.AT_MOST,
     limit=_fibre_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("transitions",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_fibre_checks,
     what="No fibre of the belt is stretched too far where the trough opens or the belt runs over a crest or through a"
     " hollow, whatever part of it is loaded.",
@@ -199,9 +191,9 @@ PRESSED: Check[Conveyor, Run] = Check(
     loads=("fibre_tension_min",),
     sense=Sense.AT_LEAST,
     limit=_least_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("transitions",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_least_checks,
     what="Every fibre of the belt keeps some tension where the trough opens, over a crest and through a hollow,"
     " whatever part of it is loaded.",
@@ -244,9 +236,9 @@ LIFT: Check[Conveyor, ConveyorScene] = Check(
     loads=("tension_curve_max",),
     sense=Sense.AT_MOST,
     limit=_lift_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("route",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_lift_checks,
     what="The bare belt stays on its idlers in every concave curve: in steady running whatever part of it is loaded,"
     " and in every scene of the file with the tension it has there.",

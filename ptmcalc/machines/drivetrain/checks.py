@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, Sense
+from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
 from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import case_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
@@ -18,14 +18,6 @@ ALL: frozenset[type[Scene]] = frozenset({Run, Start, Stop})
 RUNNING: frozenset[type[Scene]] = frozenset({Run})
 DRIVEN: frozenset[type[Scene]] = frozenset({Run, Start})
 AnyCheck = Check[Drivetrain, TrainScene]
-
-
-def _nothing_needed(spec: Drivetrain, scene: TrainScene) -> tuple[KeyPath, ...]:
-    return ()
-
-
-def _no_repair(spec: Drivetrain, scene: TrainScene) -> KeyPath:
-    return ()
 
 
 def _exactly(value: float) -> Callable[[Drivetrain, TrainScene], Estimate]:
@@ -67,9 +59,9 @@ TORQUE: AnyCheck = Check(
     loads=("torque_peak",),
     sense=Sense.AT_MOST,
     limit=torque_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("links",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_torque_checks,
     what="The largest torque (or force) of every link with a `limit` stays below it.",
     why="A coupling, shaft or rope breaks at its peak load, not at the mean one.",
@@ -147,7 +139,7 @@ STOP: Check[Drivetrain, Stop] = Check(
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=stop_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=_stop_blame,
     repair=_brake_torque,
     what="The inertia the scene is about comes to rest in time, and stays there.",
@@ -179,7 +171,7 @@ WAY: Check[Drivetrain, Stop] = Check(
     loads=("stop_angle",),
     sense=Sense.AT_MOST,
     limit=way_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=_stop_blame,
     repair=_brake_torque,
     each=_way_checks,
@@ -221,9 +213,9 @@ HEATING: AnyCheck = Check(
     loads=("motor_torque_rms",),
     sense=Sense.AT_MOST,
     limit=heating_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("motors",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_heating_checks,
     what="The heating (rms) torque over the cycle stays below the rated torque.",
     why="Losses go with the square of the torque; the winding's insulation ages with its temperature.",
@@ -257,9 +249,9 @@ OVERLOAD: AnyCheck = Check(
     loads=("motor_torque_peak",),
     sense=Sense.AT_MOST,
     limit=overload_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("motors",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_overload_checks,
     what="The largest torque of every motor with `largest_torque` stays below it.",
     why="Above it a motor stalls, or its inverter trips.",
@@ -296,9 +288,9 @@ RESONANCE: AnyCheck = Check(
     loads=("resonance_separation",),
     sense=Sense.AT_LEAST,
     limit=resonance_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("torques",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_resonance_checks,
     what="No harmonic torque excites the train within the margin round a natural frequency.",
     why="Near resonance only damping, which nobody knows well, limits the torque.",
@@ -332,9 +324,9 @@ WEAR: AnyCheck = Check(
     loads=("wear_share",),
     sense=Sense.AT_MOST,
     limit=wear_limit,
-    needs=_nothing_needed,
+    needs=no_needs,
     blame=lambda spec, scene, loads: ("links",),
-    repair=_no_repair,
+    repair=no_repair,
     each=_wear_checks,
     what="Teeth have lost no more than a quarter of their thickness, those of open gears no more than 40 %.",
     why="A worn tooth is weak, and its play multiplies the blow of every start.",

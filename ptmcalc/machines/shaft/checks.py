@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import ConstantMotor, ConverterMotor, InductionBase, LinearMotor, TableMotor
-from ptmcalc.contract.check import Check, Sense
+from ptmcalc.contract.check import Check, Sense, no_needs
 from ptmcalc.machines.shaft.cases import is_braked
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
 from ptmcalc.spec.scene import Scene
@@ -14,10 +14,6 @@ from ptmcalc.spec.scene import Scene
 Loads = Mapping[str, Estimate]
 
 _BELOW_ONE = math.nextafter(1.0, 0.0)
-
-
-def _no_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
-    return ()
 
 
 def motor_key(spec: Shaft) -> KeyPath:
@@ -76,7 +72,7 @@ MOTION: Check[Shaft, Steady] = Check(
     value=_motion_value,
     sense=Sense.AT_MOST,
     limit=_motion_limit,
-    needs=_no_needs,
+    needs=no_needs,
     blame=_blame_motor,
     repair=_motor_that_can_vary,
     what="The motor carries the shaft through every angle of the cycle: there is a motion that repeats itself.",
