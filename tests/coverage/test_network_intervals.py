@@ -53,7 +53,7 @@ def cases_of(seeds: range, most_contours: float) -> list[Case]:
             continue
         carried = EFFECTS | ({"takeup_mass"} if "mass" in data["takeup"] else set())
         claims = {name: one.estimate for name, one in network.run(spec, scene, carried, 0).loads.items()}
-        values, _ = network._once(case, carried, network._grids(scene, 0)[0] * FINER)
+        values = network._marched(case, carried, network._grids(scene, 0)[0] * FINER, whole=True).values
         fine = {name: value for name, (value, _) in values.items()}
         found.append(Case(seed, scene.type, claims, fine))
     return found

@@ -1,12 +1,14 @@
 """A belt that sags on the way deeper than a parabola goes: what is certain up to that moment.
 
-From the moment at which spans sag by a tenth of their length, cells with such spans are not trusted. That moment is
-found by halving the window of the finest grid; the scene is marched again up to it, and what has come by then has come:
-a largest value is at least that, a smallest one at most that.
+From the moment at which spans sag by a tenth of their length, cells with such spans are not trusted. The scene is
+marched again up to that moment on the finest grid, and what has come by then has come: a largest value is at least
+that, a smallest one at most that.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+
+import numpy as np
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, family
@@ -17,7 +19,6 @@ from ptmcalc.machines.conveyor.moving import Moving
 from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.numerics.belt.march import Drawn, Extreme
 
-_HALVINGS = 3
 _FRONT_STEPS = 12
 """Steps of the finest grid that a front is known to: three of the coarsest."""
 _FALLING = frozenset(
@@ -51,14 +52,12 @@ def _sagging(case: Moving, drawn: Drawn) -> list[Extreme]:
     return [low for low, limit in zip(lows, limits(case), strict=True) if limit > 0 and low.value < limit]
 
 
-def trusted_window(case: Moving, drawn: Drawn, once: Callable[[float], Drawn]) -> float:
-    """How long the belt keeps above its limits [s], by runs of `once` up to a time; 0 if hardly at all."""
-    low, high, step = 0.0, min(one.time for one in _sagging(case, drawn)), float(drawn.times[1])
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if too_deep(case, once(middle)) else (middle, high)
-    end = low - _FRONT_STEPS * step
-    return end if end > _FRONT_STEPS * step else 0.0
+def trusted_window(case: Moving, drawn: Drawn) -> float:
+    """How long the belt keeps above its limits [s]; 0 if hardly at all."""
+    back, carry = (limit if limit > 0 else -math.inf for limit in limits(case))
+    deep = (drawn.lows < (back, carry)).any(axis=1)
+    end = (int(np.argmax(deep)) - _FRONT_STEPS) * float(drawn.times[1])
+    return end if end > _FRONT_STEPS * float(drawn.times[1]) else 0.0
 
 
 def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found], window: float) -> dict[str, Found]:

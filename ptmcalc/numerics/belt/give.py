@@ -29,7 +29,12 @@ _DAMPED = 1.0
 _LATE, _LATEST = 0.3, 0.02
 """Weight of the end of a step in the mean tension of a span, in a front and where there is none."""
 _ROUNDS = 60
-_CLOSE = 1e-11
+_CLOSE = 1e-6
+"""Relative change of every tension below which Newton's rule is at its end: the next one would be its square."""
+_LEAP = 1.5
+"""Largest change of the logarithm of a tension in one round."""
+_TOGETHER = 2
+"""Rounds of all nodes; later ones are of those that have not settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,23 +94,28 @@ class Give:
         Raises:
             NumericsError: NUM101 when no tension of the spans is found.
         """
-        after, against, spans = self.after, self.before + drag, self.spans
-        inner, own = self.yields * self.eager, -self.retarded * self.eager
-        spans.start()
-        for _ in range(_ROUNDS):
-            share = 1 / (1 + after * (inner + spans.soft))
-            arrives, behaves = (out - after * (own + spans.known)) * share, after * share
-            q = arrives - into
-            v = np.copysign(np.maximum(np.abs(q) - friction, 0.0), q) / (against + behaves)
-            tension = arrives - behaves * v
-            if spans.settle(tension):
-                break
-        else:
-            raise NumericsError("NUM101", "the spans of the belt find no tension")
+        spans, inner, own = self.spans, self.yields * self.eager, -self.retarded * self.eager
+        rows = np.array((*spans.rows(), into, out, friction, self.before + drag, self.after, inner, own))
+        tried = spans.tension
+        v, tension, change = _round(rows, tried)
+        for _ in range(1, _TOGETHER):
+            tried = tried * np.exp(change)
+            v, tension, change = _round(rows, tried)
+        late = np.flatnonzero(~(np.abs(change) <= _CLOSE))  # what is no number never settles
+        if len(late):
+            rows, tried = rows[:, late], tried.copy()
+            for _ in range(_ROUNDS):
+                tried[late] *= np.exp(change[late])
+                v[late], tension[late], change[late] = _round(rows, tried[late])
+                if (np.abs(change[late]) <= _CLOSE).all():
+                    break
+            else:
+                raise NumericsError("NUM101", "the spans of the belt find no tension")
+        gives = spans.settle(tried * (1 + change), tension)
         retards = inner * tension + own
         self.retarded = self.retarded + self.step * retards
         self.heat += self.step * float(self.heats @ (retards * retards))
-        return v, v + spans.gives + retards
+        return v, v + gives + retards
 
     @property
     def lost(self) -> float:
@@ -125,10 +135,7 @@ class Give:
 
 
 class _Spans:
-    """Spans that sag. Their state is the tension at the last half step, gravity's included.
-
-    The tension of a step is found by Newton's rule, in which a span is a line: it gives `known` + `soft` times it.
-    """
+    """Spans that sag. Their state is the tension at the last half step, gravity's included."""
 
     def __init__(self, sags: FloatArray, climb: FloatArray, impedance: FloatArray, step: float) -> None:
         self.sags, self.climb, self.step, self.rate = sags, climb, step, sags / step
@@ -155,36 +162,46 @@ class _Spans:
         self.stored = float((self.sags * self.slackness * (self.climb * self.slackness - 2)).sum())
         """energy U - climb e = -2 k/S + climb k/S^2 [J]"""
 
-    def start(self) -> None:
-        """The first try of a step: nothing changes."""
-        self._try(self.tension)
+    def rows(self) -> tuple[FloatArray, ...]:
+        """What `_round` asks of the spans."""
+        return self.rate, self.climb, self.hang, self.slackness, self.viscous, self.late
 
-    def _try(self, following: FloatArray) -> None:
-        self.tried, slack = following, 1 / following
-        drawn, slope = self.slackness**2 - slack**2, 2 * slack**3
-        whole = 1 / (1 + following * self.slackness)
-        self.gives = self.rate * drawn
-        mean = 2 * (1 - self.late) * whole
-        self.held = following * (mean + self.late) + self.viscous * drawn - self.climb
-        self.stiff = mean * whole + self.late + self.viscous * slope
-        self.soft = self.rate * slope / self.stiff
-        self.known = self.gives - self.soft * self.held
-
-    def settle(self, tension: FloatArray) -> bool:
-        """Whether the spans stand at this tension; if not, the next try."""
-        change = (tension - self.held) / self.stiff * self.hang
-        if (np.abs(change) <= _CLOSE * self.tried).all():
-            before, work = self.stored, float(self.held @ self.gives) * self.step
-            self._stand(self.tried)
-            self.heat += work - (self.stored - before)
-            return True
-        following = self.tried + change
-        self._try(np.where(following > 0, following, self.tried / 2))
-        return False
+    def settle(self, tension: FloatArray, passed: FloatArray) -> FloatArray:
+        """Go to the tensions of the next half step, `passed` on by the nodes meanwhile; what the spans give [m/s]."""
+        before, slack = self.stored, self.slackness
+        self._stand(tension)
+        gives: FloatArray = self.rate * (slack**2 - self.slackness**2)
+        self.heat += float(passed @ gives) * self.step - (self.stored - before)
+        return gives
 
     @property
     def length(self) -> float:
         return -float(self.sags @ self.slackness**2)
+
+
+def _round(rows: FloatArray, tried: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """One round of Newton's rule at some nodes: speed before them, tension that they pass on, and the change of the
+    logarithm of the `tried` tensions of their spans.
+
+    A span is taken as a line: it gives `known` + `soft` times its tension.
+    """
+    rate, climb, hang, slackness, viscous, late, into, out, friction, against, after, inner, own = rows
+    slack = 1 / tried
+    square = slack * slack
+    drawn, slope = slackness * slackness - square, 2 * slack * square
+    whole = 1 / (1 + tried * slackness)
+    mean = 2 * (1 - late) * whole
+    held = tried * (mean + late) + viscous * drawn - climb
+    stiff = mean * whole + late + viscous * slope
+    soft = rate * slope / stiff
+    share = 1 / (1 + after * (inner + soft))
+    behaves = after * share
+    arrives = out * share - behaves * (own + rate * drawn - soft * held)
+    q = arrives - into
+    v = np.copysign(np.maximum(np.abs(q) - friction, 0.0), q) / (against + behaves)
+    tension = arrives - behaves * v
+    change = np.minimum(np.maximum((tension - held) * slack / stiff * hang, -_LEAP), _LEAP)
+    return v, tension, change
 
 
 def _at_nodes(cells: FloatArray, tail: int) -> FloatArray:

@@ -52,6 +52,8 @@ class Drawn:
     updates: int
     highest: FloatArray
     """largest tension of every cell, gravity's part included [N]"""
+    lows: FloatArray
+    """smallest tension on return and carry strand in every step, shape (steps, 2) [N]"""
 
 
 def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
@@ -112,6 +114,13 @@ def march(
     drag = course.drag[1:-1].copy()
     drag[at] = 0.0
     tops, bottoms = _Watch(course, 1), _Watch(course, -1)
+    lows: list[FloatArray] = []
+
+    def watch(seen: FloatArray, first: int) -> None:
+        tops.see(seen, first)
+        bottoms.see(seen, first)
+        lows.append(np.minimum.reduceat(seen / 2 + course.climb_within, (0, course.tail), axis=1))
+
     block = np.empty((_BLOCK, cells))
     seen_head = [head.begin(speed, along[-1], against[0])]
     seen_tail = [tail.begin(speed, along[at], against[at + 1])]
@@ -156,14 +165,12 @@ def march(
         np.add(against, along, out=block[filled])
         filled += 1
         if filled == _BLOCK:
-            tops.see(block, k - filled + 1)
-            bottoms.see(block, k - filled + 1)
+            watch(block, k - filled + 1)
             filled = 0
         if still is not None and still(time, top):
             break
     if filled:
-        tops.see(block[:filled], k - filled + 1)
-        bottoms.see(block[:filled], k - filled + 1)
+        watch(block[:filled], k - filled + 1)
     lost += give.lost / step if give else 0.0
     change = _energy(against, along, impedance, step, give) - stored
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
@@ -181,6 +188,7 @@ def march(
         stretched=_length(against, along, impedance, step, give) - first,
         updates=k * cells,
         highest=tops.best / 2 + course.climb_within,
+        lows=np.concatenate(lows),
     )
 
 

@@ -8,8 +8,9 @@ bars is that of each, and what it makes of any other load (`bounds.moved`) is th
 """
 
 import math
+from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,17 +70,17 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         loads, runs = _computed(case, carried, level)
     except _GripLostError as lost:
         return _before(case, carried, level, lost)
-    drawn, ready = runs[-1]
+    drawn, ready = runs[-1].drawn, runs[-1].ready
     findings = list(_findings(case, drawn))
     if "sag" in carried and deep_sag.too_deep(case, drawn):
-        window = deep_sag.trusted_window(case, drawn, lambda end: _finest(replace(case, window=end), carried, level))
+        window = deep_sag.trusted_window(case, drawn)
         early, more = _computed(replace(case, window=window), carried, level, whole=False) if window else ({}, [])
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
     return Result(
         loads,
-        work=sum(part.updates for part, _ in runs),
+        work=sum(part.work for part in runs),
         window=(0.0, float(drawn.times[-1])),
         health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
         findings=tuple(findings),
@@ -115,43 +116,73 @@ def _before(case: Moving, carried: frozenset[str], level: int, lost: _GripLostEr
             early, runs = _computed(replace(case, window=window), carried, level, whole=False)
         except _GripLostError:
             continue
+        drawn, ready = runs[-1].drawn, runs[-1].ready
         return Result(
             deep_sag.certain(case, early, early, window),
-            work=sum(part.updates for part, _ in runs),
+            work=sum(part.work for part in runs),
             window=(0.0, window),
-            health={"energy_residual": runs[-1][0].energy_residual, "cells": runs[-1][1].course.cells},
+            health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
             findings=(deep_sag.taut(f"loses its tension on a slipping drum at {lost.time:.3g} s", window),),
-            events=tuple(_events(*runs[-1])),
+            events=tuple(_events(drawn, ready)),
         )
     raise NumericsError("NUM102", f"the belt loses its tension on a slipping drum at {lost.time:.3g} s")
 
 
+@dataclass(frozen=True, slots=True)
+class _March:
+    """A march on one grid: its loads, what the belt did, and how many cells that took."""
+
+    values: Values
+    drawn: Drawn
+    ready: Set
+    work: int
+
+
+_KEPT: deque[tuple[tuple[object, ...], Drawn, Set]] = deque(maxlen=6)
+"""The last motions: the next setting begins with grids that this one ends with, and the search for a repair changes
+keys that no motion depends on."""
+
+
+def _causes(case: Moving) -> tuple[object, ...]:
+    """All that the motion of a belt depends on."""
+    spec, line = case.spec, replace(case.line, breaking_force=None, slack_sag=0.0)
+    parts = spec.all_drives, spec.brakes, spec.backstop, spec.takeup, spec.tail_drum, spec.belt.damping
+    return line, case.scene, case.speed, case.window, *parts
+
+
 def _computed(
     case: Moving, carried: frozenset[str], level: int, whole: bool = True
-) -> tuple[dict[str, Found], list[tuple[Drawn, Set]]]:
+) -> tuple[dict[str, Found], list[_March]]:
     """Loads from three grids with their bars, and what the belt did on each."""
-    runs = [_once(case, carried, cells, whole) for cells in _grids(case.scene, level)]
-    (coarsest, _), (coarse, (before, _)), (fine, (drawn, ready)) = runs
-    apart = _apart(before, drawn, not _jumps(case.scene))
-    bars = _bars(case, (coarsest, coarse, fine), apart, ready.course.step)
-    found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.items()}
-    return found, [made for _, made in runs]
+    coarsest, coarse, fine = runs = [_marched(case, carried, cells, whole) for cells in _grids(case.scene, level)]
+    apart = _apart(coarse.drawn, fine.drawn, not _jumps(case.scene))
+    bars = _bars(case, (coarsest.values, coarse.values, fine.values), apart, fine.ready.course.step)
+    found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.values.items()}
+    return found, runs
 
 
-def _finest(case: Moving, carried: frozenset[str], level: int) -> Drawn:
-    """The motion on the finest grid of a level."""
-    return _once(case, carried, _grids(case.scene, level)[-1], whole=False)[1][0]
+def _marched(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> _March:
+    """The march on one grid, made now or kept from before."""
+    key = cells, carried, whole, *_causes(case)
+    for causes, drawn, ready in _KEPT:
+        if causes == key:
+            return _March(_loads(case, drawn, ready), drawn, ready, 0)
+    drawn, ready, work = _once(case, carried, cells, whole)
+    _KEPT.append((key, drawn, ready))
+    return _March(_loads(case, drawn, ready), drawn, ready, work)
 
 
-def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool = True) -> tuple[Values, tuple[Drawn, Set]]:
+def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tuple[Drawn, Set, int]:
     """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips."""
+    work = 0
     for _ in range(_LONGER):
         ready = set_up(case, carried, cells)
         still = _still(case)
         drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, still, ready.give)
+        work += drawn.updates
         rests = case.brings_to_rest and math.isfinite(case.rigid_time)
         if not (whole and rests) or any(seen.belt <= 0 for seen in drawn.head):
-            return _loads(case, drawn, ready), (drawn, ready)
+            return drawn, ready, work
         case = replace(case, window=2 * case.window)
     raise NumericsError("NUM101", f"the belt still runs after {case.window / 2:.3g} s")
 
@@ -402,12 +433,12 @@ def _events(drawn: Drawn, ready: Set) -> Iterator[Event]:
 
 
 def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
-    """Seconds predicted from steps and cells of the three grids."""
+    """Seconds predicted from steps and cells of the three grids; a finer setting adds one to those before it."""
     case = moving(spec, scene)
     gives = "sag" in carried or ("belt_damping" in carried and spec.belt.damping is not None)
     per_step, per_cell = _SECONDS["giving" if gives else "straight"]
     seconds = 1e-3
-    for cells in _grids(scene, level):
+    for cells in _grids(scene, level)[-1 if level else 0 :]:
         rubber = rubber_of(case, cells) if "belt_damping" in carried else None
         steps = case.window / case.line.contour_time * cells * math.sqrt(1 + (rubber.stiffer if rubber else 0.0))
         seconds += steps * (per_step + cells * per_cell)
