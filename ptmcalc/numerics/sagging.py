@@ -47,6 +47,9 @@ from ptmcalc.numerics.loop import (
 
 _BLOCK = 128
 _NEWTON_STEPS = 60
+_LEAST = -0.75
+_CLOSE = 1e-6
+"""Relative change at which Newton's rule is at its end: the next one would be at most 1.5 times its square."""
 _STABLE = 0.25  # of the wave speed: keeps the viscous term inside the stable step
 
 
@@ -153,11 +156,10 @@ def _tension(target: FloatArray, lump: FloatArray, last: FloatArray, before: Flo
     tension = np.maximum(2 * last - before, last / 2)
     for _ in range(_NEWTON_STEPS):
         give = lump / (tension * tension * tension)
-        change = (tension * (1 - give) - target) / (1 + 2 * give)
-        new: FloatArray = np.maximum(tension - change, tension / 4)
-        if np.abs(new - tension).max() <= 1e-7 * new.min():
-            return new  # quadratic convergence: the next step would change less than rounding
-        tension = new
+        change = (target - tension * (1 - give)) / ((1 + 2 * give) * tension)
+        tension = tension * (1 + np.maximum(change, _LEAST))
+        if -_CLOSE <= change.min() and change.max() <= _CLOSE:
+            return tension
     raise NumericsError("NUM101", "the tension of the sagging belt did not converge")
 
 

@@ -497,8 +497,7 @@ def _time_to_speed(
     low, high = 0.0, rise_time + needed / (available - w)
     if shape == start_profile.STEP:
         return high
-    for _ in range(200):
-        middle = (low + high) / 2
+    while low < (middle := (low + high) / 2) < high:
         low, high = (middle, high) if momentum(middle) < needed else (low, middle)
     return high
 

@@ -1,7 +1,7 @@
 """A start by the method of characteristics: waves on both strands, tail, take-up, slip and sag in one run."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
 from ptmcalc.machines.conveyor.slipping import slip_loads
@@ -47,11 +48,11 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     case = start_case(spec, scene)
     if not case.moves:
         raise NumericsError("NUM102", "the drive does not move the belt: there is no motion to simulate")
-    belt, drive, grid = _loop(case, carried), _drive(case), _grid(case, carried, level)
-    march, grids = strand.march, [grid, loop.refined(grid)]
+    grid = _grid(case, carried, level)
+    grids = [grid, loop.refined(grid)]
     if "sag" in carried:
-        march, grids = sagging.march, [*grids, loop.refined(loop.refined(grid))]
-    motions = [march(belt, drive, case.window, one) for one in grids]
+        grids.append(loop.refined(grids[-1]))
+    motions = [_motion(case, carried, one) for one in grids]
     bars = _sagging_bars(case, *motions) if "sag" in carried else _straight_bars(case, *motions)
     fine = motions[-1]
     loads = _loads(case, fine, bars)
@@ -73,6 +74,16 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         },
         findings=tuple(findings),
     )
+
+
+_KEPT = Kept[loop.Motion]()
+
+
+def _motion(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> loop.Motion:
+    """The motion on one grid, made now or kept from before."""
+    march = sagging.march if "sag" in carried else strand.march
+    causes = replace(case, line=replace(case.line, breaking_force=None, slack_sag=0.0)), carried, grid
+    return _KEPT.of(causes, lambda: march(_loop(case, carried), _drive(case), case.window, grid))
 
 
 def _beyond_range(name: str, found: Found) -> Found:
@@ -129,7 +140,10 @@ def _grid(case: StartCase, carried: frozenset[str], level: int) -> loop.Grid:
     transit, other = case.line.transit(CARRY), case.line.transit(RETURN)
     cells = min(max(math.ceil(_STEPS_PER_SCALE * transit / scale), _FEWEST), _MOST_CELLS)
     if "sag" in carried:
-        return sagging.grid_of(_loop(case, carried), min(cells // 2, _MOST_SAGGING_CELLS) << level)
+        grid = sagging.grid_of(_loop(case, carried), min(cells // 2, _MOST_SAGGING_CELLS))
+        for _ in range(level):
+            grid = loop.refined(grid)
+        return grid
     tolerance = min(max(4e-4 * scale / case.window / 4**level, 2e-7), 1e-3)
     return loop.match(transit, other, cells << level, tolerance, at_most=max(16 * cells, 1024) << level)
 

@@ -8,7 +8,6 @@ bars is that of each, and what it makes of any other load (`bounds.moved`) is th
 """
 
 import math
-from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -24,6 +23,7 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, deep_sag
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
+from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
@@ -138,9 +138,7 @@ class _March:
     work: int
 
 
-_KEPT: deque[tuple[tuple[object, ...], Drawn, Set]] = deque(maxlen=6)
-"""The last motions: the next setting begins with grids that this one ends with, and the search for a repair changes
-keys that no motion depends on."""
+_KEPT = Kept[tuple[Drawn, Set, int]]()
 
 
 def _causes(case: Moving) -> tuple[object, ...]:
@@ -163,12 +161,8 @@ def _computed(
 
 def _marched(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> _March:
     """The march on one grid, made now or kept from before."""
-    key = cells, carried, whole, *_causes(case)
-    for causes, drawn, ready in _KEPT:
-        if causes == key:
-            return _March(_loads(case, drawn, ready), drawn, ready, 0)
-    drawn, ready, work = _once(case, carried, cells, whole)
-    _KEPT.append((key, drawn, ready))
+    causes = cells, carried, whole, *_causes(case)
+    drawn, ready, work = _KEPT.of(causes, lambda: _once(case, carried, cells, whole))
     return _March(_loads(case, drawn, ready), drawn, ready, work)
 
 
