@@ -158,7 +158,7 @@ def _tension(target: FloatArray, lump: FloatArray, last: FloatArray, before: Flo
         give = lump / (tension * tension * tension)
         change = (target - tension * (1 - give)) / ((1 + 2 * give) * tension)
         tension = tension * (1 + np.maximum(change, _LEAST))
-        if -_CLOSE <= change.min() and change.max() <= _CLOSE:
+        if change.min() >= -_CLOSE and change.max() <= _CLOSE:
             return tension
     raise NumericsError("NUM101", "the tension of the sagging belt did not converge")
 
