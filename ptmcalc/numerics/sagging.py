@@ -153,7 +153,7 @@ def _tension(target: FloatArray, lump: FloatArray, last: FloatArray, before: Flo
     The left side rises from -infinity and is concave: Newton's steps from below the root approach it from below, a
     step from above it lands below; one that would leave the positive side is cut to a quarter.
     """
-    tension = np.maximum(2 * last - before, last / 2)
+    tension: FloatArray = np.maximum(2 * last - before, last / 2)
     for _ in range(_NEWTON_STEPS):
         give = lump / (tension * tension * tension)
         change = (target - tension * (1 - give)) / ((1 + 2 * give) * tension)
