@@ -121,7 +121,7 @@ def march(
         bottoms.see(seen, first)
         lows.append(np.minimum.reduceat(seen / 2 + course.climb_within, (0, course.tail), axis=1))
 
-    block = np.empty((_BLOCK, cells))
+    block, speeds = np.empty((_BLOCK, cells)), np.zeros((_BLOCK, cells - 1))
     seen_head = [head.begin(speed, along[-1], against[0])]
     seen_tail = [tail.begin(speed, along[at], against[at + 1])]
     if give:
@@ -132,45 +132,47 @@ def march(
     lost = rubbed = flow = exchanged = 0.0
     np.add(against, along, out=block[0])
     filled, k, time = 1, 0, 0.0
-    rest = np.zeros(cells - 1)
+    within, backward = np.empty(cells - 1), -friction
     for k in range(1, steps + 1):
         time = k * step
         n_on, p_off = along[-1], against[0]
         into, out = along[:-1], against[1:]
         if give:
             v, behind = give.pass_on(into, out, friction, drag)
+            speeds[filled] = v
         else:
-            q = out - into
-            v = np.copysign(np.maximum(np.abs(q) - friction, rest), q)
+            v = behind = speeds[filled]
+            np.subtract(out, into, out=v)
+            np.minimum(v, friction, out=within)
+            np.maximum(within, backward, out=within)
+            v -= within
             v *= yields
-            behind = v
         now = tail.advance(time, float(into[at]), float(out[at]), step)
         seen_tail.append(now)
         v[at] = behind[at] = now.belt
         top = head.advance(time, float(n_on), float(p_off), step)
         seen_head.append(top)
-        moved = np.abs(v)
-        lost += float(friction @ moved) + float(drag @ (moved * moved))
         rubbed += _rubbed(top, head.place) + _rubbed(now, tail.place)
         given = _flow(top, now, head.place, tail.place, (float(n_on), float(p_off), float(into[at]), float(out[at])))
         flow, exchanged = flow + given, exchanged + abs(given)
-        new_against, new_along = np.empty(cells), np.empty(cells)
-        np.multiply(before, v, out=new_against[:-1])
-        new_against[:-1] += into
-        np.multiply(after, behind, out=new_along[1:])
-        np.subtract(out, new_along[1:], out=new_along[1:])
-        new_against[-1] = n_on + 2 * head.place.before * top.belt
-        new_along[0] = p_off - 2 * head.place.after * top.behind
-        against, along = new_against, new_along
+        np.multiply(before, v, out=within)
+        into += within
+        np.multiply(after, behind, out=within)
+        out -= within
+        along[-1] = n_on + 2 * head.place.before * top.belt
+        against[0] = p_off - 2 * head.place.after * top.behind
+        against, along = along, against  # each wave went on by a cell
         np.add(against, along, out=block[filled])
         filled += 1
         if filled == _BLOCK:
             watch(block, k - filled + 1)
+            lost += _lost(speeds, friction, drag)
             filled = 0
         if still is not None and still(time, top):
             break
     if filled:
         watch(block[:filled], k - filled + 1)
+        lost += _lost(speeds[:filled], friction, drag)
     lost += give.lost / step if give else 0.0
     change = _energy(against, along, impedance, step, give) - stored
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
@@ -200,6 +202,13 @@ def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step:
 def _length(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float, give: Give | None) -> float:
     """Elongation of the belt: sum (P + N)/(2 Z) dt."""
     return float(((against + along) / 2 / impedance).sum()) * step + (give.length if give else 0.0)
+
+
+def _lost(speeds: FloatArray, friction: FloatArray, drag: FloatArray) -> float:
+    """Power that friction and drag at the nodes take, summed over steps; speeds of shape (steps, nodes)."""
+    moved = np.abs(speeds)
+    lost = float((moved @ friction).sum())
+    return lost + float((np.square(moved, out=moved) @ drag).sum()) if drag.any() else lost
 
 
 def _flow(top: Seen, low: Seen, head: Place, tail: Place, waves: tuple[float, float, float, float]) -> float:
