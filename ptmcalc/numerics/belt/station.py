@@ -93,7 +93,7 @@ class Seen:
     slips: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Slack:
     """Tension behind the drums over a step: from `first` to `last` less `yields` times the belt speed."""
 
@@ -103,14 +103,14 @@ class _Slack:
     friction: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Move:
     """One try of a step: belt speed and acceleration at its end, force of every drive at its start and end, how
     friction acts (1 against forward motion, between -1 and 1 at rest), and what a backstop holds."""
 
     belt: float
     acceleration: float
-    forces: tuple[tuple[float, float], ...]
+    forces: list[tuple[float, float]]
     held: float
     holds: float = 0.0
 
@@ -151,6 +151,8 @@ class Station:
 
     def advance(self, time: float, n_on: float, p_off: float, step: float) -> Seen:
         """The state at a time, `step` after the last one, where the waves `n_on` and `p_off` arrive."""
+        if not (self.drums or self.takeup or self.imposed):
+            return self._carried(n_on, p_off)
         old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
         for _ in range(_ALTERNATIONS):
             slack = self._slack(p_off, step)
@@ -177,13 +179,29 @@ class Station:
             self._settle(self.takeup, p_off, tensions[-1])
         return Seen(tensions, move.belt, self.behind if self.takeup else move.belt, tuple(speeds), tuple(self.slips))
 
+    def _carried(self, n_on: float, p_off: float) -> Seen:
+        """The state where nothing acts but the belt and its friction: it is in balance at any time."""
+        place = self.place
+        on, off, rubs = n_on + place.climb_on, p_off + place.climb_off, place.friction_on + place.friction_off
+        push, before, after = off - on, place.before + place.drag_on, place.after + place.drag_off
+        rest = abs(push) - rubs
+        if rest > 0:
+            self.belt = math.copysign(rest / (before + after), push)
+            held = math.copysign(1.0, push)
+        else:
+            self.belt, held = 0.0, push / rubs if rubs else 0.0
+        belt = self.belt
+        tensions = on + before * belt + held * place.friction_on, off - after * belt - held * place.friction_off
+        return Seen(tensions, belt, belt, (), ())
+
     # -- the belt ---------------------------------------------------------------------------------------------
 
     def _moved(self, time: float, n_on: float, slack: _Slack, old: float, step: float, share: float = 0.0) -> _Move:
         """Try a step with the present choice of what slips; `share` of the waves' step is over when it begins."""
         place, lift, start = self.place, self.place.belt_line_mass * old * old, time - step
         grip, mass, slope = 1.0, 0.0, 0.0
-        push, friction = [0.0, 0.0], [place.friction_on, place.friction_on]
+        push_early = push_late = 0.0
+        rubs = grinds = place.friction_on
         given: list[tuple[float, float, float]] = []
         held_by, sticks = 0.0, False
         for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)):
@@ -198,17 +216,17 @@ class Station:
             held_by = held_by or grip * drum.one_way
             mass += grip * drum.mass
             slope += grip * rate
-            for end, (now, value) in enumerate(((start if step else time, first), (time, force))):
-                push[end] += grip * (value - rate * at)
-                friction[end] += grip * drum.brake(now)
+            push_early += grip * (first - rate * at)
+            push_late += grip * (force - rate * at)
+            if drum.brake is not no_brake:
+                rubs += grip * drum.brake(start if step else time)
+                grinds += grip * drum.brake(time)
         against = place.before + place.drag_on - slope + grip * slack.yields
         before = n_on if self.arrived is None else self.arrived[0]
-        waves = before + share * (n_on - before), n_on
-        behind = slack.first + share * (slack.last - slack.first), slack.last
-        early, late = (
-            push[end] + grip * behind[end] + (1 - grip) * lift - waves[end] - place.climb_on for end in (0, 1)
-        )
-        rubs, grinds = (friction[end] + grip * slack.friction for end in (0, 1))
+        wave, behind = before + share * (n_on - before), slack.first + share * (slack.last - slack.first)
+        early = push_early + grip * behind + (1 - grip) * lift - wave - place.climb_on
+        late = push_late + grip * slack.last + (1 - grip) * lift - n_on - place.climb_on
+        rubs, grinds = rubs + grip * slack.friction, grinds + grip * slack.friction
         holds = 0.0
         if self.imposed is not None and (sticks or not self.drums):
             belt = self.imposed(time)
@@ -223,10 +241,10 @@ class Station:
             if held_by and not belt and left < 0:
                 holds, left = -left / held_by, 0.0
             acceleration = left / mass if mass > 0 else 0.0
-        forces = tuple(
+        forces = [
             (first, force if sense else force + rate * (belt - old))
             for (first, force, rate), sense in zip(given, self.slips, strict=True)
-        )
+        ]
         return _Move(belt, acceleration, forces, held, holds)
 
     def _slack(self, p_off: float, step: float) -> _Slack:
@@ -291,6 +309,8 @@ class Station:
         place, belt = self.place, move.belt
         on = n_on + place.climb_on + (place.before + place.drag_on) * belt + move.held * place.friction_on
         found = [slack.last - slack.yields * belt - move.held * slack.friction]
+        if len(self.drums) < 2:
+            return on, found[0]
         lift = place.belt_line_mass * belt * belt
         needed = on - found[0] + move.acceleration * sum(drum.mass for drum in self.drums)
         stuck = [j for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)) if not sense]
@@ -389,8 +409,8 @@ class Station:
             if self.imposed is not None:  # what the drum passes on and what it takes to turn it so
                 self.work += step * (pull + earlier) / 2 * turned + drum.mass * (speeds[j] - before[1][j]) * turned
                 continue
-            brake = (drum.brake(time) + drum.brake(time - step)) / 2
-            self.work += step * (sum(forces[j]) / 2 * turned - brake * abs(turned))
+            brake = (drum.brake(time) + drum.brake(time - step)) / 2 if drum.brake is not no_brake else 0.0
+            self.work += step * ((forces[j][0] + forces[j][1]) / 2 * turned - brake * abs(turned))
 
 
 def _velocity(
@@ -419,7 +439,7 @@ def _velocity(
     if step == 0 or (not old and friction[1] and abs(forcing[1]) <= friction[1]):
         return old
     way = math.copysign(1.0, old or forcing[1])
-    begins, ends = (g - way * r for g, r in zip(forcing, friction, strict=True))
+    begins, ends = forcing[0] - way * friction[0], forcing[1] - way * friction[1]
     if not old and any(friction) and way * begins < 0:  # it breaks loose within the step
         begins = 0.0
     constants = against / mass * step
