@@ -501,6 +501,39 @@ def test_a_belt_at_rest_without_forces_stays() -> None:
     assert mine.friction_work == 0.0
 
 
+def test_waves_go_from_node_to_node_by_the_rule() -> None:
+    """A ring without drums, its nodes one by one in plain numbers: 0 is where the ring is closed."""
+    reaches = tuple(replace(Reach.even(500.0, mass, EA, 15.0), drag=np.array([0.0, 900.0])) for mass in (40.0, 250.0))
+    course = lay_out(reaches, 1, 24)
+    cells, steps = course.cells, 150  # more than two blocks of the march
+    tension = 1e5 + 6e4 * np.sin(np.arange(cells))
+    head, tail = (Station(place_at(course, node, 0.0), ()) for node in (0, course.tail))
+    found = march(course, head, tail, tension, 0.2, steps * course.step)
+
+    z = course.cell_impedance.tolist()
+    friction, drag = course.friction.copy(), course.drag.copy()
+    friction[0], drag[0] = friction[0] + friction[-1], drag[0] + drag[-1]
+    up, down = (tension + course.cell_impedance * 0.2).tolist(), (tension - course.cell_impedance * 0.2).tolist()
+    on, highest, work = [], tension.tolist(), 0.0
+    for _ in range(steps):
+        new_up, new_down = [0.0] * cells, [0.0] * cells
+        for i in range(cells):
+            into, out, before, after = down[i - 1], up[i], z[i - 1], z[i]
+            q = out - into
+            v = math.copysign(max(abs(q) - friction[i], 0.0), q) / (before + after + drag[i])
+            new_up[i - 1], new_down[i] = into + 2 * before * v, out - 2 * after * v
+            work += (friction[i] * abs(v) + drag[i] * v * v) * course.step
+            if not i:
+                held = math.copysign(1.0, v) if v else q / friction[0]
+                on.append(into + before * v + course.drag[-1] * v + held * course.friction[-1])
+        up, down = new_up, new_down
+        highest = [max(old, (p + n) / 2) for old, p, n in zip(highest, up, down, strict=True)]
+    assert len(found.head) == steps + 1
+    assert [seen.tensions[0] for seen in found.head[1:]] == pytest.approx(on, rel=1e-12)
+    assert found.highest.tolist() == pytest.approx(highest, rel=1e-12)
+    assert found.friction_work == pytest.approx(work, rel=1e-12)
+
+
 def test_extremes_see_the_start() -> None:
     """The largest tension of a belt that runs out is the one it begins with."""
     plan = Plan((BACK, CARRY), 1, (Roller(MASS),), takeup=(200e3, 0.0))

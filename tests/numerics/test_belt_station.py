@@ -488,6 +488,20 @@ def test_a_drum_driven_at_a_speed_may_slip_on_its_belt() -> None:
     assert seen[-1].belt == pytest.approx(1e5 * math.expm1(0.5) / ON)
 
 
+# -- no drum at all -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("friction", [(0.0, 0.0), (3e3, 1e3)])
+def test_a_place_without_drums_is_one_with_a_drum_that_weighs_and_does_nothing(friction: tuple[float, float]) -> None:
+    at, (on, off) = place(friction, (40.0, 10.0), climb=2e3), (swaying(1e5, 1e4, 3.0), swaying(9e4, 1e4, 2.0))
+    bare, idle = (fed(Station(at, drums), on, off, 4.0, 400, 0.3) for drums in ((), (Drum("idle", 0.0),)))
+    assert any(one.belt for one in bare)
+    assert any(not one.belt for one in bare) is any(friction)
+    for one, other in zip(bare, idle, strict=True):
+        assert (one.belt, one.behind) == pytest.approx((other.belt, other.behind), rel=1e-12, abs=1e-12)
+        assert one.tensions == pytest.approx(other.tensions, rel=1e-12)
+
+
 # -- steady motion, and the whole ledger ----------------------------------------------------------------------------
 
 
