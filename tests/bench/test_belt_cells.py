@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from support import echoes
+from support.meshes import Line, Mesh
 
 from ptmcalc.numerics.belt.course import Reach, lay_out
 from ptmcalc.numerics.belt.march import Drawn, march, place_at
@@ -65,46 +66,11 @@ def errors(found: np.ndarray, true: np.ndarray) -> tuple[float, float]:
     return float(np.abs(found - true).max() / true.max()), float(abs(found.max() / true.max() - 1))
 
 
-class Elements:
-    """Lumped masses and springs in a row from the take-up to the drum, as right-hand side of an ODE.
-
-    Friction sgn v is the smooth tanh(v/v0) that such solvers need.
-    """
-
-    SOFT = 1e-3
-
-    def __init__(self, case: Case, count: int) -> None:
-        strands, stiffness, drum, self.force, self.tension, self.window = case
-        transit = [length * math.sqrt(rho) for length, rho, _ in strands]
-        parts = [max(round(count * one / sum(transit)), 1) for one in transit]
-        sizes, masses, frictions = (
-            np.concatenate([np.full(n, one[0] / n * of(one)) for n, one in zip(parts, strands, strict=True)])
-            for of in (lambda one: 1.0, lambda one: one[1], lambda one: one[2])
-        )
-        self.springs = stiffness / sizes
-        self.mass, self.friction = (
-            np.concatenate([x, [0.0]]) / 2 + np.concatenate([[0.0], x]) / 2 for x in (masses, frictions)
-        )
-        self.mass[-1] += drum
-        self.nodes, self.count = len(self.mass), 0
-
-    def rates(self, t: float, y: np.ndarray) -> np.ndarray:
-        self.count += 1
-        u, v = y[: self.nodes], y[self.nodes :]
-        pull = self.tension + self.springs * np.diff(u)
-        net = -self.friction * np.tanh(v / self.SOFT)
-        net[:-1] += pull
-        net[1:] -= pull
-        net[0] -= self.tension
-        net[-1] += self.force(t) + self.tension
-        return np.concatenate([v, net / self.mass])
-
-    def run_on(self, method: str, when: np.ndarray) -> np.ndarray:
-        found = solve_ivp(
-            self.rates, (0.0, self.window), np.zeros(2 * self.nodes), method, when, rtol=1e-5, atol=1e-7
-        )  # fmt: skip
-        u = found.y[: self.nodes]
-        return self.tension + self.springs[-1] * (u[-1] - u[-2])
+def elements(case: Case, count: int) -> Mesh:
+    """Lumped masses and springs; friction is smoothed over 1 mm/s."""
+    strands, stiffness, drum, force, _, _ = case
+    lines = [Line(length, rho, w) for length, rho, w in strands]
+    return Mesh(lines, stiffness, drum, lambda t, v: force(t), count, soft=1e-3)
 
 
 # -- gates ----------------------------------------------------------------------------------------------------------
@@ -155,15 +121,15 @@ def test_beside_finite_elements_with_general_solvers(case: Case, request: pytest
         )
     for method in METHODS if timed else METHODS[:1]:
         for count in ((60, 240) if method == "Radau" else (60, 240, 960)) if timed else (60,):
-            mesh = Elements(case, count)
+            mesh = elements(case, count)
             start = clock()
-            found = mesh.run_on(method, when)
-            largest, peak = errors(found, true)
+            answer = mesh.run_on(method, when, 1e-5)
+            largest, peak = errors(case[4] + answer.readings[1], true)
             rows.append(
                 f"{method:>7}  {count:5d}  {1e3 * (clock() - start):10.1f} ms  error {largest:8.1e},"
-                f" of the peak {peak:8.1e}, {mesh.count} evaluations"
+                f" of the peak {peak:8.1e}, {answer.evaluations} evaluations"
             )
-            assert mesh.count > 0
+            assert answer.evaluations > 0
             assert peak < 0.2
             assert largest < 0.6
     if timed:
