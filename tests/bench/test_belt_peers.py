@@ -219,17 +219,17 @@ def test_table_of_all_peers(problem: Problem, request: pytest.FixtureRequest) ->
     """Every peer with the loosest tolerance that reaches a hundredth, else the one that comes nearest; times in units
     of RK45 on x'' = -x over 100 rad, measured in turns with ours."""
     timed = bool(request.config.getoption("--benchmark-enable", default=False))
-    clock: Callable[[], float] = time.perf_counter if timed else lambda: 0.0
+    clock: Callable[[], float] = time.process_time if timed else lambda: 0.0
     cells = CELLS[problem.name]
     mine, ours = problem.ours(cells), partial(problem.ours, cells)
     spans = [(seconds(clock, oscillator), seconds(clock, ours)) for _ in range(REPEATS)]
     unit, own = (min(column) for column in zip(*spans, strict=True))
     rows = [
         f"unit {1e3 * unit:.1f} ms",
-        f"ours   {cells:5d} cells              error {problem.error(mine.run_on):7.1e}, of the peak "
+        f"ours   {cells:5d} cells: error {problem.error(mine.run_on):7.1e}, of the peak "
         f"{problem.peak_error(mine.run_on):7.1e}, {own / unit if timed else 0.0:8.2f} units",
     ]
-    reached: list[tuple[float, float]] = []
+    reached: list[float] = []
     for method, masses, count in PEERS[problem.name]:
         for soft in problem.soft:
             tried = []
@@ -243,15 +243,15 @@ def test_table_of_all_peers(problem: Problem, request: pytest.FixtureRequest) ->
                 if tried[-1][0] < HUNDREDTH:
                     break
             error, took, work, rtol = min(tried)
+            smooth = f", v0 {soft:5.0e}" if len(problem.soft) > 1 else ""
             rows.append(
-                f"{method:6} {count:5d} {MASSES[masses]:10}, v0 {soft:5.0e}, rtol {rtol:5.0e}: error {error:7.1e}, "
-                f"{took / unit if timed else 0.0:8.1f} units, {took / own if timed else 0.0:8.0f} of ours, work "
-                f"{work / mine.advanced:8.0f} of ours, {work / mine.updates:6.0f} of ours with its extremes"
+                f"{method:6} {count:5d} {MASSES[masses]:10}{smooth}, rtol {rtol:5.0e}: error {error:7.1e}, "
+                f"{took / unit if timed else 0.0:8.1f} units, {took / own if timed else 0.0:6.0f} times ours; work "
+                f"{work / mine.advanced:7.0f} times ours, {work / mine.updates:4.0f} with our extremes of every cell"
             )
             if masses != MEAN:
                 assert error > HUNDREDTH, rows[-1]
             elif error < HUNDREDTH:
-                reached.append((work / mine.advanced, took / own if timed else math.inf))
+                reached.append(work / mine.advanced)
     print("", problem.name, *rows, sep="\n")
-    assert reached
-    assert min(work for work, _ in reached) > (100_000 if problem is P1 else 50)
+    assert min(reached) > (100_000 if problem is P1 else 50)
