@@ -29,6 +29,7 @@ Torque = Callable[[float, float], tuple[float, float]]
 """Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""
 
 _ALTERNATIONS = 12
+_SAME = 1e-12
 _HELD = 1 + 1e-9
 """Friction of a belt at rest holds no more than this share of itself: its tension is a difference of large ones."""
 _STEEPEST = 100.0
@@ -137,6 +138,8 @@ class Station:
         """way [m] and heat [J] of slip so far"""
         self.work = 0.0
         """done by drives less what brakes took [J]"""
+        self.lifts = 0.0
+        """speed whose centrifugal tension acts in a step [m/s]"""
 
     def begin(self, speed: float, n_on: float, p_off: float) -> Seen:
         """Everything at one speed at time 0."""
@@ -154,6 +157,7 @@ class Station:
         if not (self.drums or self.takeup or self.imposed):
             return self._carried(n_on, p_off)
         old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
+        self.lifts = old
         for _ in range(_ALTERNATIONS):
             slack = self._slack(p_off, step)
             move = self._moved(time, n_on, slack, old, step)
@@ -162,7 +166,9 @@ class Station:
             if change is not None:
                 self.slips[change[0]] = change[1]
             elif not self._gives_way(p_off, tensions[-1], 0.0 if step else move.belt - old):
-                break
+                if step or not any(self.slips) or abs(move.belt - self.lifts) <= _SAME * abs(old):
+                    break
+                self.lifts = move.belt  # a jump: the belt presses on its drums with the speed after it
         else:
             raise NumericsError("NUM101", f"stick and slip of the drums alternate without end at {time:.4g} s")
         speeds, forces = self._turned(time, tensions, move, drums, step)
@@ -198,7 +204,7 @@ class Station:
 
     def _moved(self, time: float, n_on: float, slack: _Slack, old: float, step: float, share: float = 0.0) -> _Move:
         """Try a step with the present choice of what slips; `share` of the waves' step is over when it begins."""
-        place, lift, start = self.place, self.place.belt_line_mass * old * old, time - step
+        place, lift, start = self.place, self.place.belt_line_mass * self.lifts * self.lifts, time - step
         grip, mass, slope = 1.0, 0.0, 0.0
         push_early = push_late = 0.0
         rubs = grinds = place.friction_on

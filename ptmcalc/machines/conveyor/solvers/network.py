@@ -217,16 +217,14 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
     values["tension_run_on_max"] = top, {"time": top_at}
     values["tension_dynamic_run_on_max"] = top - line.run_on, {"time": top_at}
     values["tension_run_off_min"] = low, {"time": low_at}
-    length = ready.course.places[-1]
-    ends_high = [(top, top_at, length), *((e.value, e.time, e.place) for e in (drawn.back_max, drawn.carry_max))]
-    ends_low = [(low, low_at, 0.0), *((e.value, e.time, e.place) for e in (drawn.back_min, drawn.carry_min))]
-    high, lowest = max(ends_high), min(ends_low)
+    highs, lows = zip(*(_of_strand(drawn, ready, strand) for strand in (RETURN, CARRY)), strict=True)
+    high = max(*highs, (top, top_at, float(ready.course.places[-1])))
+    lowest = min(*lows, (low, low_at, 0.0))
     values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
     for curve in hollows(case.spec):
         values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
-    smallest = min(drawn.back_min.value, low), min(drawn.carry_min.value, float(on.min()))
-    for name, value in bounds.derived_loads(line, high[0], smallest).items():
+    for name, value in bounds.derived_loads(line, high[0], (min(lows[0][0], low), lows[1][0])).items():
         values[name] = value, {}
     used = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_utilisation_max[")]
     left = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_reserve_min[")]
@@ -242,6 +240,28 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
     if case.imposed is not None and isinstance(case.scene, Start):
         values |= _asked(case, drawn, ready)
     return values
+
+
+Placed = tuple[float, float, float]
+"""A tension [N], its time [s] and place [m]."""
+
+
+def _of_strand(drawn: Drawn, ready: Set, strand: int) -> tuple[Placed, Placed]:
+    """Largest and smallest tension of a strand: in its cells, and before, between or behind the drums at its ends (what
+    is between drums counts to the strand before them)."""
+    step, places = ready.course.step, ready.course.places
+    inside = (drawn.back_max, drawn.back_min) if strand == RETURN else (drawn.carry_max, drawn.carry_min)
+    ends = ((drawn.head, 0.0), (drawn.tail, float(places[ready.course.tail])))
+    if strand == CARRY:
+        ends = ((drawn.tail, float(places[ready.course.tail])), (drawn.head, float(places[-1])))
+    (behind, start), (before, end) = ends
+    histories = [(np.array([seen.tensions[-1] for seen in behind]), start)]
+    columns = len(before[0].tensions)
+    histories += [(np.array([seen.tensions[j] for seen in before]), end) for j in range(max(columns - 1, 1))]
+    highs = [(float(history.max()), int(history.argmax()) * step, place) for history, place in histories]
+    lows = [(float(history.min()), int(history.argmin()) * step, place) for history, place in histories]
+    high, low = ((one.value, one.time, one.place) for one in inside)
+    return max([high, *highs]), min([low, *lows])
 
 
 def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
