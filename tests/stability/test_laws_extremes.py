@@ -25,12 +25,19 @@ from ptmcalc.laws import (
     brake,
     buffer,
     capstan,
+    chain_fatigue,
+    chain_resonance,
+    chain_selection,
+    chain_start,
+    chain_wear,
     coulomb,
     duty,
+    equalising,
     gearing,
     inertia,
     loop_bounds,
     motor,
+    polygon,
     resistance,
     response,
     sag,
@@ -39,6 +46,7 @@ from ptmcalc.laws import (
     similarity,
     slider_crank,
     slip_heat,
+    sprocket,
     start_profile,
     stopping,
     strand_tension,
@@ -231,6 +239,21 @@ def rising(draw: Draw, numbers: int) -> tuple[float, ...]:
 def row(draw: Draw) -> np.ndarray:
     """Five numbers of either sign."""
     return np.asarray(draw.rng.choice([-1.0, 1.0], 5) * np.array(draw.positive(5)))
+
+
+def teeth(draw: Draw) -> int:
+    """From 3 to 10^9, decades spread evenly."""
+    return 3 + int(10 ** draw.rng.uniform(0, 9))
+
+
+def modes_of_chain(draw: Draw) -> tuple[Any, ...]:
+    """A loop whose sprocket is held and its lowest frequencies; masses and compliances within six decades."""
+    loop = LoopMasses(*(10 ** draw.rng.uniform(-3, 3, 6)).tolist(), bool(draw.rng.integers(2)), imposed_speed=True)
+    return loop, belt_modes.natural_frequencies(loop, 0.0, 3)
+
+
+def bands(draw: Draw) -> np.ndarray:
+    return chain_resonance.exclusion_bands(np.array(draw.positive(5)), np.array([0.15]))
 
 
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
@@ -550,6 +573,110 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "fixed_loop_braking": (stopping.fixed_loop_braking, lambda d: tuple(d.positive(3))),
     "coasting": (stopping.coasting, lambda d: tuple(d.positive(4))),
     "coast_down_coefficient": (stopping.coast_down_coefficient, lambda d: tuple(d.positive(8))),
+    "pitch_radius": (sprocket.pitch_radius, lambda d: (*d.positive(1), teeth(d))),
+    "sprocket_speed": (sprocket.sprocket_speed, lambda d: (*d.positive(2), teeth(d))),
+    "speed_extremes": (sprocket.speed_extremes, lambda d: (*d.positive(1), teeth(d))),
+    "speed_ripple": (sprocket.speed_ripple, lambda d: (teeth(d), d.shape("largest", "mean"))),
+    "transverse_speed": (sprocket.transverse_speed, lambda d: (*d.positive(1), teeth(d))),
+    "transverse_travel": (sprocket.transverse_travel, lambda d: (*d.positive(1), teeth(d))),
+    "engagement_speed": (
+        sprocket.engagement_speed,
+        lambda d: (*d.positive(1), teeth(d), d.shape("translating", "guided")),
+    ),
+    "engagement_energy": (sprocket.engagement_energy, lambda d: (*d.positive(2), d.share())),
+    "peak_acceleration": (polygon.peak_acceleration, lambda d: (*d.positive(2), teeth(d))),
+    "polygon_displacement": (polygon.polygon_displacement, lambda d: (d.rng.normal(), *d.positive(1), teeth(d))),
+    "polygon_speed": (polygon.polygon_speed, lambda d: (d.rng.normal(), *d.positive(1), teeth(d))),
+    "polygon_acceleration": (polygon.polygon_acceleration, lambda d: (d.rng.normal(), *d.positive(2), teeth(d))),
+    "ramped_acceleration": (polygon.ramped_acceleration, lambda d: (d.rng.normal(), *d.positive(3), teeth(d))),
+    "engagement_times": (polygon.engagement_times, lambda d: (*d.positive(2), teeth(d), 4)),
+    "acceleration_harmonics": (
+        polygon.acceleration_harmonics,
+        lambda d: (np.array([1.0, 2.0, 1e6]), *d.positive(2), teeth(d)),
+    ),
+    "harmonic_tail": (polygon.harmonic_tail, lambda d: (teeth(d), 0.5 + 2 * d.share(), *d.positive(2), teeth(d))),
+    "return_share": (polygon.return_share, lambda d: tuple(d.positive(1))),
+    "nearest_threshold": (polygon.nearest_threshold, lambda d: tuple(d.positive(1))),
+    "textbook_mass": (polygon.textbook_mass, lambda d: tuple(d.positive(4))),
+    "textbook_polygon_force": (polygon.textbook_polygon_force, lambda d: tuple(d.positive(2))),
+    "equalising_angle": (equalising.equalising_angle, lambda d: (d.rng.normal(), teeth(d))),
+    "equalising_speed": (equalising.equalising_speed, lambda d: (d.rng.normal(), *d.positive(2), teeth(d))),
+    "equalising_ratio": (equalising.equalising_ratio, lambda d: (teeth(d),)),
+    "equalising_acceleration": (equalising.equalising_acceleration, lambda d: (*d.positive(2), teeth(d))),
+    "modal_masses": (chain_resonance.modal_masses, modes_of_chain),
+    "resonance_speeds": (
+        chain_resonance.resonance_speeds,
+        lambda d: (np.array(d.positive(3)), np.array([1.0, 2.0]), *d.positive(1)),
+    ),
+    "resonance_weights": (
+        chain_resonance.resonance_weights,
+        lambda d: (np.array([1.0, 2.0]), *(np.array(d.positive(3)) for _ in range(2))),
+    ),
+    "exclusion_half_widths": (chain_resonance.exclusion_half_widths, lambda d: (np.array(d.positive(3)), d.share())),
+    "exclusion_bands": (
+        chain_resonance.exclusion_bands,
+        lambda d: (np.array(d.positive(5)), np.array(d.positive(5))),
+    ),
+    "safe_windows": (
+        lambda *given: chain_resonance.safe_windows(*given).ravel().tolist() or [0.0],
+        lambda d: (bands(d), *nested(d, 2)[::-1]),
+    ),
+    "nearest_safe_speeds": (chain_resonance.nearest_safe_speeds, lambda d: (*d.positive(1), bands(d))),
+    "transverse_frequencies": (chain_resonance.transverse_frequencies, lambda d: (*d.positive(4), 2)),
+    "textbook_resonance_speed": (chain_resonance.textbook_resonance_speed, lambda d: tuple(d.positive(5))),
+    "textbook_resonance_factor": (
+        chain_resonance.textbook_resonance_factor,
+        lambda d: (*d.positive(2), d.shape("quarter", "half", "full")),
+    ),
+    "textbook_resonance_modulus": (
+        chain_resonance.textbook_resonance_modulus,
+        lambda d: (*d.positive(2), d.shape("quarter", "half", "full")),
+    ),
+    "start_acceleration": (chain_start.start_acceleration, lambda d: tuple(d.positive(3))),
+    "start_time": (chain_start.start_time, lambda d: (*nested(d, 2), *d.positive(2))),
+    "start_force": (chain_start.start_force, lambda d: tuple(d.positive(4))),
+    "start_series": (
+        chain_start.start_series,
+        lambda d: (*(np.array(d.positive(3)) for _ in range(3)), *d.positive(2)),
+    ),
+    "start_series_tail": (chain_start.start_series_tail, lambda d: (np.array(d.positive(3)), *d.positive(2))),
+    "tooth_factor": (chain_selection.tooth_factor, lambda d: (teeth(d), 1.08)),
+    "design_power": (chain_selection.design_power, lambda d: tuple(d.positive(4))),
+    "chain_pitches": (chain_selection.chain_pitches, lambda d: (*d.positive(2), teeth(d), teeth(d))),
+    "even_pitches": (chain_selection.even_pitches, lambda d: tuple(d.positive(1))),
+    "centre_distance": (
+        chain_selection.centre_distance,
+        lambda d: (2.5e9 * (1 + d.positive(1)[0]), *d.positive(1), teeth(d), teeth(d)),
+    ),
+    "wrap_angle": (
+        chain_selection.wrap_angle,
+        lambda d: ((sizes := nested(d, 2))[0] * (1 + d.positive(1)[0]), sizes[1], sizes[0]),
+    ),
+    "centrifugal_force": (chain_selection.centrifugal_force, lambda d: tuple(d.positive(2))),
+    "chain_safety": (chain_selection.chain_safety, lambda d: tuple(d.positive(3))),
+    "articulation_pressure": (chain_selection.articulation_pressure, lambda d: tuple(d.positive(3))),
+    "shaft_load": (chain_selection.shaft_load, lambda d: (*d.positive(2), 3 * d.share())),
+    "lubrication": (
+        lambda *given: len(chain_selection.lubrication(*given)),
+        lambda d: tuple(d.positive(2)),
+    ),
+    "sprocket_path": (chain_wear.sprocket_path, lambda d: (*d.positive(1), teeth(d))),
+    "guide_path": (chain_wear.guide_path, lambda d: tuple(d.positive(3))),
+    "contact_time": (chain_wear.contact_time, lambda d: tuple(d.positive(2))),
+    "wear_per_revolution": (
+        chain_wear.wear_per_revolution,
+        lambda d: (*(np.array(d.positive(3)) for _ in range(5)), d.shape("sum", "mean")),
+    ),
+    "archard_wear": (
+        chain_wear.archard_wear,
+        lambda d: (*(np.array(d.positive(3)) for _ in range(3)), *d.positive(3), 1 + 2 * d.share()),
+    ),
+    "allowed_growth": (chain_wear.allowed_growth, lambda d: tuple(d.positive(2))),
+    "chain_life": (chain_wear.chain_life, lambda d: tuple(d.positive(4))),
+    "revolutions": (chain_fatigue.revolutions, lambda d: tuple(d.positive(3))),
+    "tooth_passes": (chain_fatigue.tooth_passes, lambda d: tuple(d.positive(3))),
+    "stress_amplitude": (chain_fatigue.stress_amplitude, lambda d: (*nested(d, 2), *d.positive(1))),
+    "fatigue_utilisation": (chain_fatigue.fatigue_utilisation, lambda d: tuple(d.positive(4))),
     "slip_heat": (
         slip_heat.slip_heat,
         lambda d: (np.cumsum(d.positive(5)), *(np.array(d.positive(5)) for _ in range(3))),
@@ -626,6 +753,15 @@ SIGNED = {
     "rollback_force",
     "coast_down_coefficient",
     "slip_heat",
+    "polygon_displacement",
+    "polygon_speed",
+    "polygon_acceleration",
+    "ramped_acceleration",
+    "acceleration_harmonics",
+    "nearest_threshold",
+    "equalising_angle",
+    "modal_masses",
+    "start_acceleration",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}
