@@ -1,0 +1,128 @@
+"""A sprocket that speeds up through a resonance, against DOP853 stopped at every engagement and constant speed."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ptmcalc.numerics.passes import Passes, Wave
+from ptmcalc.numerics.run_through import Run, run_through
+
+TEETH, PITCH = 12, 0.1
+HALF = math.pi / TEETH
+RADIUS = PITCH / 2 / math.sin(HALF)
+PLACES = np.linspace(0.0, 1.0, 21)
+
+
+class Ramp:
+    """Angular speed w + e t from an engagement on."""
+
+    def __init__(self, w: float, e: float, passes: int) -> None:
+        self.w, self.e = w, e
+        turned = 2 * HALF * np.arange(passes + 1)
+        self.edges = turned / w if e == 0 else (np.sqrt(w**2 + 2 * e * turned) - w) / e
+        self.speeds = w + e * self.edges
+
+    def acceleration(self, inside: np.ndarray) -> np.ndarray:
+        w = self.speeds[:-1, None]
+        phi = w * inside + self.e * inside**2 / 2 - HALF
+        return RADIUS * (self.e * np.cos(phi) - (w + self.e * inside) ** 2 * np.sin(phi))
+
+
+def by_dop853(ramp: Ramp, w: float, zeta: float) -> tuple[np.ndarray, np.ndarray]:
+    """Deflection and speed at the places."""
+    state, seen = np.zeros(2), []
+    for k, period in enumerate(np.diff(ramp.edges)):
+
+        def rate(t: float, y: np.ndarray, pass_speed: float = float(ramp.speeds[k])) -> list[float]:
+            phi = pass_speed * t + ramp.e * t * t / 2 - HALF
+            base = RADIUS * (ramp.e * math.cos(phi) - (pass_speed + ramp.e * t) ** 2 * math.sin(phi))
+            return [y[1], -base - 2 * zeta * w * y[1] - w * w * y[0]]
+
+        run = solve_ivp(rate, (0, period), state, "DOP853", PLACES * period, rtol=1e-12, atol=1e-15)
+        seen.append(run.y)
+        state = run.y[:, -1]
+    return np.array(seen)[:, 0], np.array(seen)[:, 1]
+
+
+@pytest.mark.parametrize(("w", "zeta"), [(24.0, 0.0), (24.0, 0.02), (50.0, 1.0), (100.0, 2.0)])
+@pytest.mark.parametrize("e", [0.08, -0.03, 0.0])
+def test_agrees_with_dop853(w: float, zeta: float, e: float) -> None:
+    ramp = Ramp(1.6 if e > 0 else 2.2, e, 40)
+    run = run_through(ramp.edges, ramp.acceleration, [w], [zeta], PLACES)
+    deflection, speed = by_dop853(ramp, w, zeta)
+    size = np.abs(w * deflection).max()
+    assert w * run.displacement[:, :, 0] == pytest.approx(w * deflection, abs=1e-9 * size)
+    assert run.speed[:, :, 0] == pytest.approx(speed, abs=1e-9 * size)
+    assert run.times == pytest.approx(ramp.edges[:-1, None] + np.diff(ramp.edges)[:, None] * PLACES)
+
+
+def test_error_is_told() -> None:
+    """Places too far apart for a fast mode: the run says so, and is not worse than it says."""
+    ramp = Ramp(1.6, 0.1, 30)
+    places = np.linspace(0.0, 1.0, 9)
+    fine = run_through(ramp.edges, ramp.acceleration, [24.0, 600.0], [0.01, 0.01], np.linspace(0, 1, 65))
+    coarse = run_through(ramp.edges, ramp.acceleration, [24.0, 600.0], [0.01, 0.01], places)
+    away = np.abs(coarse.displacement - fine.displacement[:, ::8]).max(axis=(0, 1)) * np.array([24.0, 600.0])
+    assert np.all(away <= coarse.error + 1e-13)
+    assert coarse.error[0] < 1e-13
+    assert coarse.error[1] > 1e-9
+    assert fine.error[1] < coarse.error[1] * 1e-3
+
+
+def test_constant_speed_is_the_affine_map() -> None:
+    w = np.array([24.0, 77.0])
+    ramp = Ramp(2.0, 0.0, 200)
+    run = run_through(ramp.edges, ramp.acceleration, w, [0.01, 0.05], PLACES)
+    for k, zeta in enumerate((0.01, 0.05)):
+        rate = np.array([[0.0, 1.0], [-(w[k] ** 2), -2 * zeta * w[k]]])
+        passes = Passes(rate, np.array([0.0, 4 * RADIUS]), Wave(2.0, -HALF, HALF), 200)
+        found = passes.at(PLACES, np.eye(2))
+        assert run.displacement[:, :, k] == pytest.approx(found[:, :, 0], abs=1e-12)
+        assert run.speed[:, :, k] == pytest.approx(found[:, :, 1], abs=1e-11)
+
+
+def passing(places: np.ndarray) -> Run:
+    """Two modes of a chain, run through the first."""
+    ramp = Ramp(1.6, 0.02, 200)
+    return run_through(ramp.edges, ramp.acceleration, [24.0, 72.0], [0.02, 0.06], places)
+
+
+class TestForce:
+    MASSES = np.array([800.0, 90.0])
+
+    def test_is_that_of_springs_and_dampers(self) -> None:
+        run = passing(PLACES)
+        expected = sum(
+            -m * (w * w * run.displacement[:, :, k] + 2 * z * w * run.speed[:, :, k])
+            for k, (m, w, z) in enumerate(zip(self.MASSES, (24.0, 72.0), (0.02, 0.06), strict=True))
+        )
+        assert run.force(self.MASSES) == pytest.approx(expected, rel=1e-12)
+
+    def test_largest_comes_after_the_resonance(self) -> None:
+        """In passing, the peak comes late; it is about (2/pi) m a_max/(2 zeta) of steady running at most."""
+        largest, time = passing(PLACES).largest(self.MASSES)
+        ramp_speed = 1.6 + 0.02 * time
+        assert 2.0 < ramp_speed < 2.2
+        steady = 2 / math.pi * 800.0 * 2.0**2 * PITCH / 2 / (2 * 0.02)
+        assert 0.5 * steady < largest < steady * 1.15
+
+    def test_largest_is_that_of_finer_places(self) -> None:
+        fine = passing(np.linspace(0, 1, 401))
+        sampled = fine.force(self.MASSES)
+        highest, late = fine.largest(self.MASSES)
+        assert sampled.max() <= highest < sampled.max() * (1 + 1e-4)
+        for count, tolerance in ((21, 1e-5), (41, 2e-6), (161, 1e-8)):
+            found, time = passing(np.linspace(0, 1, count)).largest(self.MASSES)
+            assert found == pytest.approx(highest, rel=tolerance)
+            assert time == pytest.approx(late, abs=1e-4)
+
+
+@pytest.mark.parametrize("zeta", [0.0, 1 - 1e-12, 1.0, 1 + 1e-12, 1e6])
+@pytest.mark.parametrize("w", [1e-9, 1.0, 1e4])
+def test_no_damping_and_no_frequency_is_special(w: float, zeta: float) -> None:
+    ramp = Ramp(1.0, 0.1, 20)
+    run = run_through(ramp.edges, ramp.acceleration, [w], [zeta], PLACES)
+    assert np.all(np.isfinite(run.displacement))
+    assert np.abs(run.speed).max() <= np.abs(run.base).max() * ramp.edges[-1]
