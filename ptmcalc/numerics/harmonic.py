@@ -13,7 +13,7 @@ with T the travel time and Z the impedance of the undamped strand. The product P
 X^2 and gives every force without a difference of large numbers. The drive, a mass m at the rim that gives way to the
 tensions, comes in as nu = 1/(m w^2):
 
-    far end free, mass M     S_on = N u/(Q - nu N),   N = P21 - M w^2 P22,   Q = P11 - M w^2 P12
+    far end free, mass M     S_on = (N u + M w^2 X u_far)/(Q - nu N),   N = P21 - M w^2 P22,   Q = P11 - M w^2 P12
     far end held             S_on = (P22 u - X u_far)/(P12 - nu P22)
     far end on the sprocket  S_on = (P22 u - X u_far - nu P21 (u - u_far))/(P12 - nu (P11 + P22 - 2 X))
 
@@ -106,9 +106,10 @@ class Line:
 class Chain:
     """One or two strands from the run-on of a sprocket against the travel, and how they end.
 
-    `far` is `free` (constant tension, with a `far_mass` that moves with it), `held` (an end that is fixed or moved by
-    something else, such as a driven tail sprocket) or `on_sprocket` (the run-off of the same sprocket: screw take-up).
-    `drive_mass` is the drive at the rim, infinite for a sprocket whose speed nothing changes.
+    `far` is `free` (constant tension, with a `far_mass` that moves with it: a take-up, or a tail sprocket with what it
+    drives, whose own polygon moves the end against it), `held` (an end that is fixed or moved by something else) or
+    `on_sprocket` (the run-off of the same sprocket: screw take-up). `drive_mass` is the drive at the rim, infinite for
+    a sprocket whose speed nothing changes.
     """
 
     lines: tuple[Line, ...]
@@ -178,31 +179,37 @@ class _Rest:
 
 
 class _Waves:
-    """The matrix P of a chain at frequencies, and the sizes its entries are made of."""
+    """The matrix P of a chain at frequencies, the sizes its entries are made of, and P11 - X and P22 - X, which are
+    small where the motion is slow."""
 
     def __init__(self, chain: Chain, w: FloatArray) -> None:
         root = np.sqrt(chain.damping.modulus(w))
-        self.scale: ComplexArray = np.ones(w.shape, complex)
-        self.angle = np.zeros(w.shape)
-        matrix: list[ComplexArray] | None = None
-        sizes: list[FloatArray] = []
+        whole = np.zeros(w.shape, complex)
+        matrices, sizes = [], []
         for line in chain.lines:
             theta, z = w * line.transit / root, w * line.impedance * root
             twice = np.expm1(-2j * theta)
             cosine, sine = 1 + twice / 2, twice * 0.5j
-            m = [cosine, sine / z, -z * sine, cosine]
             near, stiff = np.minimum(np.abs(theta), 1.0), np.abs(z)
-            size = [np.ones(w.shape), near / stiff, near * stiff, np.ones(w.shape)]
-            self.scale, self.angle = self.scale * np.exp(-1j * theta), self.angle + np.abs(theta)
-            if matrix is None:
-                matrix, sizes = m, size
-                continue
-            load = chain.joint_mass * w**2
-            m[2], m[3] = m[2] - load * m[0], m[3] - load * m[1]
-            size[2], size[3] = size[2] + load * size[0], size[3] + load * size[1]
-            matrix, sizes = _product(matrix, m), _product(sizes, size)
-        assert matrix is not None
-        self.matrix, self.sizes = matrix, sizes
+            matrices.append([cosine, sine / z, -z * sine, cosine])
+            sizes.append([np.ones(w.shape), near / stiff, near * stiff, np.ones(w.shape)])
+            whole = whole + theta
+        half = np.expm1(-1j * whole) ** 2 / 2  # X (cos - 1) of both angles
+        self.scale, self.angle = np.exp(-1j * whole), np.abs(whole)
+        self.matrix, self.sizes, self.less = matrices[0], sizes[0], (half, half)
+        if len(matrices) == 2:
+            (c1, s1, _, _), (c2, s2, r2, _) = matrices
+            load, z1, z2 = chain.joint_mass * w**2, chain.lines[0].impedance, chain.lines[1].impedance
+            both = s1 * r2  # -sin sin z2/z1
+            self.less = (
+                half + both * (1 - z1 / z2) - load * s1 * c2,
+                half - both * (z1 / z2) * (1 - z1 / z2) - load * c1 * s2,
+            )
+            for entries in (matrices[1], sizes[1]):
+                sign = 1.0 if entries is sizes[1] else -1.0
+                entries[2] = entries[2] + sign * load * entries[0]
+                entries[3] = entries[3] + sign * load * entries[1]
+            self.matrix, self.sizes = _product(*matrices), _product(*sizes)
 
 
 def _product(a: list[Any], b: list[Any]) -> list[Any]:
@@ -215,23 +222,23 @@ def _product(a: list[Any], b: list[Any]) -> list[Any]:
     ]
 
 
-def _ratios(chain: Chain, w: FloatArray) -> _Ratios:
-    waves = _Waves(chain, w)
+def _ratios(chain: Chain, waves: _Waves, w: FloatArray) -> _Ratios:
     p11, p12, p21, p22 = waves.matrix
     s11, s12, s21, s22 = waves.sizes
     nu = 1 / (chain.drive_mass * w**2)
-    nothing = np.zeros_like(p11)
     if chain.far == FREE:
         load = chain.far_mass * w**2
         above = p21 - load * p22
         below = p11 - load * p12 - nu * above
         size = s11 + load * s12 + nu * (s21 + load * s22)
-        near, far = (above, nothing), (nothing, nothing)
+        through: ComplexArray = np.asarray(load * waves.scale)
+        near, far = (above, through), (-through, load * (p11 - nu * p21))
     elif chain.far == HELD:
         below, size = p12 - nu * p22, s12 + nu * s22
         near, far = (p22, -waves.scale), (waves.scale, nu * p21 - p11)
     else:
-        below, size = p12 - nu * (p11 + p22 - 2 * waves.scale), s12 + nu * (s11 + s22 + 2)
+        ring = waves.less[0] + waves.less[1]
+        below, size = p12 - nu * ring, s12 + nu * np.minimum(s11 + s22 + 2, s12 * s21)
         slip = nu * p21
         near, far = (p22 - slip, slip - waves.scale), (waves.scale - slip, slip - p11)
     sound = np.abs(below) / (size * (1 + waves.angle))
@@ -239,7 +246,7 @@ def _ratios(chain: Chain, w: FloatArray) -> _Ratios:
 
 
 def dynamic_stiffness(chain: Chain, frequency: ArrayLike) -> ComplexArray:
-    """Force at the run-on over a harmonic displacement of the sprocket, with the far end at rest.
+    """Force at the run-on over a harmonic displacement of the sprocket, with a held far end at rest.
 
         S = D u
 
@@ -254,8 +261,9 @@ def dynamic_stiffness(chain: Chain, frequency: ArrayLike) -> ComplexArray:
     **Source** module docstring.
     """
     w = np.atleast_1d(np.asarray(frequency, float))
-    found = _ratios(chain, w)
-    above = found.near[0] + found.near[1] if chain.far == ON_SPROCKET else found.near[0]
+    waves = _Waves(chain, w)
+    found = _ratios(chain, waves, w)
+    above = waves.less[1] if chain.far == ON_SPROCKET else found.near[0]
     result = np.full(w.shape, complex(np.inf, 0.0))
     np.divide(above, found.below, out=result, where=found.sound > _RESONANT)
     return np.asarray(result.reshape(np.shape(frequency)))
@@ -276,7 +284,7 @@ def polygon_response(
         chain: the strands and their ends.
         frequency: w, of the teeth, above 0, shape () or (speeds,) [rad/s].
         near: acceleration of the run-on.
-        far: acceleration of the far end, where it is held or on the sprocket; at rest where not given.
+        far: acceleration of the far end, against its mass where it is free; none where not given.
         at_far_end: the force at the far end instead of the run-on.
 
     Returns:
@@ -288,10 +296,8 @@ def polygon_response(
     """
     speeds = np.atleast_1d(np.asarray(frequency, float))
     parts = [near] if far is None else [near, far]
-    if far is not None and chain.far == FREE:
-        raise ValueError("a free end follows the force, it is not moved")
-    if at_far_end and chain.far == FREE:
-        raise ValueError("the force at a free end is that of its mass alone")
+    if chain.far == FREE and chain.far_mass == 0 and (far is not None or at_far_end):
+        raise ValueError("a free end without mass is not moved by anything and has no force")
     found: list[list[FloatArray]] = []
     for first in range(0, len(speeds), _BLOCK):
         rows = slice(first, first + _BLOCK)
@@ -305,15 +311,17 @@ def _block(chain: Chain, speeds: FloatArray, parts: list[Excitation], at_far_end
     count = parts[0].harmonics.shape[-1]
     orders = np.arange(1, count + 1)
     w = speeds[:, None] * orders
-    ratios = _ratios(chain, w)
+    ratios = _ratios(chain, _Waves(chain, w), w)
     resonant = ratios.sound <= _RESONANT
     forces, rests = [], []
+    apart = chain.far != FREE or len(parts) == 2 or at_far_end
     for k, part in enumerate(parts):
         above = (ratios.far if at_far_end else ratios.near)[k]
         moved = -part.harmonics / w**2 * np.exp(-2j * np.pi * orders * part.place)
         force = np.divide(above * moved, ratios.below, out=np.zeros_like(above), where=~resonant)
         forces.append(force)
-        rests.append(_rest(chain, speeds, part, count, crossed=(k == 1) != at_far_end, at_far_end=at_far_end))
+        crossed = (k == 1) != at_far_end
+        rests.append(_rest(chain, speeds, part, crossed=crossed, at_far_end=at_far_end, apart=apart))
     driven = np.sum([np.abs(part.harmonics) for part in parts], axis=0) > 0
     unbounded = np.any(resonant & driven, axis=-1)
     sizes: FloatArray = np.sum(np.abs(forces), axis=0)
@@ -327,8 +335,10 @@ def _block(chain: Chain, speeds: FloatArray, parts: list[Excitation], at_far_end
     return [np.where(unbounded, limit, column) for column, limit in zip(columns, limits, strict=True)]
 
 
-def _rest(chain: Chain, speeds: FloatArray, part: Excitation, count: int, *, crossed: bool, at_far_end: bool) -> _Rest:
-    """Bounds behind the last harmonic; `crossed` for the force at the end that is not moved."""
+def _rest(chain: Chain, speeds: FloatArray, part: Excitation, *, crossed: bool, at_far_end: bool, apart: bool) -> _Rest:
+    """Bounds behind the last harmonic; `crossed` for the force at the end that is not moved, `apart` where a mass at
+    the far end counts as something that gives way and not as a part of the strands."""
+    count = part.harmonics.shape[-1]
     w = speeds * (count + 1)
     lines, damping = chain.lines, chain.damping
     root = np.sqrt(damping.modulus(w))
@@ -347,21 +357,31 @@ def _rest(chain: Chain, speeds: FloatArray, part: Excitation, count: int, *, cro
     # over the frequency: |z| and bounds of |D - i z| at the end of the force, and of |D| at both ends and between them
     stiff = [line.impedance * size for line in (lines[0], lines[-1])]
     strays = [stiff[0] * echoes(fades[0]), stiff[1] * echoes(fades[-1])]
-    through = _through(lines, fades) * size if chain.far != FREE else np.zeros_like(size)
+    through = _through(lines, fades) * size if apart else np.zeros_like(size)
     force, motion = int(at_far_end), int(at_far_end != crossed)
     own = [one + stray for one, stray in zip(stiff, strays, strict=True)]
-    fed_back = np.zeros_like(size)
-    if np.isfinite(chain.drive_mass):
-        nu = 1 / (chain.drive_mass * w)
-        give = nu * (own[0] if chain.far != ON_SPROCKET else own[0] + own[1] + 2 * through)
-        most = np.where(give < _PASSES, nu / np.maximum(1 - give, _EPS), np.inf)
-        fed_back = (own[force] + through) * (own[motion] + through) * most
+    # masses that give way feed back at most |D nu| (1 + |D nu| + ...) |D|
+    drive, tail = 1 / (chain.drive_mass * w), np.zeros_like(w)
+    if chain.far == ON_SPROCKET:
+        felt, give = _scaled(drive, own[force] + through), _scaled(drive, own[0] + own[1] + 2 * through)
+    else:
+        if chain.far == FREE and apart:
+            tail = 1 / (chain.far_mass * w)
+        ends = [own[end] if end == force else through for end in (0, 1)]
+        felt = np.maximum(_scaled(drive, ends[0]), _scaled(tail, ends[1]))
+        give = np.maximum(_scaled(drive, own[0] + through), _scaled(tail, own[1] + through))
+    back = np.where(give < _PASSES, felt / np.maximum(1 - give, _EPS), np.inf)
+    fed_back = _scaled(back, own[motion] + through)
     level = np.abs(part.harmonics[:, -1]) * count / speeds  # c/w_1
-    tail = growth * level / count
     rest = through + fed_back if crossed else strays[force] + fed_back
     steady = np.zeros_like(level) if crossed else level * stiff[force]
-    beside = np.multiply(tail, rest, out=np.zeros_like(level), where=level > 0)
+    beside = _scaled(growth * level / count, rest)
     return _Rest(growth * steady / count + beside, _STEADY * steady / (count + 1) ** 2, beside)
+
+
+def _scaled(factor: FloatArray, bound: FloatArray) -> FloatArray:
+    """Their product; 0 where the factor is, however large the bound."""
+    return np.multiply(factor, bound, out=np.zeros_like(bound), where=factor > 0)
 
 
 def _through(lines: tuple[Line, ...], fades: list[FloatArray]) -> FloatArray:

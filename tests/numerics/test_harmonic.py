@@ -29,6 +29,7 @@ CHAINS = [
     Chain((WORKING,), LOSSLESS),
     Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0),
     Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0, far_mass=1500.0),
+    Chain((WORKING,), LOSSLESS, far_mass=4e4),
     Chain((WORKING,), LOSSLESS, far="held"),
     Chain((WORKING, EMPTY), LOSSLESS, far="held", joint_mass=900.0),
     Chain((WORKING, EMPTY), LOSSLESS, far="on_sprocket", joint_mass=900.0),
@@ -71,7 +72,7 @@ class TestOneFrequency:
     def test_forces_are_those_of_finite_elements(self, case: int, law: str, drive: float) -> None:
         """Both ends moved with a phase, through a series of one harmonic: largest force and its place."""
         chain = replace(CHAINS[case], damping=DAMPINGS[law], drive_mass=drive)
-        moved = chain.far != "free"
+        moved = chain.far != "free" or chain.far_mass > 0
         for w in (3.0, 61.0, 140.0):
             near, far = Excitation(np.array([0.7, 0.0])), Excitation(np.array([0.4, 0.0]), place=0.3)
             u = [-0.7 / w**2 + 0j, -0.4 / w**2 * np.exp(-2j * np.pi * 0.3)]
@@ -100,7 +101,7 @@ class TestOneFrequency:
         w = np.array([1e-6, 0.3, 20.0, 70.0])
         theta, z = w * WORKING.transit, w * WORKING.impedance
         assert dynamic_stiffness(CHAINS[0], w) == pytest.approx(-z * np.tan(theta), rel=1e-13)
-        assert dynamic_stiffness(CHAINS[3], w) == pytest.approx(z / np.tan(theta), rel=1e-12)
+        assert dynamic_stiffness(CHAINS[4], w) == pytest.approx(z / np.tan(theta), rel=1e-12)
 
     def test_slow_motion_moves_the_whole_mass(self) -> None:
         """k h down to 1e-12: a rigid body, a static spring, without loss of digits."""
@@ -108,7 +109,28 @@ class TestOneFrequency:
             whole = 200.0 * 40 + 80.0 * 44 + 900.0
             assert complex(dynamic_stiffness(CHAINS[1], w)) == pytest.approx(-whole * w**2, rel=1e-9, abs=0)
             spring = 1 / (40 / 3e8 + 44 / 3e8)
-            assert complex(dynamic_stiffness(CHAINS[4], w)) == pytest.approx(spring, rel=1e-9, abs=0)
+            assert complex(dynamic_stiffness(CHAINS[5], w)) == pytest.approx(spring, rel=1e-9, abs=0)
+            moved = self.quasi_static_ring(CHAINS[6])
+            assert complex(dynamic_stiffness(CHAINS[6], w)) == pytest.approx(-moved * w**2, rel=1e-9, abs=0)
+
+    def test_a_drive_that_gives_way_moves_the_ring_as_a_whole(self) -> None:
+        """Both runs excited alike, so slowly that nothing stretches: the drive takes its share of the acceleration."""
+        ring, push = replace(CHAINS[6], drive_mass=5e3), Excitation(np.array([1.0, 0.0]))
+        whole = 200.0 * 40 + 80.0 * 44 + 900.0
+        expected = self.quasi_static_ring(ring) * 5e3 / (whole + 5e3)
+        for w in (0.3, 0.03, 0.003):
+            found = polygon_response(ring, w, push, push)
+            assert float(found.largest) == pytest.approx(expected, rel=1e-2 * w)
+
+    @staticmethod
+    def quasi_static_ring(ring: Chain) -> float:
+        """Tension at the run-on per acceleration of a loop of fixed length: what pulls evens out over the stretch."""
+        one, two = ring.lines
+        masses = [line.length * line.line_mass for line in (one, two)]
+        soft = np.array([line.length / line.stiffness for line in (one, two)])
+        behind = np.array([masses[1] + ring.joint_mass + masses[0] / 2, masses[1] / 2])
+        run_off = -(behind @ soft) / soft.sum()
+        return float(run_off + sum(masses) + ring.joint_mass)
 
     @pytest.mark.parametrize("law", DAMPINGS)
     def test_many_waves_fade_without_overflow(self, law: str) -> None:
@@ -167,7 +189,7 @@ class TestErrorsAreBounds:
     """A run with few harmonics lies as near to one with many as it says."""
 
     @pytest.mark.parametrize("law", ["kelvin_voigt", "hysteretic", "zener"])
-    @pytest.mark.parametrize("far", ["free", "held", "on_sprocket"])
+    @pytest.mark.parametrize("far", ["free", "driven", "held", "on_sprocket"])
     @pytest.mark.parametrize("strands", [1, 2])
     def test_of_random_chains(self, law: str, far: str, strands: int) -> None:
         rng = np.random.default_rng(hash_of(law, far, strands))
@@ -183,7 +205,8 @@ class TestErrorsAreBounds:
             }[law]
             drive = float(rng.choice([math.inf, 10 ** rng.uniform(2, 5)]))
             joint = float(rng.choice([0.0, 10 ** rng.uniform(1, 4)]))
-            chain = Chain(lines, damping, far, joint_mass=joint, drive_mass=drive)
+            end = 10 ** rng.uniform(2, 5) if far == "driven" else 0.0
+            chain = Chain(lines, damping, far.replace("driven", "free"), joint, end, drive)
             speed = rng.uniform(0.1, 3.0) * PITCH / (4 * transit)
             w = 2 * math.pi * speed / PITCH
             moved = [Excitation(harmonics(speed, count), place=0.37) for count in (128, 8192)]
@@ -333,10 +356,9 @@ class TestExtremes:
         with pytest.raises(ValueError, match="no end is called"):
             Chain((WORKING,), LOSSLESS, far="loose")
         push = Excitation(np.ones(2))
-        with pytest.raises(ValueError, match="a free end follows"):
-            polygon_response(CHAINS[0], 1.0, push, push)
-        with pytest.raises(ValueError, match="a free end is that of its mass"):
-            polygon_response(CHAINS[0], 1.0, push, at_far_end=True)
+        for far, at_far_end in ((push, False), (None, True)):
+            with pytest.raises(ValueError, match="a free end without mass"):
+                polygon_response(CHAINS[0], 1.0, push, far, at_far_end=at_far_end)
 
 
 def test_scipy_is_not_asked() -> None:

@@ -5,7 +5,7 @@ the run-on is the force with which the sprocket pulls node 0 ahead, that at the 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import eigh, solve
@@ -49,12 +49,13 @@ def matrices(chain: Chain, pieces: int, *, lumped: bool) -> tuple[np.ndarray, np
 
 
 def _forces(chain: Chain, pieces: int, modulus: complex, w: float, near: complex, far: complex) -> np.ndarray:
-    """Complex tensions at both ends under harmonic displacements of them, the drive giving way."""
-    mass, stiff = matrices(chain, pieces, lumped=False)
+    """Complex tensions at both ends under harmonic displacements of them, the drive giving way; a free far end moves
+    against its mass."""
+    mass, stiff = matrices(replace(chain, far_mass=0.0), pieces, lumped=False)
     dynamic = stiff * modulus - w**2 * mass
     count = len(mass)
     moved = np.zeros(count, complex)
-    moved[0], moved[-1] = near, 0.0 if chain.far == "free" else far
+    moved[0], moved[-1] = near, far
     # columns: what may move, the drive last
     inner = list(range(1, count if chain.far == "free" else count - 1))
     free = np.zeros((count, len(inner) + 1))
@@ -62,12 +63,12 @@ def _forces(chain: Chain, pieces: int, modulus: complex, w: float, near: complex
     free[0, -1] = 1.0
     if chain.far == "on_sprocket":
         free[-1, -1] = 1.0
-    if not math.isfinite(chain.drive_mass):
-        free = free[:, :-1]
     whole = free.T @ dynamic @ free
-    if math.isfinite(chain.drive_mass):
-        whole[-1, -1] -= w**2 * chain.drive_mass
-    u = moved + free @ solve(whole, -free.T @ dynamic @ moved)
+    whole[-1, -1] -= w**2 * chain.drive_mass if math.isfinite(chain.drive_mass) else 0.0
+    if chain.far == "free":
+        whole[-2, -2] -= w**2 * chain.far_mass
+    kept = slice(None) if math.isfinite(chain.drive_mass) else slice(None, -1)
+    u = moved + free[:, kept] @ solve(whole[kept, kept], -(free.T @ dynamic @ moved)[kept])
     force = dynamic @ u
     return np.array([force[0], -force[-1]])
 
