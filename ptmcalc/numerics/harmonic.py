@@ -25,8 +25,10 @@ X between the ends and no end reflects more than it receives. So D = i z (1 - R)
 |D| <= |z| (1 + q)/(1 - q); between the ends |D_12| <= 2 |z_1 z_2|^(1/2) |X_1 X_2|/(1 - max q), from the scattering
 matrix of the joint between both delays. These bound the sum of the rest; and because i z u_n changes steadily from one
 harmonic to the next, Abel's summation bounds it far better everywhere but next to the engagement: by
-(1 + pi/4) |z u|_(N+1)/|sin(pi x)|, x the distance from it in pitches. Between samples of the force its second
-derivative is bounded in the same two ways. The largest force is therefore known to lie between two numbers.
+(1 + pi/2) |z u|_(N+1)/|sin(pi x)|, x the distance from it in pitches. At the engagement itself, where the force has a
+corner and often its smallest value, all terms of i z u_n have one sign and their sum is an integral. Between samples
+of the force its second derivative is bounded in the same two ways. The largest force is therefore known to lie
+between two numbers.
 """
 
 from dataclasses import dataclass
@@ -34,6 +36,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ptmcalc.numerics.collocation import gauss
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -46,15 +50,17 @@ _RESONANT = 8.0
 """Multiple of the rounding of its arguments below which a denominator counts as 0."""
 _PASSES = 1 - 16 * _EPS
 """Part of a wave from which on nothing of it is surely lost."""
-_STEADY = 1 + np.pi / 4
-"""Variation of i z u_n behind the last harmonic over its first value: it falls, and turns by less than 45 deg."""
+_STEADY = 1 + np.pi / 2
+"""Variation of i z u_n behind the last harmonic over its first value: it falls, and turns by less than 45 deg there
+and, with Zener, back."""
 _PER_HARMONIC, _LEAST_SAMPLES = 4, 1024
 """Samples of the force per harmonic, and at least."""
 _AT_IT = 1e-12
 """A distance from the engagement at which only the absolute sums count any more."""
 _BLOCK = 16
 """Speeds computed at a time: what they need stays in the cache."""
-_NEWTON = 6
+_NEWTON, _CORNER = 6, 32
+"""Steps to a summit, nodes for the sum behind the last harmonic at an engagement."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +137,8 @@ class Excitation:
     """Periodic acceleration of an end, sum b_n sin(2 pi n (x - place)), x in pitches.
 
     `harmonics` are the b_n from n = 1 on, shape (N,) or (speeds, N) [m/s^2]. Behind the last one they must go on
-    alternating with n |b_n| not rising, as those of an acceleration that jumps once per pitch at place + 1/2 do.
+    alternating with n |b_n| falling to its limit like 1/n^2 at least, as those of an acceleration that jumps once per
+    pitch at place + 1/2 do. A last one of 0 says that there are no more.
     """
 
     harmonics: FloatArray
@@ -170,12 +177,14 @@ class _Ratios:
 
 @dataclass(frozen=True, slots=True)
 class _Rest:
-    """Bounds on what lies behind the last harmonic of one excitation: of the sum of all terms, of its steady part's
-    variation, and of the sum without that part."""
+    """What lies behind the last harmonic of one excitation: bounds of the sum of all terms, of its steady part's
+    variation and of the sum without that part; the steady part at the engagement, and how far it may be wrong."""
 
     whole: FloatArray
     variation: FloatArray
     echoes: FloatArray
+    corner: FloatArray
+    unsure: FloatArray
 
 
 class _Waves:
@@ -298,6 +307,8 @@ def polygon_response(
     parts = [near] if far is None else [near, far]
     if chain.far == FREE and chain.far_mass == 0 and (far is not None or at_far_end):
         raise ValueError("a free end without mass is not moved by anything and has no force")
+    if far is not None and far.harmonics.shape[-1] != near.harmonics.shape[-1]:
+        raise ValueError("both ends need the same number of harmonics")
     found: list[list[FloatArray]] = []
     for first in range(0, len(speeds), _BLOCK):
         rows = slice(first, first + _BLOCK)
@@ -376,7 +387,23 @@ def _rest(chain: Chain, speeds: FloatArray, part: Excitation, *, crossed: bool, 
     rest = through + fed_back if crossed else strays[force] + fed_back
     steady = np.zeros_like(level) if crossed else level * stiff[force]
     beside = _scaled(growth * level / count, rest)
-    return _Rest(growth * steady / count + beside, _STEADY * steady / (count + 1) ** 2, beside)
+    whole, variation = growth * steady / count + beside, _STEADY * steady / (count + 1) ** 2
+    if crossed:
+        return _Rest(whole, variation, beside, np.zeros_like(level), beside)
+    line, side = (lines[-1], 1.0) if at_far_end else (lines[0], -1.0)
+    sign = side * np.sign(part.harmonics[:, -1]) * (-1.0) ** count
+    corner = sign * level * line.impedance * _reach(damping, speeds, count)
+    before = np.abs(part.harmonics[:, max(count - 2, 0)]) * max(count - 1, 1) / speeds
+    settled = np.abs(before - level) * count + level / count**2  # n |b_n| less its limit, and sum less integral
+    return _Rest(whole, variation, beside, corner, beside + _scaled(settled, growth * stiff[force] / count))
+
+
+def _reach(damping: Damping, speeds: FloatArray, count: int) -> FloatArray:
+    """Sum of Re(k_n)/n^2 behind the last harmonic, by the integral with s = t^2/(N + 1/2) for 1/n."""
+    t, weights = gauss(_CORNER)
+    n = (count + 0.5) / t**2
+    root = np.sqrt(damping.modulus(speeds[:, None] * n))
+    return np.asarray((root.real * t) @ weights * 2 / (count + 0.5))
 
 
 def _scaled(factor: FloatArray, bound: FloatArray) -> FloatArray:
@@ -441,12 +468,26 @@ class _Search:
             bend = -sign * np.sum(phase.imag * self._orders**2, axis=-1)
             step = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1.0), np.sign(slope))
             x = np.clip(x + np.clip(step / (2 * np.pi), -reach, reach), start - reach, start + reach)
-        best = sign * np.sum((self._terms * np.exp(2j * np.pi * x[:, None] * self._orders)).imag, axis=-1)
+        best = sign * self._sum(x)
         sampled = values[rows, top]
         x, best = np.where(best >= sampled, x, start), np.maximum(best, sampled)
-        left_out = np.array(self._rounding)
-        for place, rest in zip(self._places, self._rests, strict=True):
-            sine = self._away(place, x, 0.0)
-            left_out = left_out + np.minimum(rest.variation / sine + rest.echoes, rest.whole)
+        low = best - self._left_out(x)
+        for k, (place, rest) in enumerate(zip(self._places, self._rests, strict=True)):
+            corner = np.full_like(x, place + 0.5)
+            value = sign * (self._sum(corner) + rest.corner)
+            surely = value - rest.unsure - self._left_out(corner, without=k)
+            better = surely > low
+            best, x, low = (np.where(better, a, b) for a, b in ((value, best), (corner, x), (surely, low)))
         high = np.maximum(np.max(values + self._stray, axis=-1), best)
-        return best, np.asarray(x - np.floor(x)), best - left_out, high
+        return best, np.asarray(x - np.floor(x)), low, high
+
+    def _sum(self, x: FloatArray) -> FloatArray:
+        return np.asarray(np.sum((self._terms * np.exp(2j * np.pi * x[:, None] * self._orders)).imag, axis=-1))
+
+    def _left_out(self, x: FloatArray, without: int | None = None) -> FloatArray:
+        """Bound of what the sum at places leaves out, without that of one excitation."""
+        total = self._rounding
+        for k, (place, rest) in enumerate(zip(self._places, self._rests, strict=True)):
+            if k != without:
+                total = total + np.minimum(rest.variation / self._away(place, x, 0.0) + rest.echoes, rest.whole)
+        return total

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from support import chain_fem
 
 from ptmcalc.laws import (
     belt_modes,
@@ -169,7 +170,11 @@ class TestCH05:
 
 
 class TestCH06:
-    """One strand under polygon excitation, in units of m a_max; printed from 3000 harmonics at sampled places."""
+    """One strand under polygon excitation, in units of m a_max; printed from 3000 harmonics at sampled places.
+
+    The smallest force lies in the corner of an engagement, where so few harmonics are up to 0.3 % short of their limit:
+    -1.00609 is printed for -1.00305 at r = 0.05. Finite elements in time say the same as the limit.
+    """
 
     ROWS = (
         (0.05, 2.39475, -1.00609), (0.1, 2.40838, -1.07547), (0.15, 2.19622, -1.04373), (0.2, 2.61729, -1.4281),
@@ -202,13 +207,26 @@ class TestCH06:
         return Damping("kelvin_voigt", time=2 * zeta / (math.pi / 2))
 
     def test_over_the_speed(self) -> None:
-        """The smallest force lies in the corner of an engagement, where a last harmonic and a sampling show most."""
         found = self.peaks(tuple(row[0] for row in self.ROWS), self.kelvin_voigt(0.05))
         assert found.largest == pytest.approx([row[1] for row in self.ROWS], rel=2e-5)
-        assert found.smallest == pytest.approx([row[2] for row in self.ROWS], rel=1e-3)
+        assert found.smallest == pytest.approx([row[2] for row in self.ROWS], rel=4e-3)
         printed = np.array([row[1] for row in self.ROWS])
         assert np.all(found.largest_low - 1e-5 * printed <= printed)
         assert np.all(printed <= found.largest_high + 1e-5 * printed)
+
+    @pytest.mark.parametrize("r", [0.05, 0.2, 1.0, 1.5, 2.0])
+    def test_smallest_force_by_finite_elements(self, r: float) -> None:
+        damping = self.kelvin_voigt(0.05)
+        sprocket_ = chain_fem.Sprocket(1.0, 8, r / 4)  # r quarter waves of 1 m/s pass a strand of 1 m
+        meshed = chain_fem.Chain((chain_fem.Strand(1.0, 1.0, 1.0),))
+        force = chain_fem.periodic_force(
+            meshed, sprocket_, damping.time, np.array([0.0, *np.linspace(0.9, 1.0, 41)]), 300
+        )
+        smallest = force.min() / (2 * (math.pi / 8 * r / 4) ** 2)
+        found = self.peaks((r,), damping)
+        assert float(found.smallest[0]) == pytest.approx(smallest, rel=1e-3)
+        assert float(found.smallest_high[0] - found.smallest[0]) < 1e-6
+        assert float(found.smallest_low[0]) < smallest
 
     @pytest.mark.parametrize(("zeta", "printed"), DAMPED)
     def test_over_the_damping(self, zeta: float, printed: tuple[float, ...]) -> None:

@@ -6,6 +6,7 @@ the run-on is the force with which the sprocket pulls node 0 ahead, that at the 
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import eigh, solve
@@ -101,6 +102,7 @@ class Sprocket:
         return -(self.angular**2) * radius * np.sin(self.angular * (time % self.period) - math.pi / self.teeth)
 
 
+@lru_cache(maxsize=4)
 def modes(chain: Chain, pieces: int) -> tuple[np.ndarray, np.ndarray, float]:
     """Frequencies, effective masses of the modes of a chain held at the run-on, and the mass of its node."""
     mass, stiff = matrices(chain, pieces, lumped=True)
