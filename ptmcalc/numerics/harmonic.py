@@ -59,7 +59,7 @@ _AT_IT = 1e-12
 """A distance from the engagement at which only the absolute sums count any more."""
 _BLOCK = 16
 """Speeds computed at a time: what they need stays in the cache."""
-_NEWTON, _CORNER = 6, 32
+_NEWTON, _CORNER = 4, 32
 """Steps to a summit, nodes for the sum behind the last harmonic at an engagement."""
 
 

@@ -74,7 +74,7 @@ def _forces(chain: Chain, pieces: int, modulus: complex, w: float, near: complex
     return np.array([force[0], -force[-1]])
 
 
-def forces(chain: Chain, modulus: complex, w: float, near: complex, far: complex = 0.0, pieces: int = 45) -> np.ndarray:
+def forces(chain: Chain, modulus: complex, w: float, near: complex, far: complex = 0.0, pieces: int = 30) -> np.ndarray:
     """The same from two meshes, with the error of second order taken out."""
     coarse, fine = (_forces(chain, n, modulus, w, near, far) for n in (pieces, 2 * pieces))
     return np.asarray((4 * fine - coarse) / 3)
