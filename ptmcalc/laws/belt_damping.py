@@ -1,4 +1,4 @@
-"""Internal damping of a belt: how far it moves the frequency of a free wave in the complex plane."""
+"""Internal damping of a belt or chain: how far it moves the frequency of a free wave in the complex plane."""
 
 import math
 
@@ -20,6 +20,24 @@ def kelvin_voigt_change(frequency: float, retardation_time: float) -> float:
     **Source** derived from the complex modulus.
     """
     return frequency * retardation_time / 2
+
+
+def hysteretic_change(loss_factor: float) -> float:
+    """Relative change of a wave's complex frequency with hysteretic damping, the same at every frequency.
+
+        d = |EA*/EA - 1|/2 = g/2,   EA* = EA (1 + i g)
+
+    Args:
+        loss_factor: g, energy lost per radian over the largest stored one [1].
+
+    Returns:
+        d, the damping ratio of every mode [1].
+
+    **Range** light damping, vibration that goes on: in time it has no law.
+    **Error** of second order in d.
+    **Source** derived from the complex modulus.
+    """
+    return loss_factor / 2
 
 
 def zener_change(frequency: float, relaxation_time: float, stiffening: float) -> float:

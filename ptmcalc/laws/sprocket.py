@@ -99,6 +99,28 @@ def speed_ripple(teeth: int, reference: str) -> float:
     raise ValueError(f"the ripple is relative to the `{OF_LARGEST}` or the `{OF_MEAN}` speed, not `{reference}`")
 
 
+def pitch_fraction(length: float, pitch: float) -> float:
+    """Place in the pitch of the joints at the other end of a stretch of chain.
+
+        x = L/p - floor(L/p)
+
+    Two sprockets, or run-on and run-off of one with L the arc between them, move the ends of a strand with this
+    difference of their places.
+
+    Args:
+        length: L, of the stretch between both engagements [m].
+        pitch: p [m].
+
+    Returns:
+        x, at least 0 and below 1 [1].
+
+    **Range** an unworn chain under its working tension.
+    **Error** that of L: a stretch of a few hundred worn pitches knows its x no more; take the worst of all.
+    **Source** joints are one pitch apart.
+    """
+    return length / pitch % 1.0
+
+
 def transverse_speed(chain_speed: float, teeth: int) -> float:
     """Largest speed across the strand of the joint that just meets or leaves the sprocket.
 

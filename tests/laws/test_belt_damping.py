@@ -13,6 +13,12 @@ def test_a_kelvin_voigt_mode_decays_at_this_share_of_critical(retardation: float
     assert belt_damping.kelvin_voigt_change(w, retardation) == pytest.approx(-root.real / abs(root), rel=1e-12)
 
 
+@pytest.mark.parametrize("loss_factor", [0.0, 1e-3, 0.05])
+def test_a_hysteretic_mode_decays_at_half_its_loss_factor(loss_factor: float) -> None:
+    root = np.sqrt(complex(1.0, loss_factor))
+    assert belt_damping.hysteretic_change(loss_factor) == pytest.approx(root.imag / abs(root), rel=loss_factor**2)
+
+
 @pytest.mark.parametrize("relaxation", [1e-3, 0.05, 0.6, 40.0])
 def test_a_zener_mode_moves_so_far_in_the_complex_plane(relaxation: float) -> None:
     w, stiffening = 1.7, 1e-3

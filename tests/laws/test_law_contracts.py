@@ -133,6 +133,7 @@ POINTS = ((0.0, 0.0), (0.3, 0.1), (1.0, 1.0))
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
+    belt_damping.hysteretic_change: [(0.02,)],
     belt_damping.zener_change: [(0.7, 0.4, 0.3), (0.0, 0.4, 0.3)],
     capstan.slip_utilisation: [(9e3, 3e3, 400.0, 1.3), (9e3, 300.0, 400.0, 1.3)],
     capstan.slip_reserve_force: [(9e3, 3e3, 1.3), (2e3, 3e3, 1.3), (3e3, -1.0, 1.3)],
@@ -394,6 +395,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     sprocket.sprocket_speed: [(0.5, 0.32, 8)],
     sprocket.speed_extremes: [(0.5, 8)],
     sprocket.speed_ripple: [(8, "largest"), (8, "mean")],
+    sprocket.pitch_fraction: [(1.1, 0.32)],
     sprocket.transverse_speed: [(0.5, 8)],
     sprocket.transverse_travel: [(0.32, 8)],
     sprocket.engagement_speed: [(0.5, 8, "translating"), (0.5, 8, "guided")],

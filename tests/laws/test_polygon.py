@@ -60,6 +60,10 @@ class TestSprocket:
         assert sprocket.engagement_speed(SPEED, z, "guided") == pytest.approx(np.linalg.norm(tooth - along))
         assert sprocket.engagement_energy(9.0, 0.4, 0.5) == pytest.approx(9.0 * 0.2**2 / 2)
 
+    @pytest.mark.parametrize(("pitches", "place"), [(3.0, 0.0), (3.25, 0.25), (0.75, 0.75)])
+    def test_place_at_the_other_end(self, pitches: float, place: float) -> None:
+        assert sprocket.pitch_fraction(pitches * 0.5, 0.5) == place
+
     @pytest.mark.parametrize("z", [6, 8, 10, 17, 19, 25])
     def test_ripple_of_handbooks(self, z: int) -> None:
         printed = {6: 13.4, 8: 7.6, 10: 4.9, 17: 1.70, 19: 1.36, 25: 0.79}[z]

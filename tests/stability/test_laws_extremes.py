@@ -258,6 +258,7 @@ def bands(draw: Draw) -> np.ndarray:
 
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
     "kelvin_voigt_change": (belt_damping.kelvin_voigt_change, lambda d: tuple(d.positive(2))),
+    "hysteretic_change": (belt_damping.hysteretic_change, lambda d: tuple(d.positive(1))),
     "zener_change": (belt_damping.zener_change, lambda d: tuple(d.positive(3))),
     "reduced_drive_mass": (inertia.reduced_drive_mass, lambda d: tuple(d.positive(5))),
     "inertia_on_motor_shaft": (
@@ -577,6 +578,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "sprocket_speed": (sprocket.sprocket_speed, lambda d: (*d.positive(2), teeth(d))),
     "speed_extremes": (sprocket.speed_extremes, lambda d: (*d.positive(1), teeth(d))),
     "speed_ripple": (sprocket.speed_ripple, lambda d: (teeth(d), d.shape("largest", "mean"))),
+    "pitch_fraction": (sprocket.pitch_fraction, lambda d: tuple(d.positive(2))),
     "transverse_speed": (sprocket.transverse_speed, lambda d: (*d.positive(1), teeth(d))),
     "transverse_travel": (sprocket.transverse_travel, lambda d: (*d.positive(1), teeth(d))),
     "engagement_speed": (
