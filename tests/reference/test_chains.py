@@ -25,6 +25,7 @@ from ptmcalc.laws import (
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.numerics.harmonic import Chain, Damping, Excitation, Line, Peaks, polygon_response
 from ptmcalc.numerics.loop import Strand
+from ptmcalc.numerics.run_through import run_through
 
 PRINTED = 6e-6
 G = 9.81
@@ -322,3 +323,34 @@ class TestST02:
     def test_coasting_uphill(self) -> None:
         distance, _ = stopping.coasting(self.MASS, 27808.8, 0.0, 0.5)
         assert distance == pytest.approx(0.0852258, rel=PRINTED)
+
+
+class TestTwoWaysToOneForce:
+    """The modes of two strands pass by pass in time, and the dynamic stiffness harmonic by harmonic."""
+
+    PITCH, TEETH, STIFFNESS = 0.32, 8, 3.2e8
+    LOOP = LoopMasses(80.0 * 40, 200.0 * 40, 900.0, 1.0, 40 / 3.2e8, 40 / 3.2e8, fixed_length=False, imposed_speed=True)
+
+    @pytest.mark.parametrize("ratio", [0.37, 0.5, 1.0])
+    def test_agree_with_what_the_higher_modes_do_at_once(self, ratio: float) -> None:
+        w = belt_modes.natural_frequencies(self.LOOP, 0.0, 10)
+        masses, _ = chain_resonance.modal_masses(self.LOOP, w)
+        retardation = 2 * 0.06 / w[0]
+        speed = ratio * w[0] * self.PITCH / (2 * math.pi)
+        edges = self.PITCH / speed * np.arange(41)
+
+        def acceleration(inside: np.ndarray) -> np.ndarray:
+            return polygon.polygon_acceleration(inside * speed / self.PITCH - 0.5, speed, self.PITCH, self.TEETH)
+
+        run = run_through(edges, acceleration, w, retardation * w / 2, np.linspace(0.0, 1.0, 321))
+        rest = self.LOOP.belt_mass - masses.sum()
+        lines = (Line(40.0, 200.0, self.STIFFNESS), Line(40.0, 80.0, self.STIFFNESS))
+        chain = Chain(lines, Damping("kelvin_voigt", time=retardation), joint_mass=900.0)
+        b = polygon.acceleration_harmonics(np.arange(1.0, 1025.0), speed, self.PITCH, self.TEETH)
+        peaks = polygon_response(chain, 2 * math.pi * speed / self.PITCH, Excitation(b))
+        left_out = rest * float(polygon.peak_acceleration(speed, self.PITCH, self.TEETH))
+        late = run.force(masses)[-1, :-1] + rest * run.base[-1, :-1]
+        before = float(run.force(masses)[-1, 0]) - left_out  # where the acceleration has not jumped yet
+        assert late.max() == pytest.approx(float(peaks.largest), abs=0.1 * left_out)
+        assert min(before, late.min()) == pytest.approx(float(peaks.smallest), abs=0.1 * left_out)
+        assert left_out < 0.05 * float(peaks.largest)
