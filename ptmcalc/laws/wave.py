@@ -11,18 +11,18 @@ FloatArray = NDArray[np.float64]
 
 
 def wave_speed(stiffness: float, line_mass: float) -> float:
-    """Speed of a longitudinal wave in a belt strand.
+    """Speed of a longitudinal wave in a strand of belt or chain.
 
         c = sqrt(EA / rho)
 
     Args:
-        stiffness: EA, tensile stiffness of the belt [N].
-        line_mass: rho, moving mass per length: belt, load and rotating idlers reduced to the rim [kg/m].
+        stiffness: EA, tensile stiffness of belt or chain, a force [N].
+        line_mass: rho, moving mass per length: belt or chain, load, plates, idlers reduced to the rim [kg/m].
 
     Returns:
         c [m/s].
 
-    **Range** a taut belt, wavelength much longer than the idler pitch; sag softens the belt at low tension.
+    **Range** a taut strand, wavelength much longer than a link or the idler pitch; sag softens it at low tension.
     **Error** exact for the one-dimensional strand; the moving belt shifts it by v/c, 0.3 % at 4 m/s.
     **Source** d'Alembert's wave equation; lecture notes Kramatorsk 2007.
     """

@@ -301,6 +301,8 @@ def polygon_response(
 
     **Range** linear, the strands stay taut.
     **Error** told with every peak; infinite where damping is too light to bound what lies behind the last harmonic.
+    With 1024 harmonics and 0.5 to 5 % of damping it is below 0.6 % of the largest force from a fiftieth of the first
+    natural frequency upwards.
     **Source** module docstring.
     """
     speeds = np.atleast_1d(np.asarray(frequency, float))

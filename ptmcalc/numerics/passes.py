@@ -28,6 +28,15 @@ class Wave:
     period: float
 
 
+def oscillators(frequencies: ArrayLike, damping_ratios: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """(A, b) of oscillators whose base is accelerated by f: q'' + 2 zeta w q' + w^2 q = -f, z = (q_1 ..., q'_1 ...)."""
+    w = np.atleast_1d(np.asarray(frequencies, float))
+    count, zero = len(w), np.zeros((len(w), len(w)))
+    damping = np.diag(2 * np.broadcast_to(np.asarray(damping_ratios, float), w.shape) * w)
+    rate = np.block([[zero, np.eye(count)], [-np.diag(w**2), -damping]])
+    return rate, np.concatenate([np.zeros(count), -np.ones(count)])
+
+
 def iterates(matrix: FloatArray, offset: FloatArray, start: FloatArray, count: int) -> FloatArray:
     """The first states of z -> M z + g, the start among them.
 

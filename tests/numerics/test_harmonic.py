@@ -13,7 +13,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import chain_fem
 
-from ptmcalc.numerics import harmonic
 from ptmcalc.numerics.harmonic import Chain, Damping, Excitation, Line, dynamic_stiffness, polygon_response
 
 steady = settings(derandomize=True, database=None, deadline=None, max_examples=60)
@@ -226,6 +225,13 @@ class TestErrorsAreBounds:
         assert told[0] >= 8
         assert told[1] >= 11
 
+    @pytest.mark.parametrize("zeta", [0.005, 0.05])
+    def test_a_thousand_harmonics_are_enough(self, zeta: float) -> None:
+        ratios = np.array([0.02, 0.05, 0.1, 0.3, 1.0, 1.5, 3.0])
+        chain = Chain((Line(1.0, 1.0, 1.0),), Damping("kelvin_voigt", time=2 * zeta / (math.pi / 2)))
+        peaks = polygon_response(chain, ratios * math.pi / 2, Excitation(harmonics(1.0, 1024)))
+        assert np.all(peaks.largest_high - peaks.largest_low < 6e-3 * peaks.largest)
+
     @pytest.mark.parametrize("r", [0.07, 0.5, 1.0, 1.7])
     def test_the_largest_is_the_largest_sample_of_a_fine_grid(self, r: float) -> None:
         chain = replace(CHAINS[1], damping=DAMPINGS["kelvin_voigt"])
@@ -361,7 +367,3 @@ class TestExtremes:
                 polygon_response(CHAINS[0], 1.0, push, far, at_far_end=at_far_end)
         with pytest.raises(ValueError, match="the same number of harmonics"):
             polygon_response(CHAINS[5], 1.0, push, Excitation(np.ones(3)))
-
-
-def test_scipy_is_not_asked() -> None:
-    assert "scipy" not in vars(harmonic)

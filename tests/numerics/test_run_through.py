@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from ptmcalc.numerics.passes import Passes, Wave
+from ptmcalc.numerics.passes import Passes, Wave, oscillators
 from ptmcalc.numerics.run_through import Run, run_through
 
 TEETH, PITCH = 12, 0.1
@@ -72,15 +72,13 @@ def test_error_is_told() -> None:
 
 
 def test_constant_speed_is_the_affine_map() -> None:
-    w = np.array([24.0, 77.0])
+    w, zeta = np.array([24.0, 77.0, 130.0]), np.array([0.01, 0.05, 1.3])
     ramp = Ramp(2.0, 0.0, 200)
-    run = run_through(ramp.edges, ramp.acceleration, w, [0.01, 0.05], PLACES)
-    for k, zeta in enumerate((0.01, 0.05)):
-        rate = np.array([[0.0, 1.0], [-(w[k] ** 2), -2 * zeta * w[k]]])
-        passes = Passes(rate, np.array([0.0, 4 * RADIUS]), Wave(2.0, -HALF, HALF), 200)
-        found = passes.at(PLACES, np.eye(2))
-        assert run.displacement[:, :, k] == pytest.approx(found[:, :, 0], abs=1e-12)
-        assert run.speed[:, :, k] == pytest.approx(found[:, :, 1], abs=1e-11)
+    run = run_through(ramp.edges, ramp.acceleration, w, zeta, PLACES)
+    rate, gain = oscillators(w, zeta)
+    found = Passes(rate, -4 * RADIUS * gain, Wave(2.0, -HALF, HALF), 200).at(PLACES, np.eye(6))
+    assert run.displacement == pytest.approx(found[:, :, :3], abs=1e-12)
+    assert run.speed == pytest.approx(found[:, :, 3:], abs=1e-10)
 
 
 def passing(places: np.ndarray) -> Run:
