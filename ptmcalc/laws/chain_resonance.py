@@ -5,6 +5,7 @@ two strands come from `belt_modes.natural_frequencies` with the speed imposed.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,24 +40,77 @@ def modal_masses(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray,
     **Source** derived: modes of two strands in series, integral of their squares in closed form.
     """
     w = np.asarray(frequencies, float)
+    shape = _shape(loop, w)
+    share = (shape.on - shape.off) / w / shape.mass
+    return np.asarray(share * (shape.on / w)), np.asarray(share * (shape.off / w))
+
+
+def start_shares(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Parts of a step of rim force with which the modes of a chain and its drive swing at run-on and run-off.
+
+        c_on = u_d N_1/(G w),   c_off = u_d N_0/(G w)
+
+    u_d is the amplitude of the drive, N w that of the force at run-off (0) and run-on (1), G the generalised mass with
+    the drive in it. A step F makes the tension F sum c_k (1 - cos(w_k t)), damped as in `chain_start.start_series`.
+    Over all modes c_on and c_off sum up to the quasi-static tensions over F; c_on - c_off is never negative, and with a
+    constant tension at the run-off the tension stays between 0 and twice its quasi-static value.
+
+    Args:
+        loop: the loop, torque imposed.
+        frequencies: w, natural circular frequencies of `belt_modes.natural_frequencies` without a take-up mass, shape
+            (k,) [rad/s].
+
+    Returns:
+        (c_on [1], c_off [1]), shape (k,); c_off is 0 with a constant tension at the run-off.
+
+    **Range** undamped linear strands, take-up beside the drive, without mass; above 0 in w: the rigid motion has no
+    dynamic tension of its own.
+    **Error** rounding of the frequencies.
+    **Source** derived: modes of two strands in series and a mass, integral of their squares in closed form.
+    """
+    w = np.asarray(frequencies, float)
+    shape = _shape(loop, w)
+    share = shape.drive / w / (shape.mass + loop.drive_mass * shape.drive**2)
+    return np.asarray(share * shape.on), np.asarray(share * shape.off)
+
+
+@dataclass(frozen=True, slots=True)
+class _Shape:
+    """Of modes: amplitude of the drive, force over w at run-on and run-off, generalised mass without the drive."""
+
+    drive: FloatArray
+    on: FloatArray
+    off: FloatArray
+    mass: FloatArray
+
+
+def _shape(loop: LoopMasses, w: FloatArray) -> _Shape:
+    """Two strands in series from the run-off on: u = a cos + b sin along each."""
     t1 = math.sqrt(loop.carry_mass) * math.sqrt(loop.carry_compliance)
     t2 = math.sqrt(loop.return_mass) * math.sqrt(loop.return_compliance)
     z1 = math.sqrt(loop.carry_mass) / math.sqrt(loop.carry_compliance)
     z2 = math.sqrt(loop.return_mass) / math.sqrt(loop.return_compliance)
     s1, c1, s2, c2 = np.sin(w * t1), np.cos(w * t1), np.sin(w * t2), np.cos(w * t2)
-    fixed = loop.fixed_length
-    tail = s2 if fixed else c2
-    first = np.full_like(w, z2 if fixed else 0.0)
-    sign = -1.0 if fixed else 1.0
-    behind = (z2 * c2 if fixed else -z2 * s2) - loop.tail_mass * w * tail
-    last = behind * c1 - z1 * tail * s1
-    swing = behind / z1
-    generalised = loop.return_mass * (1 + sign * np.sinc(2 * w * t2 / np.pi)) / 2 + loop.tail_mass * tail**2
-    generalised += loop.carry_mass / 2 * (
-        tail**2 + swing**2 + (tail**2 - swing**2) * np.sinc(2 * w * t1 / np.pi)
-    ) + loop.carry_mass * tail * swing * s1 * np.sinc(w * t1 / np.pi)  # fmt: skip
-    share = (last - first) / w / generalised
-    return np.asarray(share * (last / w)), np.asarray(share * (first / w))
+    held = loop.tail_mass * w
+    if not loop.fixed_length:
+        a, b = np.ones_like(w), np.zeros_like(w)
+    elif loop.imposed_speed:
+        a, b = np.zeros_like(w), np.ones_like(w)
+    else:  # closed at the drive: what a and b bring to the run-on is a again
+        from_a = c1 * c2 - (z2 * s2 + held * c2) * s1 / z1
+        from_b = c1 * s2 + (z2 * c2 - held * s2) * s1 / z1
+        a, b = from_b, 1 - from_a
+    tail = a * c2 + b * s2
+    swing = (z2 * (b * c2 - a * s2) - held * tail) / z1
+    mass = _swinging(loop.return_mass, a, b, w * t2) + loop.tail_mass * tail**2
+    mass = mass + _swinging(loop.carry_mass, tail, swing, w * t1)
+    return _Shape(tail * c1 + swing * s1, z1 * (swing * c1 - tail * s1), z2 * b, mass)
+
+
+def _swinging(mass: float, a: FloatArray, b: FloatArray, angle: FloatArray) -> FloatArray:
+    """Generalised mass of a strand of this mass that swings as a cos + b sin."""
+    even, cross = np.sinc(2 * angle / np.pi), np.sin(angle) * np.sinc(angle / np.pi)
+    return np.asarray(mass * ((a**2 + b**2) / 2 + (a**2 - b**2) / 2 * even + a * b * cross))
 
 
 def resonance_speeds(frequencies: FloatArray, orders: FloatArray, pitch: float) -> FloatArray:

@@ -81,21 +81,17 @@ def start_force(driven_mass: float, acceleration: float, sprocket_radius: float,
 
 
 def start_series(
-    masses: FloatArray,
-    frequencies: FloatArray,
-    damping_ratios: FloatArray,
-    acceleration: float,
-    time: ArrayLike,
+    amplitudes: FloatArray, frequencies: FloatArray, damping_ratios: FloatArray, time: ArrayLike
 ) -> FloatArray:
-    """Tension at a sprocket that takes up an acceleration at once and keeps it: the sum over the modes of the chain.
+    """Tension at a sprocket after a step that is kept: the sum over the modes of the chain.
 
-        S = a sum M_k (1 - e^(-zeta w t) (cos(w_d t) - zeta w sin(w_d t)/w_d)),   w_d = w (1 - zeta^2)^(1/2)
+        S = sum S_k (1 - e^(-zeta w t) (cos(w_d t) - zeta w sin(w_d t)/w_d)),   w_d = w (1 - zeta^2)^(1/2)
 
     Args:
-        masses: M_k, at the run-on or run-off, of `chain_resonance.modal_masses`, shape (k,) [kg].
+        amplitudes: S_k: M_k a for a step of the sprocket's acceleration, M_k of `chain_resonance.modal_masses`; c_k F
+            for a step of rim force, c_k of `chain_resonance.start_shares`; shape (k,) [N].
         frequencies: w_k, shape (k,) [rad/s].
         damping_ratios: zeta_k, of internal damping, also above 1, shape (k,) [1].
-        acceleration: a, of the chain at the sprocket [m/s^2].
         time: t [s].
 
     Returns:
@@ -105,7 +101,7 @@ def start_series(
     **Error** exact for the modes given, `start_series_tail` for those left out.
     **Source** derived: step response of every mode, its damper part of the force; checked by finite elements.
     """
-    w, zeta, share = (np.asarray(part, float) for part in (frequencies, damping_ratios, masses))
+    w, zeta, share = (np.asarray(part, float) for part in (frequencies, damping_ratios, amplitudes))
     t = np.asarray(time, float)[..., None]
     over = zeta > 1
     root = np.sqrt(np.abs(zeta - 1)) * np.sqrt(zeta + 1)
@@ -115,24 +111,23 @@ def start_series(
     cosine = np.where(over, 1 + fast / 2, np.cos(damped * t))
     nonzero = np.where(damped > 0, damped, 1.0)
     sine = np.where(damped > 0, np.where(over, -fast / 2, np.sin(damped * t)) / nonzero, t)
-    return np.asarray(acceleration * np.sum(share * (1 - slow * (cosine - zeta * w * sine)), axis=-1))
+    return np.asarray(np.sum(share * (1 - slow * (cosine - zeta * w * sine)), axis=-1))
 
 
-def start_series_tail(masses: FloatArray, mass: float, acceleration: float) -> float:
+def start_series_tail(amplitudes: FloatArray, whole: float) -> float:
     """Most that the modes left out of `start_series` can add to it or take from it.
 
-        dS = 2 a (m - sum M_k)
+        dS = 2 (S_0 - sum S_k)
 
     Args:
-        masses: M_k, of the modes taken, shape (k,) [kg].
-        mass: m, of all modes: the quasi-static tension over the acceleration [kg].
-        acceleration: a, of the chain at the sprocket [m/s^2].
+        amplitudes: S_k, of the modes taken, shape (k,) [N].
+        whole: S_0, of all modes: the quasi-static tension after the step [N].
 
     Returns:
         dS [N].
 
-    **Range** a constant tension at the run-off, where no mode has a negative mass.
-    **Error** a bound: no mode's part leaves 0 to 2 a M_k.
+    **Range** the run-on with a constant tension at the run-off, where no mode has another sign.
+    **Error** a bound: no mode's part leaves 0 to 2 S_k.
     **Source** derived: the speed of a free vibration never exceeds that at its beginning.
     """
-    return 2 * abs(acceleration * (mass - float(np.sum(np.asarray(masses, float)))))
+    return 2 * abs(whole - float(np.sum(np.asarray(amplitudes, float))))

@@ -63,15 +63,80 @@ class TestModalMasses:
         assert on == pytest.approx(8e3 / (math.pi * odd) ** 2, rel=1e-10)
 
 
+def drive_and_elements(loop: LoopMasses, pieces: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Mass and stiffness with the drive at the rim, and rows that give the tensions at run-on and run-off."""
+    strands = (
+        chain_fem.Strand(1.0, loop.carry_mass, 1 / loop.carry_compliance),
+        chain_fem.Strand(1.0, loop.return_mass, 1 / loop.return_compliance),
+    )
+    mass, stiff = chain_fem.matrices(chain_fem.Chain(strands, loop.tail_mass), pieces, lumped=True)
+    tensions = np.zeros((2, len(mass)))
+    tensions[0, :2] = stiff[0, 1] * np.array([-1, 1])
+    tensions[1, -2:] = stiff[-1, -2] * np.array([-1, 1])
+    mass[0, 0] += loop.drive_mass
+    if loop.fixed_length:
+        join = np.eye(len(mass), len(mass) - 1)
+        join[-1, 0] = 1.0
+        mass, stiff, tensions = join.T @ mass @ join, join.T @ stiff @ join, tensions @ join
+    return mass, stiff, tensions[0], tensions[1]
+
+
+class TestStartShares:
+    @pytest.mark.parametrize("fixed", [False, True])
+    @pytest.mark.parametrize("drive", [2e3, 5e4])
+    @pytest.mark.parametrize("tail", [0.0, 3e4])
+    def test_are_those_of_finite_elements(self, fixed: bool, drive: float, tail: float) -> None:
+        loop = replace(LOOP, fixed_length=fixed, imposed_speed=False, drive_mass=drive, tail_mass=tail)
+        w = belt_modes.natural_frequencies(loop, 0.0, 5)
+        found = chain_resonance.start_shares(loop, w)
+        meshes = []
+        for pieces in (150, 300):
+            mass, stiff, on, off = drive_and_elements(loop, pieces)
+            squares, shapes = eigh(stiff, mass, subset_by_index=[1, 5])
+            meshes.append([shapes[0] * (row @ shapes) / squares for row in (on, off)])
+        for k in (0, 1):
+            expected = 2 * meshes[1][k] - meshes[0][k]  # the tension of an element stands in its middle
+            assert found[k] == pytest.approx(expected if k == 0 or fixed else 0.0, rel=3e-4, abs=3e-4)
+
+    @pytest.mark.parametrize("fixed", [False, True])
+    def test_sum_up_to_the_quasi_static_tensions(self, fixed: bool) -> None:
+        loop = replace(LOOP, fixed_length=fixed, imposed_speed=False, drive_mass=9e3)
+        on, off = chain_resonance.start_shares(loop, belt_modes.natural_frequencies(loop, 0.0, 2000))
+        assert on.sum() == pytest.approx(float(loop_bounds.quasi_static(loop, CARRY, 1.0)) / loop.total_mass, abs=1e-3)
+        assert off.sum() == pytest.approx(
+            float(loop_bounds.quasi_static(loop, RETURN, 0.0)) / loop.total_mass, abs=1e-3
+        )
+        assert np.all(on - off >= -1e-12)
+
+
 class TestStartSeries:
     def test_of_worked_belt(self) -> None:
         """Peak of the damped step of acceleration of a uniform loop at 2.4 % in the first mode: 1.8057 rho L a."""
         zeta, w1 = 0.024, 1.0
         odd = 2 * np.arange(1.0, 4001.0) - 1
-        masses, w = 8 / (math.pi * odd) ** 2, odd * w1
+        amplitudes, w = 8 / (math.pi * odd) ** 2, odd * w1
         t = np.linspace(0.9 * math.pi, 1.3 * math.pi, 401)
-        peak = max(float(chain_start.start_series(masses, w, zeta * odd, 1.0, at)) for at in t)
+        peak = max(float(chain_start.start_series(amplitudes, w, zeta * odd, at)) for at in t)
         assert peak == pytest.approx(1.8057, abs=2e-3)
+
+    @pytest.mark.parametrize("mu", [0.3, 1.0, 4.0])
+    def test_of_a_torque_step_is_the_wave_and_its_first_echo(self, mu: float) -> None:
+        """m v' + Z v = F - echo of a uniform loop: 1 - e^-t, then - 2 x e^-x more, in units of F and m/Z."""
+        drive = 1e3
+        loop = LoopMasses(
+            mu * drive / 2, mu * drive / 2, 0.0, drive, 1e-6, 1e-6, fixed_length=False, imposed_speed=False
+        )
+        tau = drive / math.sqrt(mu * drive / 2e-6)  # m/Z
+        echo = 2 * math.sqrt(mu * drive * 2e-6) / tau
+        w = belt_modes.natural_frequencies(loop, 0.0, 1500)
+        shares, _ = chain_resonance.start_shares(loop, w)
+        t = np.array([0.1, 0.5, 0.9, 1.2, 1.7]) * echo
+        x = np.maximum(t - echo, 0.0)
+        expected = -np.expm1(-t) - 2 * x * np.exp(-x)
+        found = chain_start.start_series(shares, w, np.zeros_like(w), t * tau)
+        left_out = chain_start.start_series_tail(shares, mu / (1 + mu))
+        assert np.max(np.abs(found - expected)) <= left_out + 1e-12
+        assert left_out < 2e-3
 
     @pytest.mark.parametrize("retardation", [0.0, 2e-3, 0.2])
     def test_is_the_motion_of_finite_elements(self, retardation: float) -> None:
@@ -91,24 +156,22 @@ class TestStartSeries:
         for t in (0.003, 0.02, 0.11):
             state = expm(rate * t)[:, -1]
             force = -(k @ (state[:n] + retardation * state[n : 2 * n])).sum()
-            found = chain_start.start_series(effective, w, retardation * w / 2, a, t)
+            found = chain_start.start_series(effective * a, w, retardation * w / 2, t)
             assert float(found) == pytest.approx(force, rel=1e-8)
 
     def test_the_tail_is_a_bound(self) -> None:
         odd = 2 * np.arange(1.0, 2001.0) - 1
-        masses, w = 8 / (math.pi * odd) ** 2, odd
+        amplitudes, w = 0.3 * 8 / (math.pi * odd) ** 2, odd
         t = np.linspace(0.0, 12.0, 300)
-        whole = chain_start.start_series(masses, w, np.zeros_like(w), 0.3, t)
+        whole = chain_start.start_series(amplitudes, w, np.zeros_like(w), t)
         for count in (1, 3, 20):
-            part = chain_start.start_series(masses[:count], w[:count], np.zeros(count), 0.3, t)
-            bound = chain_start.start_series_tail(masses[:count], 1.0, 0.3)
+            part = chain_start.start_series(amplitudes[:count], w[:count], np.zeros(count), t)
+            bound = chain_start.start_series_tail(amplitudes[:count], 0.3)
             assert np.max(np.abs(whole - part)) <= bound
 
     def test_critical_damping_is_no_gap(self) -> None:
         t = np.linspace(0.0, 5.0, 7)
-        found = [
-            chain_start.start_series(np.ones(1), np.ones(1), np.array([z]), 1.0, t) for z in (1 - 1e-9, 1, 1 + 1e-9)
-        ]
+        found = [chain_start.start_series(np.ones(1), np.ones(1), np.array([z]), t) for z in (1 - 1e-9, 1, 1 + 1e-9)]
         assert found[0] == pytest.approx(found[1], abs=1e-8)
         assert found[2] == pytest.approx(found[1], abs=1e-8)
         assert found[1] == pytest.approx(1 - np.exp(-t) * (1 - t), rel=1e-14)  # h' of t exp(-t)

@@ -416,6 +416,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     equalising.equalising_speed: [(0.3, 0.8, 0.4, 6)],
     equalising.equalising_ratio: [(6,)],
     equalising.equalising_acceleration: [(0.8, 0.4, 6)],
+    chain_resonance.start_shares: [(loop, np.array([31.0, 74.0])) for loop in (LOOPS[0], LOOPS[2])],
     chain_resonance.modal_masses: [
         (loop, np.array([31.0, 74.0])) for loop in (LOOPS[1], LOOPS[3])
     ],
@@ -437,10 +438,10 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     chain_start.start_time: [(160.0, 90.0, 3.4, 102.0), (80.0, 90.0, 3.4, 102.0)],
     chain_start.start_force: [(42e3, 20.0, 0.325, 40.0)],
     chain_start.start_series: [
-        (np.array([8e3, 1e3]), np.array([30.0, 90.0]), np.array(zeta), 0.2, 0.07)
+        (np.array([8e3, 1e3]), np.array([30.0, 90.0]), np.array(zeta), 0.07)
         for zeta in ([0.0, 0.0], [0.1, 0.3], [1.0, 3.0])
     ],
-    chain_start.start_series_tail: [(np.array([8e3, 1e3]), 1e4, 0.2)],
+    chain_start.start_series_tail: [(np.array([8e3, 1e3]), 1e4)],
     chain_selection.tooth_factor: [(17, 1.08)],
     chain_selection.design_power: [(9e3, 1.4, 1.1, 1.7)],
     chain_selection.chain_pitches: [(0.7, 0.019, 19, 57)],

@@ -246,10 +246,14 @@ def teeth(draw: Draw) -> int:
     return 3 + int(10 ** draw.rng.uniform(0, 9))
 
 
-def modes_of_chain(draw: Draw) -> tuple[Any, ...]:
-    """A loop whose sprocket is held and its lowest frequencies; masses and compliances within six decades."""
-    loop = LoopMasses(*(10 ** draw.rng.uniform(-3, 3, 6)).tolist(), bool(draw.rng.integers(2)), imposed_speed=True)
-    return loop, belt_modes.natural_frequencies(loop, 0.0, 3)
+def modes_of_chain(imposed_speed: bool) -> Callable[[Draw], tuple[Any, ...]]:
+    """A loop and its lowest frequencies; masses and compliances within six decades."""
+
+    def arguments(draw: Draw) -> tuple[Any, ...]:
+        loop = LoopMasses(*(10 ** draw.rng.uniform(-3, 3, 6)).tolist(), bool(draw.rng.integers(2)), imposed_speed)
+        return loop, belt_modes.natural_frequencies(loop, 0.0, 3)
+
+    return arguments
 
 
 def bands(draw: Draw) -> np.ndarray:
@@ -605,7 +609,8 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "equalising_speed": (equalising.equalising_speed, lambda d: (d.rng.normal(), *d.positive(2), teeth(d))),
     "equalising_ratio": (equalising.equalising_ratio, lambda d: (teeth(d),)),
     "equalising_acceleration": (equalising.equalising_acceleration, lambda d: (*d.positive(2), teeth(d))),
-    "modal_masses": (chain_resonance.modal_masses, modes_of_chain),
+    "modal_masses": (chain_resonance.modal_masses, modes_of_chain(imposed_speed=True)),
+    "start_shares": (chain_resonance.start_shares, modes_of_chain(imposed_speed=False)),
     "resonance_speeds": (
         chain_resonance.resonance_speeds,
         lambda d: (np.array(d.positive(3)), np.array([1.0, 2.0]), *d.positive(1)),
@@ -639,9 +644,9 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "start_force": (chain_start.start_force, lambda d: tuple(d.positive(4))),
     "start_series": (
         chain_start.start_series,
-        lambda d: (*(np.array(d.positive(3)) for _ in range(3)), *d.positive(2)),
+        lambda d: (*(np.array(d.positive(3)) for _ in range(3)), *d.positive(1)),
     ),
-    "start_series_tail": (chain_start.start_series_tail, lambda d: (np.array(d.positive(3)), *d.positive(2))),
+    "start_series_tail": (chain_start.start_series_tail, lambda d: (np.array(d.positive(3)), *d.positive(1))),
     "tooth_factor": (chain_selection.tooth_factor, lambda d: (teeth(d), 1.08)),
     "design_power": (chain_selection.design_power, lambda d: tuple(d.positive(4))),
     "chain_pitches": (chain_selection.chain_pitches, lambda d: (*d.positive(2), teeth(d), teeth(d))),
@@ -763,6 +768,7 @@ SIGNED = {
     "nearest_threshold",
     "equalising_angle",
     "modal_masses",
+    "start_shares",
     "start_acceleration",
 }
 """Laws whose value may be negative."""
