@@ -13,7 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import chain_fem
 
-from ptmcalc.numerics.harmonic import Chain, Damping, Excitation, Line, dynamic_stiffness, polygon_response
+from ptmcalc.numerics.harmonic.parts import Chain, Damping, Excitation, Line
+from ptmcalc.numerics.harmonic.response import polygon_response
+from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
 
 steady = settings(derandomize=True, database=None, deadline=None, max_examples=60)
 

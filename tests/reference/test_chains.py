@@ -23,7 +23,8 @@ from ptmcalc.laws import (
     wave,
 )
 from ptmcalc.laws.loop_bounds import LoopMasses
-from ptmcalc.numerics.harmonic import Chain, Damping, Excitation, Line, Peaks, polygon_response
+from ptmcalc.numerics.harmonic.parts import Chain, Damping, Excitation, Line
+from ptmcalc.numerics.harmonic.response import Peaks, polygon_response
 from ptmcalc.numerics.loop import Strand
 from ptmcalc.numerics.run_through import run_through
 
