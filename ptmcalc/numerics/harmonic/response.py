@@ -12,8 +12,8 @@ from ptmcalc.numerics.harmonic.waves import EPS, RESONANT, Waves, ratios_of
 
 FloatArray = NDArray[np.float64]
 
-_BLOCK = 16
-"""Speeds computed at a time: what they need stays in the cache."""
+_BLOCK = 2**15
+"""Harmonics of all speeds computed at a time: what they need stays in the cache."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +69,9 @@ def polygon_response(
     if far is not None and far.harmonics.shape[-1] != near.harmonics.shape[-1]:
         raise ValueError("both ends need the same number of harmonics")
     found: list[list[FloatArray]] = []
-    for first in range(0, len(speeds), _BLOCK):
-        rows = slice(first, first + _BLOCK)
+    step = max(_BLOCK // near.harmonics.shape[-1], 1)
+    for first in range(0, len(speeds), step):
+        rows = slice(first, first + step)
         own = [Excitation(np.broadcast_to(p.harmonics, (len(speeds), p.harmonics.shape[-1]))[rows], p.place)
                for p in parts]  # fmt: skip
         found.append(_block(chain, speeds[rows], own, at_far_end))
