@@ -147,6 +147,16 @@ def test_places_and_times_are_on_the_belt_and_in_the_window(case: tuple[str, str
         assert 0 <= at["time"] <= window_of(scene) * 1.01
 
 
+@pytest.mark.parametrize("case", CASES, ids=" ".join)
+def test_anywhere_on_the_belt_is_at_its_drums_too(case: tuple[str, str]) -> None:
+    """Drums at the tail and between two others were left out."""
+    loads = {load.info.name: load.estimate.value for load in told(*case).loads}
+    ends = [(name.partition("[")[0], value) for name, value in loads.items() if name.startswith("tension_run_o")]
+    assert ends
+    for name, value in ends:
+        assert value <= loads["tension_max"] if name == "tension_run_on_max" else value >= loads["tension_min"], name
+
+
 def test_the_largest_tension_of_a_late_brake_is_that_of_the_running_belt_at_the_run_on() -> None:
     scene = told("late brake", "emergency_stop")
     load = load_of(scene, "tension_max")

@@ -218,13 +218,12 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
     values["tension_dynamic_run_on_max"] = top - line.run_on, {"time": top_at}
     values["tension_run_off_min"] = low, {"time": low_at}
     highs, lows = zip(*(_of_strand(drawn, ready, strand) for strand in (RETURN, CARRY)), strict=True)
-    high = max(*highs, (top, top_at, float(ready.course.places[-1])))
-    lowest = min(*lows, (low, low_at, 0.0))
+    high, lowest = max(highs), min(lows)
     values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
     for curve in hollows(case.spec):
         values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
-    for name, value in bounds.derived_loads(line, high[0], (min(lows[0][0], low), lows[1][0])).items():
+    for name, value in bounds.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
         values[name] = value, {}
     used = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_utilisation_max[")]
     left = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_reserve_min[")]
@@ -251,15 +250,14 @@ def _of_strand(drawn: Drawn, ready: Set, strand: int) -> tuple[Placed, Placed]:
     is between drums counts to the strand before them)."""
     step, places = ready.course.step, ready.course.places
     inside = (drawn.back_max, drawn.back_min) if strand == RETURN else (drawn.carry_max, drawn.carry_min)
-    ends = ((drawn.head, 0.0), (drawn.tail, float(places[ready.course.tail])))
-    if strand == CARRY:
-        ends = ((drawn.tail, float(places[ready.course.tail])), (drawn.head, float(places[-1])))
-    (behind, start), (before, end) = ends
+    behind, before = (drawn.head, drawn.tail) if strand == RETURN else (drawn.tail, drawn.head)
+    middle, whole = float(places[ready.course.tail]), float(places[-1])
+    start, end = (0.0, middle) if strand == RETURN else (middle, whole)
     histories = [(np.array([seen.tensions[-1] for seen in behind]), start)]
-    columns = len(before[0].tensions)
-    histories += [(np.array([seen.tensions[j] for seen in before]), end) for j in range(max(columns - 1, 1))]
-    highs = [(float(history.max()), int(history.argmax()) * step, place) for history, place in histories]
-    lows = [(float(history.min()), int(history.argmin()) * step, place) for history, place in histories]
+    rows = list(zip(*(seen.tensions for seen in before), strict=True))
+    histories += [(np.array(row), end) for row in rows[:-1]]
+    highs = [(*peaks.largest(history, step), place) for history, place in histories]
+    lows = [(*peaks.smallest(history, step), place) for history, place in histories]
     high, low = ((one.value, one.time, one.place) for one in inside)
     return max([high, *highs]), min([low, *lows])
 
