@@ -230,6 +230,17 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "A formula used within its own range differs from the computed load by more than a tenth and the bar.",
             "Design by the computed load; the formula leaves out an effect that matters here.",
         ),
+        "NUM108": CodeText(
+            "a textbook formula at a step of its table",
+            "A textbook's table jumps near this value: its formula is off by a sixth to a seventh on either side.",
+            "Design by the computed load; the formula is shown for comparison only.",
+        ),
+        "NUM109": CodeText(
+            "a speed that meets a resonance",
+            "A harmonic of the excitation lies so near a natural frequency that the answer is many times the static"
+            " one, or changes much with little.",
+            "Run at one of the speeds named, or change the pitch, the mass or the stiffness.",
+        ),
     }
 )
 """Every code that is not a check of a machine. Codes are never reused."""

@@ -164,6 +164,11 @@ IMPEDANCE = _quantity("mechanical impedance", "N*s/m", "N*s/m", "kN*s/m", exampl
 ENERGY = _quantity("energy", "J", "J", "kJ", "MJ", example="25 kJ")
 POWER = _quantity("power", "W", "W", "kW", example="250 kW")
 STRESS = _quantity("stress", "Pa", "MPa", example="210 MPa")
+AREA = _quantity("area", "m^2", "mm^2", "cm^2", example="1600 mm^2")
+RUNNING_TIME = _quantity("running time", "s", "h", example="20000 h")
+WEAR_RATE = _quantity("wear coefficient", "Hz/N", "Hz/MN", example="0.00006 Hz/MN")
+WEAR_DEPTH = _quantity("depth of wear over pressure and path", "m^2/N", "mm^2/MN", example="0.0004 mm^2/MN")
+THICKNESS = _quantity("length", "m", "mm", example="0.02 mm")
 PRESSURE = _quantity("pressure", "Pa", "kPa", "MPa", example="50 kPa")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"

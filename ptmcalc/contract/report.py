@@ -44,6 +44,7 @@ class LoadReport:
     window: tuple[float, float] | None = None
     formula: FormulaValue | None = None
     history: History | None = None
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.base.units import Quantity
+from ptmcalc.base.units import TIME, Quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +41,11 @@ def family(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A load as a solver found it: the number with its bar, and where and when it occurs."""
+    """A load as a solver found it: the number with its bar, where and when it occurs, and a remark on it."""
 
     estimate: Estimate
     at: Mapping[str, float] = field(default_factory=dict)
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +70,12 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class History:
-    """A quantity over time: shape (n,) each, SI."""
+    """A quantity over time, or over the speed or whatever else `over` says: shape (n,) each, SI."""
 
     quantity: Quantity
     times: Sequence[float]
     values: Sequence[float]
+    over: Quantity = TIME
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,11 +93,9 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     made = plan(kind, spec, chosen_scenes(spec, options.scenes))
     settled = [settle(kind, spec, scene) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed)
-    findings = [finding for scene in settled for run in scene.runs for finding in run.result.findings]
-    findings += [finding for scene in settled for finding in scene.findings]
     diagnostics = loaded.diagnostics + tuple(
         Diagnostic(f.code, f.message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
-        for f in dict.fromkeys(findings)
+        for f in dict.fromkeys(finding for scene in settled for finding in scene.said)
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options.histories).scene() for scene in settled)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
@@ -258,6 +256,7 @@ class _Assembly:
                 window=best.result.window,
                 formula=self._formula(info.name, best.estimate.value),
                 history=histories.get(info.name),
+                note=best.found.note,
             )
 
     def _histories(self) -> Mapping[str, History]:

@@ -62,6 +62,16 @@ class Settled:
         return {name: best.estimate for name, best in self.loads.items()}
 
     @property
+    def said(self) -> list[Finding]:
+        """What was found on the way; of several runs of a solver the richest and finest speaks for all."""
+        best: dict[str, Run] = {}
+        for run in self.runs:
+            known = best.setdefault(run.rung.solver.name, run)
+            if (len(run.rung.carried), run.rung.level) > (len(known.rung.carried), known.rung.level):
+                best[run.rung.solver.name] = run
+        return [finding for run in best.values() for finding in run.result.findings] + self.findings
+
+    @property
     def carried(self) -> frozenset[str]:
         """Effects that a run behind a reported load carried."""
         return frozenset(name for best in self.loads.values() for name in best.rung.carried)

@@ -148,11 +148,7 @@ def report_on(kind: AnyKind, spec: MachineSpec, model: PhysicalModel, scenes: tu
         for info in kind.loads_of(spec)
         if info.name in one.loads and info.name not in _figures_of_health(one)
     ]
-    findings = dict.fromkeys(
-        finding
-        for one in (*settled, *again)
-        for finding in (*one.findings, *(finding for run in one.runs for finding in run.result.findings))
-    )
+    findings = dict.fromkeys(finding for one in (*settled, *again) for finding in one.said)
     return ModelReport(model, tuple(loads), _distortions(model, loads), tuple(findings))
 
 

@@ -73,6 +73,17 @@ def solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
     console.print(table)
 
 
+def notes(console: Console, scenes: Iterable[SceneReport]) -> None:
+    """What there is to say of single loads."""
+    rows = [(scene.name, load) for scene in scenes for load in scene.loads if load.note]
+    if not rows:
+        return
+    table = new_table("Remarks", "scene", "load", "")
+    for scene, load in rows:
+        table.add_row(scene, load.info.title, load.note)
+    console.print(table)
+
+
 def assumed(console: Console, report: FileReport) -> None:
     """Values that the file does not give."""
     if not report.assumed:

@@ -1,4 +1,4 @@
-"""Loads over time as CSV, one line a moment: what a spreadsheet or a plotting program reads."""
+"""Loads over time, or over speed, as CSV, one line a moment: what a spreadsheet or a plotting program reads."""
 
 import csv
 from collections.abc import Sequence
@@ -6,8 +6,8 @@ from io import StringIO
 
 from ptmcalc.contract.report import FileReport
 
-COLUMNS = ("file", "scene", "load", "unit", "time", "value")
-"""`time` in s; `value` in the unit of its line, an SI one."""
+COLUMNS = ("file", "scene", "load", "unit", "time", "value", "over")
+"""`time` in s, or what `over` names instead in its SI unit; `value` in the unit of its line, an SI one."""
 
 
 def render(reports: Sequence[FileReport]) -> str:
@@ -22,5 +22,5 @@ def render(reports: Sequence[FileReport]) -> str:
                 if course is not None:
                     head = (report.path, scene.name, load.info.name, course.quantity.si)
                     moments = zip(course.times, course.values, strict=True)
-                    writer.writerows((*head, time, value) for time, value in moments)
+                    writer.writerows((*head, time, value, course.over.name) for time, value in moments)
     return out.getvalue()

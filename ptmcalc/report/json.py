@@ -8,6 +8,7 @@ from typing import Any
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.units import TIME
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import (
     AssumedReport,
@@ -20,6 +21,7 @@ from ptmcalc.contract.report import (
     SolverReport,
     count,
 )
+from ptmcalc.contract.result import History
 
 SCHEMA_VERSION = "1"
 
@@ -152,6 +154,14 @@ def _estimate(estimate: Estimate) -> dict[str, Any]:
     return entry
 
 
+def _history(history: History) -> dict[str, Any]:
+    """Over time, or over another quantity, which is named and has its unit."""
+    values: dict[str, Any] = {"value": [finite(value) for value in history.values], "unit": history.quantity.si}
+    if history.over == TIME:
+        return {"t": list(history.times)} | values
+    return {history.over.name: list(history.times), f"{history.over.name}_unit": history.over.si} | values
+
+
 def _load(load: LoadReport) -> dict[str, Any]:
     formula = load.formula
     entry = {
@@ -167,8 +177,9 @@ def _load(load: LoadReport) -> dict[str, Any]:
     if load.window:
         entry["window"] = list(load.window)
     if load.history:
-        history = load.history
-        entry["history"] = {"t": list(history.times), "value": list(history.values), "unit": history.quantity.si}
+        entry["history"] = _history(load.history)
+    if load.note:
+        entry["note"] = load.note
     if formula:
         entry["formula"] = {
             "name": formula.name,

@@ -94,6 +94,7 @@ def _whole(console: Console, report: FileReport) -> None:
     if report.scenes:
         _loads(console, report.scenes, pick.all_loads(report), edge=True)
         _checks(console, report, pick.all_checks(report), edge=True)
+        details.notes(console, report.scenes)
         details.effects(console, report.scenes)
         details.events(console, report.scenes)
         details.solvers(console, report.scenes)

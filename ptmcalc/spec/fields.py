@@ -37,6 +37,8 @@ class Measure:
     at_most: float | None = None
     or_else: Quantity | None = None
     """the quantity it may be instead, where the machine decides: a torque or a force"""
+    smallest: float = _LEAST
+    """size in SI units below which no machine has a value but 0"""
 
     def read(self, value: object) -> float:
         """The SI value of what the file says, or a pydantic error with our code, reason and hint."""
@@ -58,8 +60,8 @@ class Measure:
             return f"at most {units.show(self.at_most, self.quantity)}"
         if abs(number) > _MOST:
             return f"at most {units.show(_MOST, self.quantity)}" + " in size" * (number < 0)
-        if 0 < abs(number) < _LEAST:
-            return f"at least {units.show(_LEAST, self.quantity)} in size"
+        if 0 < abs(number) < self.smallest:
+            return f"at least {units.show(self.smallest, self.quantity)} in size"
         return ""
 
     def quantity_of(self, value: object) -> Quantity:
@@ -164,6 +166,10 @@ PositiveForce = Annotated[float, Measure(units.FORCE, above=0)]
 SignedForce = Annotated[float, Measure(units.FORCE)]
 SignedSpeed = Annotated[float, Measure(units.SPEED)]
 LineMass = Annotated[float, Measure(units.LINE_MASS, at_least=0)]
+PositiveArea = Annotated[float, Measure(units.AREA, above=0)]
+PositiveStress = Annotated[float, Measure(units.STRESS, above=0)]
+PositivePressure = Annotated[float, Measure(units.PRESSURE, above=0)]
+RunningTime = Annotated[float, Measure(units.RUNNING_TIME, above=0)]
 PositiveLineMass = Annotated[float, Measure(units.LINE_MASS, above=0)]
 PositiveLineForce = Annotated[float, Measure(units.LINE_FORCE, above=0)]
 PositiveLineStiffness = Annotated[float, Measure(units.LINE_STIFFNESS, above=0)]

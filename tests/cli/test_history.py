@@ -151,7 +151,7 @@ def test_a_file_holds_every_moment_of_the_json(train: Path, tmp_path: Path) -> N
     assert (done.status, done.err) == (0, "")
     with target.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert list(rows[0]) == ["file", "scene", "load", "unit", "time", "value"]
+    assert list(rows[0]) == ["file", "scene", "load", "unit", "time", "value", "over"]
     assert {row["file"] for row in rows} == {train.as_posix()}
     expected = [
         (scene["name"], load["name"], load["history"]["unit"], time, value)
@@ -186,7 +186,7 @@ def test_an_invalid_file_has_no_histories(tmp_path: Path) -> None:
     faulty, target = tmp_path / "faulty.yaml", tmp_path / "courses.csv"
     faulty.write_text("kind: drivetrain\n", encoding="utf-8")
     assert ptmcalc("check", faulty, "--history", target).status == 2
-    assert target.read_text("utf-8") == "file,scene,load,unit,time,value\n"
+    assert target.read_text("utf-8") == "file,scene,load,unit,time,value,over\n"
 
 
 def test_the_words_of_a_shell_are_read_the_same(train: Path, tmp_path: Path) -> None:
@@ -194,11 +194,11 @@ def test_the_words_of_a_shell_are_read_the_same(train: Path, tmp_path: Path) -> 
     target = tmp_path / "courses.csv"
     done = python("-m", "ptmcalc", "check", "--history", target, train)
     assert (done.status, done.err) == (0, "")
-    assert target.read_text("utf-8").startswith("file,scene,load,unit,time,value\n")
+    assert target.read_text("utf-8").startswith("file,scene,load,unit,time,value,over\n")
     assert "1 file" in done.out
 
 
 def test_a_machine_without_histories_gives_the_heading_alone(tmp_path: Path) -> None:
     target = tmp_path / "courses.csv"
     assert ptmcalc("check", PASSING, "--scene", "run_loaded", "--history", target).status == 0
-    assert target.read_text("utf-8") == "file,scene,load,unit,time,value\n"
+    assert target.read_text("utf-8") == "file,scene,load,unit,time,value,over\n"

@@ -9,18 +9,18 @@ from support.samples import SAMPLES
 
 from ptmcalc.report import histories
 
-HEAD = "file,scene,load,unit,time,value"
+HEAD = "file,scene,load,unit,time,value,over"
 
 
 def test_every_moment_of_every_history_is_a_line() -> None:
     assert histories.render([SAMPLES["moving"]]).splitlines() == [
         HEAD,
-        "toy.yaml,gust,pull[hook],N,0.0,0.0",
-        "toy.yaml,gust,pull[hook],N,0.5,8000.0",
-        f"toy.yaml,gust,pull[hook],N,1.0,{1 / 3!r}",
-        "toy.yaml,calm,pull[hook],N,0.0,0.0",
-        "toy.yaml,calm,pull[hook],N,0.5,8000.0",
-        f"toy.yaml,calm,pull[hook],N,1.0,{1 / 3!r}",
+        "toy.yaml,gust,pull[hook],N,0.0,0.0,time",
+        "toy.yaml,gust,pull[hook],N,0.5,8000.0,time",
+        f"toy.yaml,gust,pull[hook],N,1.0,{1 / 3!r},time",
+        "toy.yaml,calm,pull[hook],N,0.0,0.0,time",
+        "toy.yaml,calm,pull[hook],N,0.5,8000.0,time",
+        f"toy.yaml,calm,pull[hook],N,1.0,{1 / 3!r},time",
     ]
 
 
