@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.laws.loop_bounds import LoopMasses
+from ptmcalc.laws.loop_bounds import LoopMasses, tension_green
 
 FloatArray = NDArray[np.float64]
 
 QUARTER_WAVE, HALF_WAVE, FULL_WAVE = "quarter", "half", "full"
+_EPS = float(np.finfo(float).eps)
 _WAVES = {QUARTER_WAVE: 4.0, HALF_WAVE: 2.0, FULL_WAVE: 1.0}
 
 
@@ -74,14 +75,112 @@ def start_shares(loop: LoopMasses, frequencies: FloatArray) -> tuple[FloatArray,
     return np.asarray(share * shape.on), np.asarray(share * shape.off)
 
 
+def modal_tensions(loop: LoopMasses, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """Parts of the tension at sections of a chain with which its modes follow an acceleration.
+
+        M_k(s) = A_k B_k(s),   speed imposed: A_k = (N_1 - N_0)/(w G^(1/2))     torque imposed: A_k = M u_d/G^(1/2)
+        B_k(s) = N_s/(w G^(1/2))
+
+    N_s w is the force amplitude of the mode at the section, at run-off (0) and run-on (1), G its generalised mass, with
+    the drive where the torque is imposed, u_d the amplitude of the drive and M all masses. A rigid-body acceleration
+    a, F/M for a rim force F, makes the tension a sum M_k where every mode follows at once; over all modes the M_k sum
+    up to `loop_bounds.quasi_static`.
+
+    Args:
+        loop: the loop, its speed or its torque imposed.
+        frequencies: w, natural circular frequencies of `belt_modes.natural_frequencies` without a take-up mass, shape
+            (k,) [rad/s].
+        strand: RETURN or CARRY.
+        x: fractions of the strand's length, shape (n,) [1].
+
+    Returns:
+        M_k, shape (k, n) [kg].
+
+    **Range** undamped linear strands, take-up beside the drive, without mass.
+    **Error** rounding of the frequencies.
+    **Source** derived: modes of two strands in series, integral of their squares in closed form.
+    """
+    moved, felt = _moved_and_felt(loop, np.asarray(frequencies, float), strand, np.asarray(x, float))
+    return np.asarray(moved[:, None] * felt)
+
+
+def modal_shapes(loop: LoopMasses, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """Tensions that modes have at sections of a chain, as masses.
+
+        B_k(s) = N_s/(w G^(1/2)) M_belt^(1/2)
+
+    An end of the chain that moves ahead by a polygon's acceleration a_p against the drive makes the tension at a
+    section B_k(s) B_k(on) a_p/M_belt at the run-on, - B_k(s) B_k(off) a_p/M_belt at the run-off, in the mode that
+    follows at once; a rigid-body acceleration a makes it B_k(s) (B_k(on) - B_k(off)) c a/M_belt, c = 1 with the speed
+    imposed and M/m with the torque: the M_k of `modal_tensions`.
+
+    Args:
+        loop: the loop, its speed or its torque imposed.
+        frequencies: w, as in `modal_tensions`, shape (k,) [rad/s].
+        strand: RETURN or CARRY.
+        x: fractions of the strand's length, shape (n,) [1].
+
+    Returns:
+        B_k, shape (k, n) [kg].
+
+    **Range** as `modal_tensions`.
+    **Error** rounding of the frequencies.
+    **Source** derived: work of a dislocation between the chain and its drive.
+    """
+    _, felt = _moved_and_felt(loop, np.asarray(frequencies, float), strand, np.asarray(x, float))
+    return np.asarray(felt * math.sqrt(loop.belt_mass))
+
+
+def modal_rest(loop: LoopMasses, frequencies: FloatArray, strand: int, x: FloatArray) -> FloatArray:
+    """Most that the parts of all modes left out of `modal_tensions` can add up to, whatever their signs.
+
+        sum_(k>K) |M_k(s)| <= ((A - sum_(k<=K) A_k^2)(G_s - sum_(k<=K) B_k(s)^2))^(1/2)
+        speed imposed: A = M_belt      torque imposed: A = M M_belt/m
+
+    Args:
+        loop: the loop; the drive has a mass m where the torque is imposed.
+        frequencies: w, of the modes taken, the lowest K, shape (k,) [rad/s].
+        strand: RETURN or CARRY.
+        x: fractions of the strand's length, shape (n,) [1].
+
+    Returns:
+        the bound, shape (n,) [kg].
+
+    **Range** as `modal_tensions`.
+    **Error** a bound; exact at the run-on with a constant tension at the run-off, where no mode has another sign.
+    **Source** derived: sums over all modes known from completeness and from `loop_bounds.tension_green`; Cauchy and
+    Schwarz.
+    """
+    places = np.asarray(x, float)
+    moved, felt = _moved_and_felt(loop, np.asarray(frequencies, float), strand, places)
+    whole = loop.belt_mass
+    if not loop.imposed_speed:
+        whole *= loop.total_mass / loop.drive_mass
+    green = tension_green(loop, strand, places)
+    left = np.maximum(whole - np.sum(moved**2), 8 * _EPS * whole)
+    return np.asarray(np.sqrt(left * np.maximum(green - np.sum(felt**2, axis=0), 8 * _EPS * green)))
+
+
+def _moved_and_felt(loop: LoopMasses, w: FloatArray, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """A_k, shape (k,), and B_k, shape (k, n), of `modal_tensions`."""
+    shape = _shape(loop, w)
+    root = np.sqrt(shape.mass if loop.imposed_speed else shape.mass + loop.drive_mass * shape.drive**2)
+    moved = (shape.on - shape.off) / w / root if loop.imposed_speed else loop.total_mass * shape.drive / root
+    impedance, transit, (a, b) = shape.strands[strand]
+    angle = (w * transit)[:, None] * x
+    return moved, impedance * (b[:, None] * np.cos(angle) - a[:, None] * np.sin(angle)) / (w * root)[:, None]
+
+
 @dataclass(frozen=True, slots=True)
 class _Shape:
-    """Of modes: amplitude of the drive, force over w at run-on and run-off, generalised mass without the drive."""
+    """Of modes: amplitude of the drive, force over w at run-on and run-off, generalised mass without the drive; and of
+    each strand its impedance, its travel time and (a, b) of its displacement a cos + b sin."""
 
     drive: FloatArray
     on: FloatArray
     off: FloatArray
     mass: FloatArray
+    strands: tuple[tuple[float, float, tuple[FloatArray, FloatArray]], ...]
 
 
 def _shape(loop: LoopMasses, w: FloatArray) -> _Shape:
@@ -104,7 +203,8 @@ def _shape(loop: LoopMasses, w: FloatArray) -> _Shape:
     swing = (z2 * (b * c2 - a * s2) - held * tail) / z1
     mass = _swinging(loop.return_mass, a, b, w * t2) + loop.tail_mass * tail**2
     mass = mass + _swinging(loop.carry_mass, tail, swing, w * t1)
-    return _Shape(tail * c1 + swing * s1, z1 * (swing * c1 - tail * s1), z2 * b, mass)
+    strands = (z2, t2, (a, b)), (z1, t1, (tail, swing))
+    return _Shape(tail * c1 + swing * s1, z1 * (swing * c1 - tail * s1), z2 * b, mass, strands)
 
 
 def _swinging(mass: float, a: FloatArray, b: FloatArray, angle: FloatArray) -> FloatArray:

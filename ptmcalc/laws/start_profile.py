@@ -96,6 +96,78 @@ def _angle_less_sine(y: FloatArray) -> FloatArray:
     return np.where(y < 0.5, series, y - np.sin(y))
 
 
+def time_of_share(shape: Shape, rise_time: float, share: ArrayLike) -> FloatArray:
+    """When a start profile reaches a factor for the first time.
+
+        step: 0      ramp: q t_s      cosine: t_s arccos(1 - 2 q)/pi
+        parabolic: t_s sqrt(q/2) up to one half, then t_s (1 - sqrt((1 - q)/2))      points: straight between them
+
+    Args:
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
+        rise_time: t_s [s].
+        share: factor q [1].
+
+    Returns:
+        time from switching on, 0 for a factor that is there at once, infinite for one that never comes [s].
+
+    **Range** any q.
+    **Error** exact.
+    **Source** the inverse of `rise`.
+    """
+    asked = np.asarray(share, float)
+    wanted = np.clip(asked, 0.0, 1.0)
+    if isinstance(shape, tuple):
+        shares, factors = _columns(shape)
+        above = np.searchsorted(factors, wanted)
+        before = np.maximum(above - 1, 0)
+        gap = factors[above] - factors[before]
+        part = np.divide(wanted - factors[before], gap, out=np.zeros_like(wanted), where=gap > 0)
+        reached = np.where(above > 0, shares[before] + part * (shares[above] - shares[before]), 0.0)
+    elif shape == STEP:
+        reached = np.zeros_like(wanted)
+    elif shape == PARABOLIC:
+        reached = np.where(wanted < 0.5, np.sqrt(wanted / 2), 1 - np.sqrt((1 - wanted) / 2))
+    else:
+        reached = wanted if shape == RAMP else np.arccos(1 - 2 * wanted) / np.pi
+    return np.asarray(np.where(asked > 1, np.inf, rise_time * reached))
+
+
+def time_to_momentum(
+    shape: Shape, rise_time: float, force: ArrayLike, resistance: ArrayLike, held: ArrayLike, momentum: ArrayLike
+) -> FloatArray:
+    """Time from its release in which a body under a rising force and a constant resistance gathers a momentum.
+
+        F (I(t_0 + t) - I(t_0)) - W t = p,   I the time integral of the profile
+
+    Args:
+        shape: `step`, `ramp`, `cosine`, `parabolic`, or points.
+        rise_time: of the profile [s].
+        force: F, at its plateau [N].
+        resistance: W [N].
+        held: t_0, from switching on to the release [s].
+        momentum: p [kg*m/s].
+
+    Returns:
+        time t [s].
+
+    **Range** F > W, and F rises through W at t_0.
+    **Error** rounding: a bisection to the last digit.
+    **Source** Newton's law.
+    """
+    f, w, start, wanted = np.broadcast_arrays(*(np.asarray(one, float) for one in (force, resistance, held, momentum)))
+    if shape == STEP:
+        return np.asarray(wanted / (f - w))
+    high = rise_time + wanted / (f - w)
+    low, before = np.zeros_like(high), rise_integral(shape, rise_time, start)
+    while True:
+        middle = (low + high) / 2
+        inside = (low < middle) & (middle < high)
+        if not inside.any():
+            return np.asarray(high)
+        short = f * (rise_integral(shape, rise_time, start + middle) - before) - w * middle < wanted
+        low, high = np.where(inside & short, middle, low), np.where(inside & ~short, middle, high)
+
+
 def rise_rate(shape: Shape, rise_time: float, time: ArrayLike) -> FloatArray:
     """Slope of `rise`.
 

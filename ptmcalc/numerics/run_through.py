@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.numerics.collocation import gauss
+from ptmcalc.numerics.free_motion import free_motion
 
 FloatArray = NDArray[np.float64]
 
@@ -24,7 +25,7 @@ _ORDER, _LOWER = 12, 8
 @dataclass(frozen=True, slots=True)
 class Run:
     """What the oscillators do: times (passes, places), q and q' (passes, places, modes), the acceleration of the base
-    (passes, places), and the most by which w q and q' may be wrong, per mode."""
+    (passes, places) or one for each mode, and the most by which w q and q' may be wrong, per mode."""
 
     times: FloatArray
     displacement: FloatArray
@@ -33,6 +34,11 @@ class Run:
     frequencies: FloatArray
     damping_ratios: FloatArray
     error: FloatArray
+
+    @property
+    def end(self) -> FloatArray:
+        """(q, q') after the last pass, shape (modes, 2)."""
+        return np.stack([self.displacement[-1, -1], self.speed[-1, -1]], axis=-1)
 
     def force(self, masses: ArrayLike) -> FloatArray:
         """Sum of -M_k (w^2 q + 2 zeta w q') over the modes, (passes, places)."""
@@ -49,7 +55,8 @@ class Run:
         """
         pull = self._pull(self.displacement, self.speed)
         values = self.force(masses)
-        slopes = -self._pull(self.speed, -self.base[:, :, None] - pull) @ np.asarray(masses, float)
+        base = self.base if self.base.ndim == 3 else self.base[:, :, None]
+        slopes = -self._pull(self.speed, -base - pull) @ np.asarray(masses, float)
         step = np.diff(self.times, axis=1)
         low, high = values[:, :-1], values[:, 1:]
         up, down = slopes[:, :-1] * step, slopes[:, 1:] * step
@@ -70,17 +77,21 @@ def run_through(
     frequencies: ArrayLike,
     damping_ratios: ArrayLike,
     places: ArrayLike,
+    start: FloatArray | None = None,
+    orders: tuple[int, int] = (_ORDER, _LOWER),
 ) -> Run:
-    """Motion of oscillators from rest through passes of any length.
+    """Motion of oscillators through passes of any length.
 
     Args:
         edges: times between the passes, shape (passes + 1,) [s].
-        acceleration: of the base at times since the beginning of each pass, (passes, any) -> the same shape; smooth
-            within a pass.
+        acceleration: of the base at times since the beginning of each pass, (passes, any) -> the same shape, or
+            (passes, any, modes) where every mode has a base of its own; smooth within a pass.
         frequencies: w, above 0, shape (modes,) [rad/s].
         damping_ratios: zeta, also above 1, shape (modes,) [1].
         places: where in a pass the motion is wanted, rising from 0 to 1; close enough for the fastest to turn or fade
             by a few units from one to the next: w max(1, 2 zeta) (b - a) T < 8 or so.
+        start: (q, q') before the first pass, shape (modes, 2); at rest without it.
+        orders: of the quadrature, and of the one it is compared with.
 
     Returns:
         the motion.
@@ -93,22 +104,10 @@ def run_through(
     at = np.asarray(places, float)
     lengths = np.diff(np.asarray(edges, float))
     steps = lengths[:, None] * np.diff(at)
-    maps = _free(w, zeta, steps[:, :, None])
-    kicks, error = _kicks(acceleration, lengths, at, w, zeta)
-    return _played(np.asarray(edges, float), at, lengths, acceleration, w, zeta, maps, kicks, error)
-
-
-def _free(w: FloatArray, zeta: FloatArray, time: FloatArray) -> FloatArray:
-    """Map of (q, q') over a time, shape (..., modes, 2, 2)."""
-    over = zeta > 1
-    root = np.sqrt(np.abs(zeta - 1)) * np.sqrt(zeta + 1)
-    damped, slow = w * root, np.exp(-w * np.where(over, 1 / (np.maximum(zeta, 1.0) + root), zeta) * time)
-    fast = np.where(over, np.expm1(-2 * damped * time), 0.0)
-    cosine = slow * np.where(over, 1 + fast / 2, np.cos(damped * time))
-    nonzero = np.where(damped > 0, damped, 1.0)
-    sine = slow * np.where(damped > 0, np.where(over, -fast / 2, np.sin(damped * time)) / nonzero, time)
-    drag = zeta * w * sine
-    return np.stack([cosine + drag, sine, -(w**2) * sine, cosine - drag], axis=-1).reshape(*cosine.shape, 2, 2)
+    maps = free_motion(w, zeta, steps[:, :, None])
+    kicks, error = _kicks(acceleration, lengths, at, w, zeta, orders)
+    begin = np.zeros((len(w), 2)) if start is None else start
+    return _played(np.asarray(edges, float), at, lengths, acceleration, w, zeta, maps, kicks, error, begin)
 
 
 def _kicks(
@@ -117,18 +116,24 @@ def _kicks(
     at: FloatArray,
     w: FloatArray,
     zeta: FloatArray,
+    orders: tuple[int, int],
 ) -> tuple[FloatArray, FloatArray]:
     """What the base adds to (q, q') in every stretch, (passes, stretches, modes, 2), and the bound of its error."""
     found = []
-    for order in (_ORDER, _LOWER):
+    for order in orders:
         nodes, weights = gauss(order)
         inside = (at[:-1, None] + np.diff(at)[:, None] * nodes).ravel()
         times = lengths[:, None] * inside
-        base = acceleration(times).reshape(len(lengths), len(at) - 1, order)
+        found_base = acceleration(times)
+        modes = found_base.shape[2] if found_base.ndim == 3 else 1
+        base = found_base.reshape(len(lengths), len(at) - 1, order, modes)
         steps = lengths[:, None] * np.diff(at)
         left = steps[:, :, None] * (1 - nodes)
-        response = _free(w, zeta, left[..., None])[..., 1]  # of a kick of 1, at the end of the stretch
-        found.append(-np.einsum("psn,n,psnmi->psmi", base, weights, response) * steps[:, :, None, None])
+        response = free_motion(w, zeta, left[..., None])[..., 1]  # of a kick of 1, at the end of the stretch
+        found.append(
+            -np.einsum("psnm,n,psnmi->psmi", np.broadcast_to(base, response.shape[:4]), weights, response)
+            * steps[:, :, None, None]
+        )
     stray = found[0] - found[1]
     return found[0], np.hypot(w * stray[..., 0], stray[..., 1]).sum(axis=(0, 1))
 
@@ -143,6 +148,7 @@ def _played(
     maps: FloatArray,
     kicks: FloatArray,
     error: FloatArray,
+    state: FloatArray,
 ) -> Run:
     passes, stretches = maps.shape[:2]
     whole, offset = maps[:, 0], kicks[:, 0]
@@ -150,7 +156,6 @@ def _played(
         whole = maps[:, k] @ whole
         offset = (maps[:, k] @ offset[..., None])[..., 0] + kicks[:, k]
     states = np.zeros((passes, stretches + 1, len(w), 2))
-    state = np.zeros((len(w), 2))
     for p in range(passes):
         states[p, 0] = state
         state = np.einsum("mij,mj->mi", whole[p], state) + offset[p]

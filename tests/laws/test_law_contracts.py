@@ -7,6 +7,7 @@ formula that adds metres to seconds cannot pass.
 
 import importlib
 import inspect
+import math
 import pkgutil
 import re
 from collections.abc import Callable, Iterator
@@ -275,6 +276,8 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     sag.softening: [(1.2e8, 900.0, 5e4), (1.2e8, 900.0, 0.0)],
     start_profile.rise: [(shape, 4.0, t) for shape in (*SHAPES, POINTS) for t in (0.0, 1.3, 9.0)],
     start_profile.rise_integral: [(shape, 4.0, t) for shape in (*SHAPES, POINTS) for t in (0.0, 1.3, 9.0)],
+    start_profile.time_of_share: [(shape, 4.0, q) for shape in (*SHAPES, POINTS) for q in (-0.4, 0.2, 0.7)],
+    start_profile.time_to_momentum: [(shape, 4.0, 9e3, 5e3, 2.0, 7e4) for shape in (*SHAPES, POINTS)],
     start_profile.rise_rate: [(shape, 4.0, t) for shape in (*SHAPES[1:], POINTS) for t in (1.3, 9.0)],
     start_profile.peak_rate: [("ramp", 4.0), ("cosine", 4.0), ("parabolic", 4.0), (POINTS, 4.0)],
     start_profile.residual: [(shape, 4.0, 3.0) for shape in (*SHAPES, POINTS)],
@@ -417,6 +420,17 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     equalising.equalising_ratio: [(6,)],
     equalising.equalising_acceleration: [(0.8, 0.4, 6)],
     chain_resonance.start_shares: [(loop, np.array([31.0, 74.0])) for loop in (LOOPS[0], LOOPS[2])],
+    chain_resonance.modal_tensions: [
+        (loop, np.array([31.0, 74.0]), strand, np.array([0.0, 0.3])) for loop in LOOPS for strand in (RETURN, CARRY)
+    ],
+    chain_resonance.modal_shapes: [
+        (loop, np.array([31.0, 74.0]), strand, np.array([0.0, 0.3])) for loop in LOOPS for strand in (RETURN, CARRY)
+    ],
+    chain_resonance.modal_rest: [
+        (loop, belt_modes.natural_frequencies(loop, 0.0, 2), strand, np.array([0.0, 0.3]))
+        for loop in LOOPS
+        for strand in (RETURN, CARRY)
+    ],
     chain_resonance.modal_masses: [
         (loop, np.array([31.0, 74.0])) for loop in (LOOPS[1], LOOPS[3])
     ],
@@ -442,6 +456,13 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         for zeta in ([0.0, 0.0], [0.1, 0.3], [1.0, 3.0])
     ],
     chain_start.start_series_tail: [(np.array([8e3, 1e3]), 1e4)],
+    chain_start.rigid_acceleration: [
+        (160.0, 0.35, 40.0, 0.9, 0.325, 42e3, 9e3),
+        (0.0, 0.35, 40.0, 0.9, 0.325, 42e3, -9e3),
+    ],
+    chain_start.passing_bound: [
+        (np.array([30.0, 90.0]), np.array([0.02, 1.3]), 1.2, 0.3, 0.32, 8, passes) for passes in (1.0, 40.0, math.inf)
+    ],
     chain_selection.tooth_factor: [(17, 1.08)],
     chain_selection.design_power: [(9e3, 1.4, 1.1, 1.7)],
     chain_selection.chain_pitches: [(0.7, 0.019, 19, 57)],

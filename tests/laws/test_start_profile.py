@@ -81,6 +81,36 @@ class TestRiseIntegral:
         assert low - 1e-12 * last <= last - first <= high + 1e-12 * last
 
 
+class TestTimeOfShare:
+    @given(st.sampled_from(SHAPES[1:]), st.floats(1e-2, 1e2), st.floats(0, 1))
+    @steady
+    def test_is_the_inverse_of_the_rise(self, shape: str, rise_time: float, share: float) -> None:
+        time = start_profile.time_of_share(shape, rise_time, share)
+        assert 0 <= time <= rise_time * (1 + 1e-15)
+        assert start_profile.rise(shape, rise_time, time) == pytest.approx(share, abs=1e-12)
+
+    def test_the_first_time_where_a_table_rests(self) -> None:
+        points = ((0.0, 0.2), (0.25, 0.5), (0.75, 0.5), (1.0, 1.0))
+        times = start_profile.time_of_share(points, 8.0, [-1.0, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0])
+        assert times == pytest.approx([0.0, 0.0, 0.0, 1.0, 2.0, 7.0, 8.0])
+
+
+class TestTimeToMomentum:
+    @pytest.mark.parametrize("shape", SHAPES)
+    @pytest.mark.parametrize("speed", [0.1, 1.0, 30.0])
+    def test_an_integrated_body_is_that_fast_then(self, shape: str, speed: float) -> None:
+        force, resistance, mass = 9e3, 4e3, 1200.0
+        held = 0.0 if shape == "step" else float(start_profile.time_of_share(shape, RISE, resistance / force))
+        found = float(start_profile.time_to_momentum(shape, RISE, force, resistance, held, mass * speed))
+
+        def pull(time: float) -> float:
+            return force * float(start_profile.rise(shape, RISE, held + time)) - resistance
+
+        corner = [RISE - held] if 0 < RISE - held < found else None
+        gathered = quad(pull, 0, found, points=corner, epsabs=1e-6, epsrel=1e-12, limit=200)[0]
+        assert gathered == pytest.approx(mass * speed, rel=1e-9)
+
+
 class TestRiseRate:
     @pytest.mark.parametrize("shape", SHAPES[1:])
     def test_by_differences(self, shape: str) -> None:

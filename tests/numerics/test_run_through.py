@@ -58,6 +58,29 @@ def test_agrees_with_dop853(w: float, zeta: float, e: float) -> None:
     assert run.times == pytest.approx(ramp.edges[:-1, None] + np.diff(ramp.edges)[:, None] * PLACES)
 
 
+def test_goes_on_from_where_another_run_ended() -> None:
+    whole = Ramp(1.6, 0.08, 40)
+    once = run_through(whole.edges, whole.acceleration, [24.0, 70.0], [0.02, 0.05], PLACES)
+    part = Ramp(1.6, 0.08, 15)
+    first = run_through(part.edges, part.acceleration, [24.0, 70.0], [0.02, 0.05], PLACES)
+    late = Ramp(float(whole.speeds[15]), 0.08, 25)
+    second = run_through(late.edges, late.acceleration, [24.0, 70.0], [0.02, 0.05], PLACES, first.end)
+    assert second.displacement == pytest.approx(once.displacement[15:], abs=1e-13)
+    assert second.speed == pytest.approx(once.speed[15:], abs=1e-11)
+
+
+def test_every_mode_may_have_a_base_of_its_own() -> None:
+    ramp = Ramp(1.6, 0.08, 12)
+    alone = [run_through(ramp.edges, ramp.acceleration, [w], [0.02], PLACES) for w in (24.0, 70.0)]
+    shares = np.array([1.0, -0.5])
+    both = run_through(
+        ramp.edges, lambda t: ramp.acceleration(t)[:, :, None] * shares, [24.0, 70.0], [0.02, 0.02], PLACES
+    )
+    for k in range(2):
+        assert both.displacement[:, :, k] == pytest.approx(shares[k] * alone[k].displacement[:, :, 0], abs=1e-14)
+    assert both.largest([1.0, 0.0])[0] == pytest.approx(alone[0].largest([1.0])[0], rel=1e-12)
+
+
 def test_error_is_told() -> None:
     """Places too far apart for a fast mode: the run says so, and is not worse than it says."""
     ramp = Ramp(1.6, 0.1, 30)

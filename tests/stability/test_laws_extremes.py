@@ -256,6 +256,12 @@ def modes_of_chain(imposed_speed: bool) -> Callable[[Draw], tuple[Any, ...]]:
     return arguments
 
 
+def sections_of_chain(draw: Draw) -> tuple[Any, ...]:
+    """The same, either way of driving it, and sections of a strand."""
+    loop, frequencies = modes_of_chain(bool(draw.rng.integers(2)))(draw)
+    return loop, frequencies, int(draw.rng.integers(2)), np.array([0.0, draw.share(), 1.0])
+
+
 def bands(draw: Draw) -> np.ndarray:
     return chain_resonance.exclusion_bands(np.array(draw.positive(5)), np.array([0.15]))
 
@@ -414,6 +420,14 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "rise_integral": (
         start_profile.rise_integral,
         lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(2)),
+    ),
+    "time_of_share": (
+        start_profile.time_of_share,
+        lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(1), d.share()),
+    ),
+    "time_to_momentum": (
+        start_profile.time_to_momentum,
+        lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(2), 0.0, 0.0, *d.positive(1)),
     ),
     "rise_rate": (start_profile.rise_rate, lambda d: (d.shape("ramp", "cosine", "parabolic"), *d.positive(2))),
     "residual": (start_profile.residual, lambda d: (d.shape("step", "ramp", "cosine", "parabolic"), *d.positive(2))),
@@ -610,6 +624,9 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "equalising_ratio": (equalising.equalising_ratio, lambda d: (teeth(d),)),
     "equalising_acceleration": (equalising.equalising_acceleration, lambda d: (*d.positive(2), teeth(d))),
     "modal_masses": (chain_resonance.modal_masses, modes_of_chain(imposed_speed=True)),
+    "modal_tensions": (chain_resonance.modal_tensions, sections_of_chain),
+    "modal_shapes": (chain_resonance.modal_shapes, sections_of_chain),
+    "modal_rest": (chain_resonance.modal_rest, sections_of_chain),
     "start_shares": (chain_resonance.start_shares, modes_of_chain(imposed_speed=False)),
     "resonance_speeds": (
         chain_resonance.resonance_speeds,
@@ -647,6 +664,14 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*(np.array(d.positive(3)) for _ in range(3)), *d.positive(1)),
     ),
     "start_series_tail": (chain_start.start_series_tail, lambda d: (np.array(d.positive(3)), *d.positive(1))),
+    "rigid_acceleration": (
+        lambda *given: chain_start.rigid_acceleration(*given),
+        lambda d: (*d.positive(3), efficiency(d), *d.positive(2), d.rng.choice([-1.0, 1.0]) * d.positive(1)[0]),
+    ),
+    "passing_bound": (
+        chain_start.passing_bound,
+        lambda d: (np.array(d.positive(3)), np.array(d.positive(3)), *d.positive(3), teeth(d), 1 + 1e3 * d.share()),
+    ),
     "tooth_factor": (chain_selection.tooth_factor, lambda d: (teeth(d), 1.08)),
     "design_power": (chain_selection.design_power, lambda d: tuple(d.positive(4))),
     "chain_pitches": (chain_selection.chain_pitches, lambda d: (*d.positive(2), teeth(d), teeth(d))),
@@ -768,8 +793,11 @@ SIGNED = {
     "nearest_threshold",
     "equalising_angle",
     "modal_masses",
+    "modal_tensions",
+    "modal_shapes",
     "start_shares",
     "start_acceleration",
+    "rigid_acceleration",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

@@ -19,7 +19,8 @@ class Reach:
     """A length of belt of uniform mass; what acts along it is given as sums from its start, straight between marks.
 
     `marks` [m] run from 0 to its length; `friction` [N], `drag` [N*s/m] and `climb` [N] (tension that gravity asks
-    for) have their shape. `span` is the weight of belt and load on one idler pitch [N], 0 for a belt that does not sag.
+    for) have their shape. `span` is the weight of belt and load on one idler pitch [N], 0 for a belt that does not sag;
+    `goes` is the part of the mass that goes with the belt: idlers turn where they are.
     """
 
     line_mass: float
@@ -29,6 +30,7 @@ class Reach:
     drag: FloatArray
     climb: FloatArray
     span: float = 0.0
+    goes: float = 1.0
 
     @classmethod
     def even(
@@ -61,7 +63,7 @@ class Course:
     `before` and `after` are the impedances on either side of a node [N*s/m], `friction` [N] and `drag` [N*s/m] its
     lumps with `share` the part of them that belongs to the cell before it, `climb` gravity's tension at nodes and
     in the middle of cells [N], `places` and `middles` positions [m], `sag` what makes the spans of a cell give,
-    (w l)^2 h/24 [N^2*m], `tail` the node at the tail.
+    (w l)^2 h/24 [N^2*m], `goes` the part of a cell's mass that goes with the belt, `tail` the node at the tail.
     """
 
     step: float
@@ -75,6 +77,7 @@ class Course:
     middles: FloatArray
     cell_impedance: FloatArray
     sag: FloatArray
+    goes: FloatArray
     tail: int
     mismatch: float
 
@@ -105,7 +108,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
     ends = np.concatenate([[0], np.cumsum(counts)])
     nodes = int(ends[-1]) + 1
     friction, drag, climb, places = (np.zeros(nodes) for _ in range(4))
-    within, middles, impedance, sag = (np.zeros(nodes - 1) for _ in range(4))
+    within, middles, impedance, sag, goes = (np.zeros(nodes - 1) for _ in range(5))
     start = climbed = 0.0
     for reach, first, count in zip(reaches, ends, counts, strict=False):
         edges = np.linspace(0.0, reach.length, 2 * count + 1)  # nodes and middles in turn
@@ -119,6 +122,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
         middles[first : first + count] = start + edges[1::2]
         impedance[first : first + count] = reach.impedance
         sag[first : first + count] = reach.span**2 * reach.length / count / 24
+        goes[first : first + count] = reach.goes
         start, climbed = start + reach.length, rise[-1]
     return Course(
         step=step,
@@ -132,6 +136,7 @@ def lay_out(reaches: tuple[Reach, ...], tail_after: int, cells: int) -> Course:
         middles=middles,
         cell_impedance=impedance,
         sag=sag,
+        goes=goes,
         tail=int(ends[tail_after]),
         mismatch=mismatch,
     )

@@ -69,7 +69,10 @@ class Give:
         )
         stiffer, time = (rubber.stiffer, rubber.time) if rubber else (0.0, 1.0)
         lengths = _at_nodes(np.diff(course.places), course.tail)
-        self.yields = lengths / stiffness * stiffer / (1 + stiffer)
+        self.lengths, self.climb = np.where(lengths > 0, lengths, 1.0), course.climb[nodes]
+        self.settled = stiffer / (1 + stiffer) / stiffness
+        """retarded strain over tension, in the end [1/N]"""
+        self.yields = lengths * self.settled
         """retarded strain over tension, in the end [m/N]"""
         slow = time * (1 + stiffer)
         self.eager = 1 / (slow + course.step / 2)
@@ -116,6 +119,15 @@ class Give:
         self.retarded = self.retarded + self.step * retards
         self.heat += self.step * float(self.heats @ (retards * retards))
         return v, v + gives + retards
+
+    @property
+    def strain(self) -> FloatArray:
+        """Retarded strain at the nodes, that of gravity's tension included."""
+        return self.retarded / self.lengths + self.settled * self.climb
+
+    def restrain(self, strain: FloatArray) -> None:
+        """Give the nodes another retarded strain."""
+        self.retarded = (strain - self.settled * self.climb) * self.lengths
 
     @property
     def lost(self) -> float:

@@ -17,6 +17,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt.course import Course, FloatArray
 from ptmcalc.numerics.belt.give import Give
 from ptmcalc.numerics.belt.station import Place, Seen, Station
+from ptmcalc.numerics.belt.travel import Travel
 
 MOST_UPDATES = 4_000_000_000
 _BLOCK = 64
@@ -84,6 +85,7 @@ def march(
     window: float,
     still: Callable[[float, Seen], bool] | None = None,
     give: Give | None = None,
+    travel: Travel | None = None,
 ) -> Drawn:
     """Carry the belt from its tensions in every cell (without gravity's part) and one speed through the window [s].
 
@@ -96,6 +98,7 @@ def march(
         window: time to march [s].
         still: ends the march early.
         give: spans that sag and rubber that yields, None for a straight elastic belt.
+        travel: what the running belt carries along, None where its waves run both ways at one speed.
 
     Raises:
         NumericsError: NUM101 when the window needs too many cell updates.
@@ -105,7 +108,8 @@ def march(
     if steps * cells > MOST_UPDATES:
         raise NumericsError("NUM101", f"the belt would need {steps} steps of {cells} cells")
     impedance = course.cell_impedance
-    against, along = tension + impedance * speed, tension - impedance * speed
+    speeds_now = travel.running(tension, speed) if travel else np.full(cells, float(speed))
+    against, along = tension + impedance * speeds_now, tension - impedance * speeds_now
     before, after = 2 * course.before[1:-1], 2 * course.after[1:-1]
     friction = course.friction[1:-1].copy()
     at = course.tail - 1
@@ -122,6 +126,9 @@ def march(
         lows.append(np.minimum.reduceat(seen / 2 + course.climb_within, (0, course.tail), axis=1))
 
     block, speeds = np.empty((_BLOCK, cells)), np.zeros((_BLOCK, cells - 1))
+    if travel:
+        head.creep = travel.creep(speed, float(tension[-1] + course.climb[-1]), float(tension[0]))
+        tail.creep = travel.creep(speed, float(tension[at]), float(tension[at + 1]))
     seen_head = [head.begin(speed, along[-1], against[0])]
     seen_tail = [tail.begin(speed, along[at], against[at + 1])]
     if give:
@@ -129,7 +136,7 @@ def march(
     stored = _energy(against, along, impedance, step, give)
     first = _length(against, along, impedance, step, give)
     swings = float(((against - along) ** 2 / (8 * impedance)).sum()) * step
-    lost = rubbed = flow = exchanged = 0.0
+    lost = rubbed = flow = exchanged = carried = 0.0
     np.add(against, along, out=block[0])
     filled, k, time = 1, 0, 0.0
     within, backward = np.empty(cells - 1), -friction
@@ -141,15 +148,18 @@ def march(
             v, behind = give.pass_on(into, out, friction, drag)
             speeds[filled] = v
         else:
-            v = behind = speeds[filled]
+            v = speeds[filled]
             np.subtract(out, into, out=v)
             np.minimum(v, friction, out=within)
             np.maximum(within, backward, out=within)
             v -= within
             v *= yields
+            behind = v.copy() if travel else v
+        if travel:
+            head.creep, tail.creep = travel.creep_at(seen_head[-1]), travel.creep_at(seen_tail[-1])
         now = tail.advance(time, float(into[at]), float(out[at]), step)
         seen_tail.append(now)
-        v[at] = behind[at] = now.belt
+        v[at], behind[at] = now.belt, now.behind
         top = head.advance(time, float(n_on), float(p_off), step)
         seen_head.append(top)
         rubbed += _rubbed(top, head.place) + _rubbed(now, tail.place)
@@ -162,6 +172,10 @@ def march(
         along[-1] = n_on + 2 * head.place.before * top.belt
         against[0] = p_off - 2 * head.place.after * top.behind
         against, along = along, against  # each wave went on by a cell
+        if travel and k % travel.every == 0:
+            before_it = _energy(against, along, impedance, step, give)
+            travel.carry(against, along, (seen_head[-2], top), (seen_tail[-2], now), give)
+            carried += _energy(against, along, impedance, step, give) - before_it
         np.add(against, along, out=block[filled])
         filled += 1
         if filled == _BLOCK:
@@ -174,7 +188,7 @@ def march(
         watch(block[:filled], k - filled + 1)
         lost += _lost(speeds[:filled], friction, drag)
     lost += give.lost / step if give else 0.0
-    change = _energy(against, along, impedance, step, give) - stored
+    change = _energy(against, along, impedance, step, give) - stored - carried
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
     residual = abs(change + lost * step - flow * step) / turnover if turnover else 0.0
     return Drawn(
@@ -215,7 +229,7 @@ def _flow(top: Seen, low: Seen, head: Place, tail: Place, waves: tuple[float, fl
     """Power the drums and the take-up give to the belt, by the waves that leave and arrive."""
     n_on, p_off, n_tail, p_tail = waves
     given = (n_on + head.before * top.belt) * top.belt - (p_off - head.after * top.behind) * top.behind
-    given += (n_tail + tail.before * low.belt) * low.belt - (p_tail - tail.after * low.belt) * low.belt
+    given += (n_tail + tail.before * low.belt) * low.belt - (p_tail - tail.after * low.behind) * low.behind
     return given
 
 

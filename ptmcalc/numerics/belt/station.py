@@ -85,13 +85,15 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """A station at a time: tensions before, between and behind its drums [N], speeds [m/s], slip of each drum."""
+    """A station at a time: tensions before, between and behind its drums [N], speeds [m/s], slip of each drum, and by
+    how much the belt leaves the drums faster than it comes."""
 
     tensions: tuple[float, ...]
     belt: float
     behind: float
     drums: tuple[float, ...]
     slips: tuple[int, ...]
+    creep: float = 0.0
 
 
 @dataclass(slots=True)
@@ -140,6 +142,8 @@ class Station:
         """done by drives less what brakes took [J]"""
         self.lifts = 0.0
         """speed whose centrifugal tension acts in a step [m/s]"""
+        self.creep = 0.0
+        """by how much the belt leaves the drums faster than it comes, its stretch being less there [m/s]"""
 
     def begin(self, speed: float, n_on: float, p_off: float) -> Seen:
         """Everything at one speed at time 0."""
@@ -154,6 +158,7 @@ class Station:
 
     def advance(self, time: float, n_on: float, p_off: float, step: float) -> Seen:
         """The state at a time, `step` after the last one, where the waves `n_on` and `p_off` arrive."""
+        p_off -= (self.place.after + self.place.drag_off) * self.creep  # from here on as if none left faster
         if not (self.drums or self.takeup or self.imposed):
             return self._carried(n_on, p_off)
         old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
@@ -183,7 +188,8 @@ class Station:
         self.pulls = [above - behind for above, behind in itertools.pairwise(tensions)]
         if self.takeup:
             self._settle(self.takeup, p_off, tensions[-1])
-        return Seen(tensions, move.belt, self.behind if self.takeup else move.belt, tuple(speeds), tuple(self.slips))
+        behind = (self.behind if self.takeup else move.belt) + self.creep
+        return Seen(tensions, move.belt, behind, tuple(speeds), tuple(self.slips), self.creep)
 
     def _carried(self, n_on: float, p_off: float) -> Seen:
         """The state where nothing acts but the belt and its friction: it is in balance at any time."""
@@ -198,7 +204,7 @@ class Station:
             self.belt, held = 0.0, push / rubs if rubs else 0.0
         belt = self.belt
         tensions = on + before * belt + held * place.friction_on, off - after * belt - held * place.friction_off
-        return Seen(tensions, belt, belt, (), ())
+        return Seen(tensions, belt, belt + self.creep, (), (), self.creep)
 
     # -- the belt ---------------------------------------------------------------------------------------------
 

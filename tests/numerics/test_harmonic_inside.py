@@ -1,0 +1,115 @@
+"""The force where two strands meet, against finite elements harmonic by harmonic, and in time."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import solve
+from support import chain_fem
+
+from ptmcalc.numerics.harmonic.inside import joint_response
+from ptmcalc.numerics.harmonic.parts import Chain, Damping, Excitation, Line
+
+WORKING, EMPTY = Line(40.0, 200.0, 3e8), Line(44.0, 80.0, 3e8)
+DAMPINGS = {
+    "kelvin_voigt": Damping("kelvin_voigt", time=2e-3),
+    "hysteretic": Damping("hysteretic", share=0.04),
+    "zener": Damping("zener", time=0.02, share=0.3),
+}
+LOSSLESS = Damping("kelvin_voigt")
+CHAINS = [
+    Chain((WORKING, EMPTY), LOSSLESS),
+    Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0),
+    Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0, far_mass=1500.0),
+    Chain((WORKING, EMPTY), LOSSLESS, far="on_sprocket", joint_mass=900.0),
+]
+
+
+def modulus(damping: Damping, w: float) -> complex:
+    """From the differential equations of spring and damper."""
+    if damping.law == "kelvin_voigt":
+        return 1 + 1j * w * damping.time
+    if damping.law == "hysteretic":
+        return complex(1, damping.share)
+    return 1 + damping.share / (1 + 1 / (1j * w * damping.time))
+
+
+def at_joint(chain: Chain, w: float, near: complex, far: complex, pieces: int) -> np.ndarray:
+    """Forces of both strands at the joint, all nodes of a mesh solved at one frequency."""
+    strands = [chain_fem.Strand(line.length, line.line_mass, line.stiffness) for line in chain.lines]
+    single = [chain_fem.matrices(chain_fem.Chain((one,)), pieces, lumped=False) for one in strands]
+    k = modulus(chain.damping, w)
+    own = [stiff * k - w**2 * mass for mass, stiff in single]
+    count = 2 * pieces + 1
+    whole = np.zeros((count, count), complex)
+    whole[: pieces + 1, : pieces + 1] += own[0]
+    whole[pieces:, pieces:] += own[1]
+    whole[pieces, pieces] -= w**2 * chain.joint_mass
+    moved = np.zeros(count, complex)
+    moved[0], moved[-1] = near, far
+    if chain.far == "free":  # the mass moves with the last node less what its own polygon does
+        whole[-1, -1] -= w**2 * chain.far_mass
+        inner, load = np.arange(1, count), np.zeros(count, complex)
+        load[-1] = -(w**2) * chain.far_mass * far
+        moved[-1] = 0
+    else:
+        inner, load = np.arange(1, count - 1), np.zeros(count, complex)
+    u = moved.copy()
+    u[inner] = solve(whole[np.ix_(inner, inner)], (load - whole @ moved)[inner])
+    return np.array([-(own[0] @ u[: pieces + 1])[-1], (own[1] @ u[pieces:])[0]])
+
+
+@pytest.mark.parametrize("law", DAMPINGS)
+@pytest.mark.parametrize("case", range(len(CHAINS)))
+def test_one_harmonic_is_that_of_finite_elements(case: int, law: str) -> None:
+    chain = replace(CHAINS[case], damping=DAMPINGS[law])
+    moved = chain.far != "free" or chain.far_mass > 0
+    for w in (3.0, 35.0, 61.0, 140.0):
+        near, far = Excitation(np.array([0.7, 0.0])), Excitation(np.array([0.4, 0.0]), place=0.3)
+        u = -0.7 / w**2 + 0j, (-0.4 / w**2 * np.exp(-2j * np.pi * 0.3) if moved else 0j)
+        coarse, fine = (at_joint(chain, w, *u, pieces) for pieces in (40, 80))
+        expected = np.abs((4 * fine - coarse) / 3)
+        found = joint_response(chain, w, near, far if moved else None)
+        for one, size in zip(found, expected, strict=True):
+            assert float(one.largest[0]) == pytest.approx(size, rel=5e-4)
+            assert float(one.smallest[0]) == pytest.approx(-size, rel=5e-4)
+
+
+def test_a_drive_that_gives_way_moves_less() -> None:
+    """A drive as heavy as the chain, slowly: the joint pulls what is behind it, with the share of the acceleration that
+    is left."""
+    chain = Chain((WORKING, EMPTY), Damping("kelvin_voigt", time=1e-4), joint_mass=900.0)
+    whole = 200.0 * 40 + 80.0 * 44 + 900.0
+    push = Excitation(np.array([1.0, 0.0]))
+    working, back = joint_response(replace(chain, drive_mass=whole), 0.01, push)
+    assert float(back.largest[0]) == pytest.approx(80.0 * 44 / 2, rel=1e-4)
+    assert float(working.largest[0]) == pytest.approx((80.0 * 44 + 900) / 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("count", [512, 1024])
+def test_the_told_error_holds_what_more_harmonics_find(count: int) -> None:
+    chain = replace(CHAINS[1], damping=Damping("hysteretic", share=0.02))
+    first = math.pi / 2 / (WORKING.transit + EMPTY.transit)
+    speeds = first * np.array([0.05, 0.3, 0.9, 1.4])
+
+    def at(n: int) -> Excitation:
+        orders = np.arange(1, n + 1)
+        return Excitation((-1.0) ** orders * 2 / np.pi / orders / (1 - (8.0 * orders) ** -2))
+
+    finest = joint_response(chain, speeds, at(8192))
+    for rough, exact in zip(joint_response(chain, speeds, at(count)), finest, strict=True):
+        assert np.all(np.abs(rough.largest - exact.largest) <= rough.error + exact.error)
+        assert np.all(np.abs(rough.smallest - exact.smallest) <= rough.error + exact.error)
+        assert np.all(np.maximum(exact.largest, -exact.smallest) <= rough.bound)
+        assert np.all(rough.error[1:] < 0.02 * exact.largest[1:])
+
+
+def test_a_resonance_without_damping_has_no_bound() -> None:
+    found = joint_response(CHAINS[0], 30.0, Excitation(np.array([1.0, -0.5])))
+    assert np.all(np.isinf([one.error[0] for one in found]))
+
+
+def test_one_strand_has_no_joint() -> None:
+    with pytest.raises(ValueError, match="joint"):
+        joint_response(Chain((WORKING,), LOSSLESS), 1.0, Excitation(np.array([1.0])))

@@ -1,0 +1,149 @@
+"""Sums of modes against DOP853 started again at every kink of the input, and against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.mode_sum import Course, Modes, kicks, mode_sum
+
+ZERO = np.zeros(3)
+COURSES = {
+    "step": Course.step(),
+    "straight": Course.straight(np.array([0.0, 0.5, 1.0, 1.5]), np.array([0.0, 1.0, 0.2, 0.9])),
+    "parabolas": Course(
+        np.array([0.0, 0.4, 0.8]),
+        np.array([0, 0.5, 1.0]),
+        np.array([0, 2.5, 0]),
+        np.array([6.25, -6.25, 0]),
+        ZERO,
+        ZERO,
+    ),
+    "sine at a natural frequency": Course(
+        np.array([0.0, 1.2]),
+        np.array([0.5, 1.0]),
+        ZERO[:2],
+        ZERO[:2],
+        np.array([0.5, 0.0]),
+        np.full(2, -np.pi / 2),
+        10.0,
+    ),
+    "sine beside it": Course(
+        np.array([0.0, 0.4]),
+        np.array([0.5, 1.0]),
+        ZERO[:2],
+        ZERO[:2],
+        np.array([0.5, 0.0]),
+        np.full(2, -np.pi / 2),
+        7.8,
+    ),
+}
+W, ZETA = np.array([10.0, 30.0, 50.0, 10.0]), np.array([0.0, 0.05, 1.0, 2.0])
+GAINS = np.array([[1.0, 0.3, 0.0], [0.2, -0.5, 0.3], [0.1, 0.2, -0.1], [0.0, 0.1, 0.2]])
+WHOLE = np.array([1.5, 0.2, 0.4])
+MODES = Modes(W, ZETA, GAINS, WHOLE, np.zeros(3))
+
+
+def integrated(modes: Modes, course: Course, window: float) -> np.ndarray:
+    """The sum at the places, densely, by the equations of motion in x: x'' + ... = w^2 q + 2 zeta w q'."""
+    w, zeta, count = modes.frequencies, modes.damping_ratios, len(modes.frequencies)
+    state, found, before = np.zeros(2 * count), [], 0.0
+    for k, begins in enumerate(course.times):
+        ends = min(course.times[k + 1], window) if k + 1 < len(course.times) else window
+        v, s, b, a, p, o = (part[k] for part in (
+            course.values, course.slopes, course.bends, course.swings, course.phases,
+            np.full(len(course.times), course.frequency)))  # fmt: skip
+
+        def q(
+            t: np.ndarray, v: float = v, s: float = s, b: float = b, a: float = a, p: float = p, o: float = o
+        ) -> np.ndarray:
+            return v + s * t + b * t * t / 2 + a * np.sin(o * t + p)
+
+        def rate(
+            t: float, y: np.ndarray, s: float = s, b: float = b, a: float = a, p: float = p, o: float = o, q=q
+        ) -> np.ndarray:
+            slope = s + b * t + a * o * math.cos(o * t + p)
+            x, u = y[:count], y[count:]
+            return np.concatenate([u, w**2 * (q(t) - x) + 2 * zeta * w * (slope - u)])
+
+        state[count:] += 2 * zeta * w * (float(q(0.0)) - before)  # a jump of q is a blow by the damper
+        times = np.linspace(0, ends - begins, 6001)
+        run = solve_ivp(rate, (0, ends - begins), state, "DOP853", times, rtol=1e-11, atol=1e-13)
+        left = modes.whole - modes.gains.sum(axis=0)
+        found.append(run.y[:count].T @ modes.gains + q(times)[:, None] * left)
+        state, before = run.y[:, -1], float(q(times[-1]))
+    return np.concatenate(found)
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_extremes_are_those_of_the_equations_of_motion(name: str) -> None:
+    expected = integrated(MODES, COURSES[name], 3.0)
+    together = mode_sum(MODES, COURSES[name], 3.0)
+    for place in range(3):
+        only = slice(place, place + 1)
+        found = mode_sum(Modes(W, ZETA, GAINS[:, only], WHOLE[only], np.zeros(1)), COURSES[name], 3.0)
+        largest, smallest = max(expected[:, place].max(), 0.0), min(expected[:, place].min(), 0.0)
+        sampled = 1e-5  # the witness has samples, not summits
+        assert found.largest[0] == pytest.approx(largest, abs=sampled)
+        assert found.smallest[0] == pytest.approx(smallest, abs=sampled)
+        assert found.largest_low[0] - sampled <= largest <= found.largest_high[0] + 1e-9
+        assert found.smallest_low[0] - 1e-9 <= smallest <= found.smallest_high[0] + sampled
+        assert together.largest_low[place] <= largest + sampled
+        assert largest <= together.largest_high[place] + 1e-9
+        assert together.smallest_low[place] - 1e-9 <= smallest
+        assert found.largest_high[0] == pytest.approx(together.largest_high[place], rel=1e-4, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_modes_left_out_are_within_the_bars(name: str) -> None:
+    """The third mode is the fastest: with and without it."""
+    course, gains = COURSES[name], GAINS[:3]
+    whole = gains.sum(axis=0)
+    three = mode_sum(Modes(W[:3], ZETA[:3], gains, whole, np.zeros(3)), course, 3.0)
+    two = mode_sum(Modes(W[:2], ZETA[:2], gains[:2], whole, np.abs(gains[2])), course, 3.0)
+    assert np.all(three.largest <= two.largest_high)
+    assert np.all(two.largest_low <= three.largest_high)
+    assert np.all(two.smallest_low <= three.smallest)
+    assert np.all(three.smallest_low <= two.smallest_high)
+    assert np.all(two.largest_high - two.largest_low >= 2 * np.abs(gains[2]) * kicks(course, 3.0)[0])
+
+
+def test_a_step_without_damping_is_twice_its_mean() -> None:
+    one = Modes(np.array([7.0]), np.zeros(1), np.array([[3.0]]), np.array([3.0]), np.zeros(1))
+    found = mode_sum(one, Course.step(), 40.0)
+    assert found.largest[0] == pytest.approx(6.0, rel=1e-9)
+    assert found.largest_high[0] == pytest.approx(6.0, rel=2e-2)
+    assert found.smallest[0] == 0.0
+    assert found.largest_time[0] % (2 * math.pi / 7) == pytest.approx(math.pi / 7, rel=1e-3)
+
+
+def test_a_step_ends_where_no_extreme_can_follow() -> None:
+    """A damped swing of a long window costs no more than its first waves."""
+    one = Modes(np.array([7.0]), np.array([0.1]), np.array([[3.0]]), np.array([3.0]), np.zeros(1))
+    long, short = mode_sum(one, Course.step(), 10_000.0), mode_sum(one, Course.step(), 1000.0)
+    assert long.largest[0] == pytest.approx(3 * (1 + math.exp(-0.1 * math.pi / math.sqrt(0.99))), rel=1e-2)
+    assert long.samples <= 2 * 1024
+    assert short.samples <= 2 * 1024
+
+
+def test_the_state_before_counts() -> None:
+    """An input that is always positive never brings the sum below 0 before it begins."""
+    one = Modes(np.array([7.0]), np.array([0.9]), np.array([[3.0]]), np.array([3.0]), np.zeros(1))
+    found = mode_sum(one, Course.straight(np.array([0.0, 5.0]), np.array([0.0, 1.0])), 5.0)
+    assert found.smallest[0] == 0.0
+    assert found.largest[0] == pytest.approx(3.0, rel=0.1)
+
+
+def test_kicks_are_jumps_and_changes_of_slope() -> None:
+    jumps, variation = kicks(COURSES["straight"], 3.0)
+    assert jumps == pytest.approx(0.0, abs=1e-12)
+    assert variation == pytest.approx(2.0 + 3.6 + 3.0 + 1.4)
+    assert kicks(COURSES["step"], 3.0) == (1.0, 0.0)
+
+
+def test_too_long_a_window_says_so() -> None:
+    one = Modes(np.array([1e6]), np.zeros(1), np.ones((1, 1)), np.ones(1), np.zeros(1))
+    with pytest.raises(NumericsError, match="samples"):
+        mode_sum(one, COURSES["straight"], 1e6)

@@ -1,0 +1,96 @@
+"""Sums of modes under passing teeth: engagements, kinks and groups, against DOP853 stopped at every edge."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics import tooth_passes as module
+from ptmcalc.numerics.tooth_passes import engagements, passes, tooth_passes
+
+W, ZETA = np.array([9.0, 31.0, 70.0]), np.array([0.02, 0.05, 1.4])
+GAINS = np.array([[1.0, 0.4], [0.3, -0.2], [0.1, 0.1]])
+SHARES = np.array([1.0, 0.5, -0.7])
+WINDOW = 4.0
+
+
+def pitches(t: np.ndarray) -> np.ndarray:
+    return np.asarray(0.4 * t + 0.9 * t**2)
+
+
+def place(times: np.ndarray, middles: np.ndarray) -> np.ndarray:
+    return np.asarray(pitches(times) - np.floor(pitches(middles))[:, None] - 0.5)
+
+
+def inputs(times: np.ndarray, middles: np.ndarray) -> np.ndarray:
+    """A saw with a jump at every whole pitch, differently strong in every mode."""
+    return np.asarray((-np.sin(place(times, middles)) * (1 + times))[:, :, None] * SHARES)
+
+
+def direct(times: np.ndarray, middles: np.ndarray) -> np.ndarray:
+    return np.asarray(np.stack([0.05 * times, np.zeros_like(times)], axis=-1))
+
+
+def edges() -> np.ndarray:
+    return passes(WINDOW, engagements(pitches, WINDOW, 0.0), np.array([1.7]))
+
+
+def by_dop853() -> np.ndarray:
+    """Both sums, densely."""
+    state, found, marks = np.zeros(6), [], edges()
+    for low, high in itertools.pairwise(marks.tolist()):
+        middle = np.array([(low + high) / 2])
+
+        def motion(t: float, y: np.ndarray, middle: np.ndarray = middle) -> np.ndarray:
+            a = inputs(np.array([[t]]), middle)[0, 0]
+            return np.concatenate([y[3:], -a - 2 * ZETA * W * y[3:] - W**2 * y[:3]])
+
+        times = np.linspace(low, high, 400)
+        run = solve_ivp(motion, (low, high), state, "DOP853", times, rtol=1e-11, atol=1e-13)
+        x = -(W[:, None] ** 2 * run.y[:3] + 2 * (ZETA * W)[:, None] * run.y[3:])
+        found.append(GAINS.T @ x + np.stack([0.05 * times, np.zeros_like(times)]))
+        state = run.y[:, -1]
+    return np.concatenate(found, axis=1)
+
+
+def test_engagements_are_where_the_way_is_whole() -> None:
+    times = engagements(pitches, WINDOW, 0.3)
+    assert pitches(times) + 0.3 == pytest.approx(np.arange(1, len(times) + 1), rel=1e-12)
+    assert len(times) == math.floor(0.4 * 4 + 0.9 * 16 + 0.3)
+
+
+def test_passes_end_at_engagements_kinks_and_window() -> None:
+    found = edges()
+    assert found[0] == 0
+    assert found[-1] == WINDOW
+    assert 1.7 in found
+    assert np.all(np.diff(found) > 0)
+    assert len(found) == len(engagements(pitches, WINDOW, 0.0)) + 2, "the last joint engages as the window ends"
+
+
+@pytest.mark.parametrize("group", [200_000, 500])
+def test_extremes_are_those_of_dop853(group: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the passes are grouped into."""
+    monkeypatch.setattr(module, "_GROUP", group)
+    found, expected = tooth_passes(edges(), inputs, W, ZETA, GAINS, direct), by_dop853()
+    for value, time, extreme in (
+        (found.largest, found.largest_time, expected.max(axis=1)),
+        (found.smallest, found.smallest_time, expected.min(axis=1)),
+    ):
+        assert np.all(np.abs(value - extreme) <= found.error + 1e-6)
+        assert value == pytest.approx(extreme, rel=1e-2)
+        assert np.all((time > 0) & (time <= WINDOW))
+    assert np.all(found.error < 0.06 * found.largest)
+
+
+def test_a_sum_never_rises_above_what_its_modes_followed() -> None:
+    found = tooth_passes(edges(), inputs, W, ZETA, GAINS)
+    assert np.all(found.largest <= np.abs(GAINS).T @ found.followed + 1e-12)
+
+
+def test_too_many_teeth_say_so() -> None:
+    with pytest.raises(NumericsError, match="tooth passes"):
+        engagements(lambda t: 1e9 * t, 10.0, 0.0)
