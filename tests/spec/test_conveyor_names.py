@@ -60,3 +60,13 @@ def test_all_bad_names_are_said_at_once() -> None:
     found = problems(text_with("brakes", "one", "a b", "a.b"))
     assert [problem.path for problem in found] == [("brakes", "a b"), ("brakes", "a.b")]
     assert len({problem.hint for problem in found}) == 2, "two names must not become one"
+
+
+def test_a_curve_that_no_motor_has_is_said_where_the_start_asks_for_it() -> None:
+    data = template()
+    data["scenes"] = [{"type": "start", "profile": {"shape": "curve"}}]
+    text = yaml.safe_dump(data, sort_keys=False)
+    problem = load_text(text.encode(), "case.yaml").diagnostics[0]
+    assert problem.path == ("scenes", 0, "profile", "shape")
+    assert problem.span is not None
+    assert "shape: curve" in text.splitlines()[problem.span.line - 1]

@@ -105,7 +105,7 @@ class Rig:
     # -- as a design file ------------------------------------------------------------------------------------
 
     def data(self, *scenes: dict[str, Any], **more: Any) -> dict[str, Any]:
-        """The design file of this machine."""
+        """The design file of this machine, without what the elements do not have: waves that go along with the belt."""
         takeup: dict[str, Any] = {"type": "rigid" if self.rigid else "gravity", "tension": f"{self.tension!r} N"}
         if self.weight is not None:
             takeup["mass"] = f"{self.weight!r} kg"
@@ -141,6 +141,7 @@ class Rig:
             "takeup": takeup,
             "tail_drum": {"inertia": f"{self.tail_inertia!r} kg*m^2", "diameter": f"{self.tail_diameter!r} m"},
             "scenes": list(scenes),
+            "effects": {"moving_belt": "off"},
             "gravity": f"{self.gravity!r} m/s^2",
         } | more
 

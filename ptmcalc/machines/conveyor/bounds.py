@@ -21,6 +21,7 @@ from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
 FloatArray = NDArray[np.float64]
 
 _X = np.linspace(0.0, 1.0, 129)
+_SAME = 1e-9
 _STRANDS = (RETURN, CARRY)
 
 
@@ -80,6 +81,14 @@ def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
         together=(on_together, off_together),
         belt_speed=case.line.speed + (0.0 if case.imposed_speed else over),
     )
+
+
+def largest_stray(case: StartCase) -> float:
+    """Largest stray of the tension from its quasi-static value anywhere [N]."""
+    slowest = loop_bounds.lowest_frequency_bound(case.masses)
+    factor = max(phase.stray for phase in case.phases(slowest))
+    most = max(float(loop_bounds.stray(case.masses, strand, _X).max()) for strand in _STRANDS)
+    return case.acceleration * most * factor
 
 
 def stray_ratio(case: StartCase) -> float:
@@ -174,22 +183,24 @@ def _at_drum(
         low = static  # driving point: every mode starts with the force, none pulls against it
         if case.shape == "step" and leak < 1:
             above = max(above, plateau)
-    above = min(max(above, static + _first_wave_reached(case)), high)
+    above = min(max(above, static + _first_wave_reached(case, softening)), high)
     return Range(Interval(above, high), Interval(low, max(below, low))), plateau - slack
 
 
-def _first_wave_reached(case: StartCase) -> float:
-    """Dynamic run-on tension that a torque step surely reaches before the first echo is back [N]."""
+def _first_wave_reached(case: StartCase, softening: float) -> float:
+    """Dynamic run-on tension that a torque step surely reaches before the first echo is back [N]; a belt that sags
+    resists it less, Z/sqrt(1 + f), and its echoes are later."""
     if case.shape != "step" or case.imposed_speed or case.damped:
         return 0.0
     line = case.line
     quiet = 2 * line.transit(CARRY)
-    against = line.impedance(CARRY)
+    slower = float(np.sqrt(1 + softening))
+    against = line.impedance(CARRY) / slower
     share = 1.0
     if line.fixed_length:
         quiet = min(quiet, 2 * line.transit(RETURN), line.contour_time)
         share = against / (against + line.impedance(RETURN))
-        against += line.impedance(RETURN)
+        against += line.impedance(RETURN) / slower
     reached = wave.first_wave_force(case.excess, against, line.drive_mass, min(quiet, case.window))
     return share * float(reached)
 
@@ -395,7 +406,7 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
         ends.append(line.breaking_force / (tension - change) if tension > change else np.inf)
         moved["belt_safety_min"] = _around(loads["belt_safety_min"].value, ends)
     if "sag_relative_max" in loads:
-        moved["sag_relative_max"] = _moved_sag(line, loads["sag_relative_max"].value, change)
+        moved["sag_relative_max"] = _moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
         moved |= _spread_slip(line, loads, change)
         used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
@@ -448,7 +459,7 @@ def moved(
         elif kind in GRIP:
             found[name] = _around(value, [value * grown, value / grown]) if np.isfinite(grown) else ANYTHING
         elif kind == "sag_relative_max":
-            found[name] = _moved_sag(line, value, change)
+            found[name] = _moved_sag(line, loads, change)
         elif kind in DRIVE and asked:
             found[name] = _moved_drive(loads, 2 * asked * change)[kind]
         elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
@@ -470,14 +481,19 @@ def _moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Inte
     return {"starting_force_needed": Interval(-change, change), "starting_reserve": _around(reserve, ends)}
 
 
-def _moved_sag(line: BeltLine, ratio: float, change: float) -> Interval:
-    spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span]
-    ends = [
-        float(sag.sag_ratio(span, sag.tension_at_sag(span, ratio) + part))
-        for span in spans
-        for part in (-change, change)
-    ]
-    return _around(ratio, ends)
+def _moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
+    """The largest sag is that of one strand at its lowest tension; the other one has no less tension than it takes for
+    as much sag, nor less than the lowest of all."""
+    ratio = loads["sag_relative_max"].value
+    lowest = loads["tension_min"].value if "tension_min" in loads else -np.inf
+    highs, lows = [], []
+    for span in (line.back.span_weight, line.carry.span_weight):
+        if span:
+            tension = float(sag.tension_at_sag(span, ratio))
+            highs.append(float(sag.sag_ratio(span, max(tension, lowest) - change)))
+            if tension >= lowest * (1 - _SAME):
+                lows.append(float(sag.sag_ratio(span, tension + change)))
+    return _around(ratio, [max(highs), min(lows, default=0.0)])
 
 
 def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:

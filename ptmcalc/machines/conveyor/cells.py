@@ -19,6 +19,7 @@ from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.march import place_at
 from ptmcalc.numerics.belt.station import Drum, Station, TakeUp
+from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
 _MOST_GRIP = 700.0
@@ -31,7 +32,7 @@ def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float
     first = 0
     spans = strand.span_weights if sags and strand.span_weights else (0.0,) * len(strand.masses)
     for last in range(1, len(strand.marks)):
-        if last < len(spans) and (strand.masses[last], spans[last]) == (strand.masses[first], spans[first]):
+        if last < len(spans) and all(parts[last] == parts[first] for parts in (strand.masses, strand.goes, spans)):
             continue
         part = slice(first, last + 1)
         marks, friction, climb = (np.array(values[part]) for values in (strand.marks, strand.friction, strand.climb))
@@ -44,6 +45,7 @@ def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float
                 speed_share / line.speed * (friction - friction[0]),
                 climb - climb[0],
                 spans[first],
+                strand.goes[first],
             )
         )
         first = last
@@ -52,13 +54,15 @@ def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float
 
 @dataclass(frozen=True, slots=True)
 class Set:
-    """A scene ready to march: cells, stations, tensions of the cells at the start [N], what the belt gives besides."""
+    """A scene ready to march: cells, stations, tensions of the cells at the start [N], what the belt gives besides, and
+    what it carries along."""
 
     course: Course
     head: Station
     tail: Station
     tension: FloatArray
     give: Give | None
+    travel: Travel | None
 
 
 def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
@@ -97,7 +101,8 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
         _shares(spec, "tail"),
     )
     give = Give(course, rubber, line.stiffness) if rubber or course.sag.any() else None
-    return Set(course, head, tail, tension, give)
+    travel = Travel(course, line.stiffness, line.speed) if "moving_belt" in carried else None
+    return Set(course, head, tail, tension, give, travel)
 
 
 def rubber_of(case: Moving, cells: int) -> Rubber | None:

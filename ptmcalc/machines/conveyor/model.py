@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import capstan, inertia, motor, start_profile, wave
+from ptmcalc.laws import capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.sections import Section
-from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Motor, Start, Stopping
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
 
 FloatArray = NDArray[np.float64]
 
@@ -34,6 +34,8 @@ class Strand:
     friction: tuple[float, ...]
     climb: tuple[float, ...]
     masses: tuple[float, ...]
+    goes: tuple[float, ...] = ()
+    """part of the mass that goes with the belt: idlers turn where they are"""
     span_weights: tuple[float, ...] = ()
     """weight of belt and load on one idler pitch, section by section [N]; nothing where a pitch is not given"""
 
@@ -176,7 +178,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
     def strand(carries: bool) -> Strand:
         uphill = 1 if carries else -1
         row, over = (spec.idlers.carry, "carry") if carries else (spec.idlers.back, "return")
-        marks, friction, climb, masses, spans = [0.0], [0.0], [0.0], [], []
+        marks, friction, climb, masses, goes, spans = [0.0], [0.0], [0.0], [], [], []
         for part, cosine, load in zip(parts[::uphill], cosines[::uphill], loads[::uphill], strict=True):
             on_it = spec.belt.mass + (load if carries else 0.0)
             pitch = (part.carry_pitch if carries else None) or row.pitch
@@ -187,6 +189,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
             friction.append(friction[-1] + (main + special) * part.length)
             climb.append(climb[-1] + uphill * on_it * g * part.lift)
             masses.append(on_it + idlers)
+            goes.append(on_it / (on_it + idlers))
             if pitch is not None:
                 spans.append(on_it * cosine * g * pitch)
         mean = sum(mass * part.length for mass, part in zip(masses, parts[::uphill], strict=True)) / marks[-1]
@@ -199,6 +202,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
             tuple(friction),
             tuple(climb),
             tuple(masses),
+            tuple(goes),
             tuple(spans) if known else (),
         )
 
@@ -232,15 +236,46 @@ SPEED_SHARE_THRESHOLD = 0.05
 
 
 def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
-    """Whether strands that are pure delays carry all of a start: nothing sticks or damps on the way, and no weight
-    swings."""
+    """Whether strands that are pure delays carry all of a start: nothing sticks, turns back or damps on the way, and no
+    weight swings."""
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
-    return is_plain(spec, scene) and scene.belt == "frozen" and spec.takeup.mass is None and steady and not damped
+    slides = scene.belt == "frozen" and not (spec.effects.get("coulomb_idlers") != "off" and thrown_back(spec, scene))
+    return is_plain(spec, scene) and slides and spec.takeup.mass is None and steady and not damped
+
+
+_SHARP = 0.75
+"""Rise of an imposed speed over the longest period of the belt's waves from which on none of the belt turns back."""
+
+
+def thrown_back(spec: Conveyor, scene: Start) -> bool:
+    """Whether an imposed speed rises so sharply that waves may turn some of the belt back.
+
+        t_rise w_1/(2 pi) < 0.75
+
+    **Range** one drive; a force never turns the belt back that it starts.
+    **Error** w_1 is a lower bound. A uniform loop turns back below 0.39 (ramp), 0.5 (cosine); of 600 random ones none
+    did above 0.57.
+    **Source** residual of a rise at the free end of a quarter-wave, 4/pi times that of an oscillator.
+    """
+    case = start_case(spec, scene)
+    if not case.imposed_speed:
+        return False
+    return case.rise_time * loop_bounds.lowest_frequency_bound(case.masses) < _SHARP * 2 * math.pi
 
 
 DAMPING_THRESHOLD = 0.001
 """Change of the slowest wave's complex frequency from which on damping is simulated; an engineering choice."""
+
+
+TRAVEL_THRESHOLD = 0.03
+"""Belt speed over that of its slowest wave from which on the running belt carries its waves along; theory of moving
+strings asks for no more."""
+
+
+def belt_travel(line: BeltLine) -> float:
+    """Speed of the belt over that of its slowest wave, v/c."""
+    return line.speed / wave.wave_speed(line.stiffness, max(*line.carry.masses, *line.back.masses))
 
 
 def damping_change(spec: Conveyor, line: BeltLine) -> float:
@@ -332,20 +367,9 @@ def drive_mass(drive: Drive) -> float:
 
 def drive_force(drive: Drive) -> float:
     """Mean starting force of all motors of a drive at the rim [N]."""
-    torque = mean_starting_torque(drive.motor)
+    torque = drive.motor.mean_torque
     count, ratio = drive.motor.count, drive.gear.ratio
     return motor.rim_force(count * torque, ratio, filled(drive.gear.efficiency), drive.drum.diameter / 2)
-
-
-def mean_starting_torque(one: Motor) -> float:
-    """Mean starting torque of one motor [N*m]: as given, between its steps, or of its curve up to rated speed."""
-    if one.mean_starting_torque is not None:
-        return one.mean_starting_torque
-    if one.largest_starting_torque is not None:
-        return motor.mean_starting_torque(one.largest_starting_torque, filled(one.smallest_starting_torque))
-    assert one.curve is not None
-    top = one.speed or one.curve.no_load_speed or 1.0
-    return float(np.mean(one.curve.torque(np.linspace(0.0, top, 401), np.inf)))
 
 
 def starting_force(spec: Conveyor) -> float:
@@ -459,47 +483,14 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
     else:
         acceleration = held = window = 0.0
         if available > line.static_resistance:
-            held = _held(profile.rise, rise_time, line.static_resistance / available)
-            window = _time_to_speed(line, profile.rise, rise_time, available, held, masses.total_mass)
+            rise, resistance = profile.rise, line.static_resistance
+            held = float(start_profile.time_of_share(rise, rise_time, resistance / available))
+            needed = masses.total_mass * line.speed
+            window = float(start_profile.time_to_momentum(rise, rise_time, available, resistance, held, needed))
             reached = available * float(start_profile.rise(profile.rise, rise_time, held + window))
             acceleration = (reached - line.static_resistance) / masses.total_mass
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
     return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
-
-
-def _held(shape: start_profile.Shape, rise_time: float, share: float) -> float:
-    """Time until a rising force reaches a share of its plateau."""
-    if shape == start_profile.STEP or share <= 0:
-        return 0.0
-    if isinstance(shape, tuple):
-        shares, factors = zip(*shape, strict=True)
-        above = next(k for k, factor in enumerate(factors) if factor >= share)
-        if not above:
-            return 0.0
-        part = (share - factors[above - 1]) / (factors[above] - factors[above - 1])
-        return rise_time * float(shares[above - 1] + part * (shares[above] - shares[above - 1]))
-    if shape == start_profile.PARABOLIC:
-        return rise_time * (math.sqrt(share / 2) if share < 0.5 else 1 - math.sqrt((1 - share) / 2))
-    return rise_time * (share if shape == start_profile.RAMP else math.acos(1 - 2 * share) / math.pi)
-
-
-def _time_to_speed(
-    line: BeltLine, shape: start_profile.Shape, rise_time: float, available: float, held: float, mass: float
-) -> float:
-    """Time after release at which the rigid body reaches the rated speed, by bisection on its momentum."""
-    needed = mass * line.speed
-    w = line.static_resistance
-
-    def momentum(time: float) -> float:
-        both = start_profile.rise_integral(shape, rise_time, np.array([held + time, held]))
-        return available * float(both[0] - both[1]) - w * time
-
-    low, high = 0.0, rise_time + needed / (available - w)
-    if shape == start_profile.STEP:
-        return high
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if momentum(middle) < needed else (low, middle)
-    return high
 
 
 def start_duration(case: StartCase) -> float:

@@ -1,30 +1,24 @@
 """How a designer writes a belt conveyor."""
 
-import itertools
 from collections.abc import Iterator, Sequence
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import AnyMotor
-from ptmcalc.laws import start_profile
+from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.start import Profile
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.belt_data import Belt, Idlers, Load, Transitions
 from ptmcalc.machines.conveyor.resisting import RatioFromOne, Resistance
 from ptmcalc.machines.conveyor.sections import Route
 from ptmcalc.spec.fields import (
-    Efficiency,
     Fraction,
     Inertia,
-    Measure,
     PositiveAcceleration,
     PositiveAngle,
-    PositiveAngularSpeed,
     PositiveEnergy,
     PositiveForce,
-    PositiveInertia,
     PositiveLength,
     PositiveMass,
     PositiveRatio,
@@ -34,63 +28,9 @@ from ptmcalc.spec.fields import (
     PositiveTorque,
     Time,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, names_of_parts, together
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
-
-PositiveFrequency = Annotated[float, Measure(units.FREQUENCY, above=0)]
-
-
-class Motor(Fragment):
-    """The drive motors, one of several equal ones."""
-
-    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
-    """number of equal motors on the drive drum"""
-    inertia: PositiveInertia
-    """rotor of one motor"""
-    speed: PositiveAngularSpeed | None = None
-    """rated speed; compared with belt speed, ratio and drum"""
-    mean_starting_torque: PositiveTorque | None = None
-    """mean starting torque of one motor, or give the largest and the smallest"""
-    largest_starting_torque: PositiveTorque | None = None
-    """torque after each step of a rheostat start, one motor"""
-    smallest_starting_torque: PositiveTorque | None = None
-    """torque before each step of a rheostat start, one motor"""
-    curve: AnyMotor | None = None
-    """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
-    start_heat: PositiveEnergy | None = None
-    """heat the rotor of one motor may take up in one start, from its data sheet; with it the start is checked"""
-    no_load_speed: PositiveAngularSpeed | None = None
-    """speed without load, of an induction motor the synchronous one; that of the `curve` when it is left out"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The starting torque is a mean one, or swings between a largest and a smallest."""
-        rated, most = given.number("speed"), given.number("no_load_speed")
-        if rated is not None and most is not None and most < rated:
-            yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")
-        mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
-        if largest not in given and smallest not in given:
-            if "curve" not in given:
-                yield from exactly_one(given, mean, largest)
-        elif mean in given:
-            for key in (largest, smallest):
-                yield from at_most_one(given, mean, key)
-        else:
-            yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
-            yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
-            high, low = given.number(largest), given.number(smallest)
-            if high is not None and low is not None and low > high:
-                yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
-
-
-class Gear(Fragment):
-    """The gear between motor and drum."""
-
-    ratio: PositiveRatio
-    """motor speed over drum speed"""
-    efficiency: Efficiency | None = None
-    """from motor to drum; 0.94 is assumed when it is left out"""
 
 
 class DriveDrum(Fragment):
@@ -226,101 +166,6 @@ class ConveyorChecks(CheckSettings):
     """how far the `ripple` of a drive has to stay from the natural frequencies of the belt"""
     slip_heat: PositiveEnergy | None = None
     """largest heat a drum may burn off by slip in one scene"""
-
-
-class ProfilePoint(Fragment):
-    """One point of a start profile."""
-
-    time: Time
-    """from switching on"""
-    share: Fraction
-    """of the rated speed, or of the mean starting torque"""
-
-
-class Profile(Fragment):
-    """How the drive comes up."""
-
-    shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
-    `curve` as the motors' torque over their speed"""
-    time: PositiveTime | None = None
-    """duration of the rise"""
-    points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
-    """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
-    control: Literal["torque", "speed"] | None = None
-    """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
-    ripple: PositiveFrequency | None = None
-    """frequency at which the control of the drive pulsates; it is kept away from those of the belt"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """A step is at once and of torque; a table has its points; anything else takes its time."""
-        shape = given.word("shape")
-        if shape in ("step", "curve", "table") and "time" in given:
-            hint = (
-                "delete `time`: the last point has it" if shape == "table" else "delete `time`, or write `shape: ramp`"
-            )
-            yield Conflict(("time",), f"a `{shape}` has no `time`", hint)
-        if shape in ("step", "curve"):
-            if given.word("control") == "speed":
-                reason = "a step of speed needs an infinite force"
-                if shape == "curve":
-                    reason = "a motor's curve is of torque"
-                yield Conflict(("control",), reason, "write `shape: ramp` and a `time`")
-        elif shape == "table":
-            yield from _faulty_points(given)
-        elif shape is not None and "time" not in given:
-            yield given.missing("time", f"a `{shape}` needs its `time`")
-        if shape not in ("table", None) and "points" in given:
-            yield Conflict(("points",), f"a `{shape}` has no `points`", "write `shape: table`")
-
-    @property
-    def imposes_speed(self) -> bool:
-        """Whether the speed follows the profile, not the torque."""
-        return self.shape not in ("step", "curve") and self.control != "torque"
-
-    @property
-    def rise(self) -> start_profile.Shape:
-        """How the mean starting torque or the speed rises; on a motor's curve it is there at once."""
-        if self.points is not None:
-            return tuple((point.time / self.rise_time, point.share) for point in self.points)
-        return "step" if self.shape == "curve" else self.shape
-
-    @property
-    def rise_time(self) -> float:
-        """Duration of the rise [s], 0 where it is at once."""
-        return self.points[-1].time if self.points is not None else self.time or 0.0
-
-    @property
-    def time_key(self) -> str:
-        """The key that says how long the rise takes; empty where it is at once."""
-        return "points" if self.points is not None else "time" if self.time is not None else ""
-
-
-def _faulty_points(given: Given) -> Iterator[Conflict]:
-    """A table starts at 0, and rises to 1: of speed from 0."""
-    if "points" not in given:
-        hint = "add `points: [{time: 0 s, share: 0}, {time: 10 s, share: 1}]`"
-        yield Conflict((), "a `table` needs its `points`", hint)
-        return
-    points = given.blocks("points")
-    times = [point.number("time") if point else None for point in points]
-    shares = [point.number("share") if point else None for point in points]
-    if times and times[0]:
-        yield Conflict(("points", 0, "time"), "a table begins at time 0", "write `time: 0 s`")
-    for index, (one, other) in enumerate(itertools.pairwise(times), 1):
-        if one is not None and other is not None and other <= one:
-            reason = "the time is not after that of the point before"
-            yield Conflict(("points", index, "time"), reason, "sort the points by time, and give each time once")
-    for index, (one, other) in enumerate(itertools.pairwise(shares), 1):
-        if one is not None and other is not None and other < one:
-            yield Conflict(("points", index, "share"), "the share falls", "a start profile only rises: sort the shares")
-    if shares and shares[0] and given.word("control") != "torque":
-        reason = "the speed of a belt at rest is 0, and it does not jump"
-        yield Conflict(("points", 0, "share"), reason, "write `share: 0`, or `control: torque`")
-    if len(points) > 1 and shares[-1] is not None and shares[-1] != 1:
-        reason = "a table ends at 1, the whole of the speed or of the mean starting torque"
-        yield Conflict(("points", len(points) - 1, "share"), reason, "write `share: 1`")
 
 
 class ConveyorScene(Scene):
@@ -550,7 +395,7 @@ def _without_curves(given: Given) -> Iterator[Conflict]:
         if isinstance(profile, dict) and profile.get("shape") == "curve":
             reason = "a motor has no `curve` to follow"
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
-            yield Conflict(("scenes", index, "profile", "shape"), reason, hint)
+            yield Conflict(("scenes", index, "start", "profile", "shape"), reason, hint)
 
 
 def _without_spacing(given: Given) -> Iterator[Conflict]:

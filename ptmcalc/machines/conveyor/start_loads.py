@@ -7,6 +7,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.drive import Motor
 from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import belt_modes, loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -15,7 +16,7 @@ from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.loads import FREQUENCIES
 from ptmcalc.machines.conveyor.model import FloatArray, StartCase, start_case
 from ptmcalc.machines.conveyor.moving import Moving, moving
-from ptmcalc.machines.conveyor.spec import Conveyor, Motor, PlacedDrive, Start
+from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
 
 START_LOADS = (
     LoadInfo("motor_start_heat", "heat of a rotor in the start", units.ENERGY, headline=False),

@@ -22,6 +22,8 @@ from ptmcalc.machines.conveyor.solvers import characteristics
 SPECS = Path(__file__).parents[3] / "specs"
 KIND = load_kind("conveyor")
 ONE_START = changed(template(), scenes=[{"type": "start"}])
+SLOW = {"moving_belt": "off"}
+"""what is far slower than its waves, for verdicts that another effect is to change"""
 HEAVY_TAIL = changed(ONE_START, tail_drum__inertia="900 kg*m^2", accuracy="2 %")
 WEAK_GRIP = changed(ONE_START, takeup={"type": "rigid", "tension": "30 kN"}, checks={"belt_safety_starting": 10})
 STIFF_AND_LOOSE = changed(
@@ -34,6 +36,7 @@ STIFF_AND_LOOSE = changed(
     scenes=[{"type": "start", "profile": {"shape": "cosine", "time": "4 s"}}],
     accuracy="1 %",
     checks={"slack_sag": "1.01 %"},
+    effects=SLOW,
 )
 RELAXED = changed(
     template(),
@@ -41,7 +44,7 @@ RELAXED = changed(
     effects={"sag": "off"},
     checks={"belt_safety_starting": 9},
 )
-SWINGING_WEIGHT = changed(ONE_START, takeup__mass="8.2 t", effects={"sag": "off"})
+SWINGING_WEIGHT = changed(ONE_START, takeup__mass="8.2 t", effects={"sag": "off"} | SLOW)
 FASTER_RUN_OUT = changed(
     template(),
     scenes=[{"type": "stop"}],
@@ -57,6 +60,15 @@ STIFFER_WHEN_PULLED = changed(
     effects={"sag": "off"},
     checks={"belt_safety_starting": 3.95},
 )
+SOFT_AND_FAST = changed(
+    template(),
+    belt__modulus="1500 N/mm",
+    speed="6 m/s",
+    takeup={"type": "rigid", "tension": "60 kN"},
+    scenes=[{"type": "start", "profile": {"shape": "cosine", "time": "4.5 s"}}],
+    effects={"sag": "off"},
+    checks={"belt_safety_starting": 7.08},
+)
 CHANGED_VERDICTS = [
     ("belt_wave", changed(ONE_START, checks={"slip": {"reserve": 1.35}}), "CNV101"),
     ("tail_jump", changed(ONE_START, checks={"slip": {"reserve": 1.28}}), "CNV101"),
@@ -66,6 +78,7 @@ CHANGED_VERDICTS = [
     ("coulomb_idlers", RELAXED, "CNV102"),
     ("takeup_mass", SWINGING_WEIGHT, "CNV101"),
     ("viscous_idlers", FASTER_RUN_OUT, "CNV106"),
+    ("moving_belt", SOFT_AND_FAST, "CNV102"),
     ("belt_damping", STIFFER_WHEN_PULLED, "CNV102"),
 ]
 
@@ -143,7 +156,7 @@ def test_forcing_the_waves_on_in_the_short_belt_changes_no_verdict_and_stays_ins
 def test_jump_tail_mass_and_slip_make_one_run_whose_loads_are_no_sum_of_single_runs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    data = changed(HEAVY_TAIL, effects={"sag": "off"}, takeup__tension="26 kN", accuracy=None)
+    data = changed(HEAVY_TAIL, effects={"sag": "off"} | SLOW, takeup__tension="26 kN", accuracy=None)
     carried: list[tuple[bool, bool]] = []
     march = characteristics.strand.march
 
@@ -160,7 +173,7 @@ def test_jump_tail_mass_and_slip_make_one_run_whose_loads_are_no_sum_of_single_r
 
     def peak(*wanted: str) -> float:
         off = {name: "off" for name in ("tail_jump", "tail_mass", "slip") if name not in wanted}
-        report = report_of(changed(data, effects={"sag": "off", "belt_wave": "on"} | off))
+        report = report_of(changed(data, effects={"sag": "off", "belt_wave": "on"} | SLOW | off))
         return load_of(scene_of(report), "tension_run_on_max").estimate.value
 
     plain, together = peak(), settled.estimates["tension_run_on_max"]

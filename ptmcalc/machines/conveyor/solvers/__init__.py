@@ -2,7 +2,7 @@
 
 from ptmcalc.machines.conveyor.solvers.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.solvers.first_wave import FIRST_WAVE
-from ptmcalc.machines.conveyor.solvers.network import NETWORK
+from ptmcalc.machines.conveyor.solvers.network import NETWORK, RUNNING_NETWORK
 from ptmcalc.machines.conveyor.solvers.rigid import RIGID
 from ptmcalc.machines.conveyor.solvers.standing import BRAKING, HOLDING, IDENTIFY, RIGID_STOP
 from ptmcalc.machines.conveyor.solvers.statics import STATICS
@@ -21,4 +21,5 @@ SOLVERS = (
     TWO_INTERVAL,
     CHARACTERISTICS,
     NETWORK,
+    RUNNING_NETWORK,
 )

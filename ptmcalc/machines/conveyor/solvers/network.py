@@ -25,7 +25,7 @@ from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, delay_lines_do, starting_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_travel, delay_lines_do, starting_force
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
@@ -50,6 +50,8 @@ _SHARING = frozenset(
     }
 )
 """Tensions, which are sums of the same waves."""
+_WORTH = 0.015
+"""Belt speed over that of its slowest wave from which on a plain start is worth simulating in cells."""
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
 """For a step, and for a cell of it, with and without sag or damping."""
 
@@ -172,7 +174,8 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tup
     for _ in range(_LONGER):
         ready = set_up(case, carried, cells)
         still = _still(case)
-        drawn = march(ready.course, ready.head, ready.tail, ready.tension, case.speed, case.window, still, ready.give)
+        parts = ready.course, ready.head, ready.tail, ready.tension
+        drawn = march(*parts, case.speed, case.window, still, ready.give, ready.travel)
         work += drawn.updates
         rests = case.brings_to_rest and math.isfinite(case.rigid_time)
         if not (whole and rests) or any(seen.belt <= 0 for seen in drawn.head):
@@ -231,7 +234,7 @@ def _loads(case: Moving, drawn: Drawn, ready: Set) -> Values:
         values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
         values["slip_reserve_min"] = min(left, key=lambda one: one[0])
     if not line.fixed_length:
-        apart = belt - np.array([seen.behind for seen in head])
+        apart = belt - np.array([seen.behind - seen.creep for seen in head])
         way = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
         values["takeup_movement"] = float(way.max() - way.min()), {}
     if case.brings_to_rest:
@@ -469,8 +472,35 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     **Source** the belt moves when the drives' force exceeds the static resistance; `solvers.characteristics` is exact
     between drum and tail where a start is plain.
     """
-    if isinstance(scene, Start) and delay_lines_do(spec, scene):
+    if _plain(spec, scene):
         return Criterion("plain", 1.0, 1.0, "a plain start, which the delay lines carry", "solvers.characteristics")
+    return _simulable(spec, scene)
+
+
+def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+    """The same for a plain start, of which only what the running belt carries along is left to the cells.
+
+        v/c, belt speed over that of its slowest wave, read from the other side: below 0.015 the bound of that effect is
+        narrower than the bars of the cells;   1 for anything but a plain start;   else as `valid`
+
+    **Range** any scene in motion.
+    **Error** exact; the limit of 0.015 is an engineering choice, and none for a file that asks for `moving_belt: on`.
+    **Source** as `valid`.
+    """
+    if not _plain(spec, scene):
+        return Criterion("plain", 1.0, 1.0, "no plain start: the network carries it", "solvers.network")
+    speed = belt_travel(belt_line(spec, scene))
+    if speed < _WORTH and spec.effects.get("moving_belt") != "on":
+        meaning = "what the belt carries along is bounded closer than the cells know it"
+        return Criterion("0.015 c/v", _WORTH / speed, 1.0, meaning, "effects.travel_bound")
+    return _simulable(spec, scene)
+
+
+def _plain(spec: Conveyor, scene: ConveyorScene) -> bool:
+    return isinstance(scene, Start) and delay_lines_do(spec, scene)
+
+
+def _simulable(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     case = moving(spec, scene)
     if isinstance(scene, Start) and case.imposed is None and case.window <= 0:
         return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
@@ -500,6 +530,7 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
             "takeup_mass",
             "viscous_idlers",
             "belt_damping",
+            "moving_belt",
         }
     ),
     gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
@@ -509,4 +540,12 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     valid=valid,
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
     levels=3,
+)
+
+RUNNING_NETWORK: Solver[Conveyor, ConveyorScene] = replace(
+    NETWORK,
+    name="running_network",
+    title="the whole belt in cells, in a plain start: what the running belt carries along",
+    always=NETWORK.always | {"moving_belt"},
+    valid=valid_running,
 )

@@ -1,0 +1,82 @@
+"""The motors of a continuous drive, and the gear between them and the drive shaft."""
+
+from collections.abc import Iterator
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from ptmcalc.components.motor import AnyMotor
+from ptmcalc.laws import motor
+from ptmcalc.spec.fields import (
+    Efficiency,
+    PositiveAngularSpeed,
+    PositiveEnergy,
+    PositiveInertia,
+    PositiveRatio,
+    PositiveTorque,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+
+
+class Motor(Fragment):
+    """The drive motors, one of several equal ones."""
+
+    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    """number of equal motors on the drive shaft"""
+    inertia: PositiveInertia
+    """rotor of one motor"""
+    speed: PositiveAngularSpeed | None = None
+    """rated speed; compared with the speed of the machine, ratio and drum or sprocket"""
+    mean_starting_torque: PositiveTorque | None = None
+    """mean starting torque of one motor, or give the largest and the smallest"""
+    largest_starting_torque: PositiveTorque | None = None
+    """torque after each step of a rheostat start, one motor"""
+    smallest_starting_torque: PositiveTorque | None = None
+    """torque before each step of a rheostat start, one motor"""
+    curve: AnyMotor | None = None
+    """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
+    start_heat: PositiveEnergy | None = None
+    """heat the rotor of one motor may take up in one start, from its data sheet; with it the start is checked"""
+    no_load_speed: PositiveAngularSpeed | None = None
+    """speed without load, of an induction motor the synchronous one; that of the `curve` when it is left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The starting torque is a mean one, or swings between a largest and a smallest."""
+        rated, most = given.number("speed"), given.number("no_load_speed")
+        if rated is not None and most is not None and most < rated:
+            yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")
+        mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
+        if largest not in given and smallest not in given:
+            if "curve" not in given:
+                yield from exactly_one(given, mean, largest)
+        elif mean in given:
+            for key in (largest, smallest):
+                yield from at_most_one(given, mean, key)
+        else:
+            yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
+            yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+            high, low = given.number(largest), given.number(smallest)
+            if high is not None and low is not None and low > high:
+                yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
+
+    @property
+    def mean_torque(self) -> float:
+        """Mean starting torque of one motor [N*m]: as given, between its steps, or of its curve up to rated speed."""
+        if self.mean_starting_torque is not None:
+            return self.mean_starting_torque
+        if self.largest_starting_torque is not None and self.smallest_starting_torque is not None:
+            return motor.mean_starting_torque(self.largest_starting_torque, self.smallest_starting_torque)
+        assert self.curve is not None
+        top = self.speed or self.curve.no_load_speed or 1.0
+        return float(np.mean(self.curve.torque(np.linspace(0.0, top, 401), np.inf)))
+
+
+class Gear(Fragment):
+    """The gear between motor and drive shaft."""
+
+    ratio: PositiveRatio
+    """motor speed over that of the drive shaft"""
+    efficiency: Efficiency | None = None
+    """from motor to drive shaft; 0.94 is assumed when it is left out"""
