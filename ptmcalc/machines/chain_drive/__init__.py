@@ -1,0 +1,91 @@
+"""Chain drive: a chain conveyor, or two shafts with a chain between them."""
+
+from collections.abc import Iterator
+from importlib import resources
+
+from ptmcalc.base import units
+from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.result import Finding
+from ptmcalc.laws import chain_selection
+from ptmcalc.machines.chain_drive.assumptions import assumptions
+from ptmcalc.machines.chain_drive.checks import CHECKS
+from ptmcalc.machines.chain_drive.checks_motion import CHECKS_OF_MOTION
+from ptmcalc.machines.chain_drive.effects import EFFECTS
+from ptmcalc.machines.chain_drive.effects_motion import EFFECTS_OF_MOTION
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.loads import LOADS, parts
+from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.solvers import SOLVERS
+from ptmcalc.machines.chain_drive.spec import ChainDrive
+
+_SPEED_TOLERANCE = 0.05
+_WEIGHT_TOLERANCE = 0.05
+_PITCHES_TOLERANCE = 1.0
+
+
+def inspect(spec: ChainDrive) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    if spec.drive is not None and spec.drive.motor.speed is not None:
+        chain = spec.drive.motor.speed / spec.drive.gear.ratio * mean_arm(spec)
+        if abs(chain / spec.speed - 1) > _SPEED_TOLERANCE:
+            yield Finding(
+                "SPC201",
+                f"motor speed, gear ratio and sprocket move the chain at {units.show(chain, units.SPEED)}, it is said"
+                f" to run at {units.show(spec.speed, units.SPEED)}",
+                ("speed",),
+                "correct the speed, the ratio or the teeth",
+            )
+    if spec.operating is not None and not spec.operating.lowest <= spec.speed <= spec.operating.highest:
+        yield Finding(
+            "SPC201",
+            "the speed lies outside the range the drive is said to be run at",
+            ("operating",),
+            "correct the range or the speed",
+        )
+    if isinstance(spec.layout, ConveyorLayout):
+        yield from _of_a_conveyor(spec, spec.layout)
+    else:
+        yield from _of_two_shafts(spec, spec.layout)
+
+
+def _of_a_conveyor(spec: ChainDrive, layout: ConveyorLayout) -> Iterator[Finding]:
+    takeup = layout.takeup
+    pull = takeup.mass * spec.gravity / 2 if takeup.mass is not None else takeup.tension
+    if abs(pull / takeup.tension - 1) > _WEIGHT_TOLERANCE:
+        yield Finding(
+            "SPC201",
+            f"a take-up weight on two falls pulls with half of it, {units.show(pull, units.FORCE)}; the tension is"
+            f" {units.show(takeup.tension, units.FORCE)}",
+            ("layout", "takeup", "mass"),
+            f"write `mass: {units.show(2 * takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
+        )
+
+
+def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
+    if layout.pitches is None or layout.centre_distance is None:
+        return
+    exact = chain_selection.chain_pitches(
+        layout.centre_distance, spec.chain.pitch, spec.sprocket.teeth, layout.driven.teeth
+    )
+    if abs(exact - layout.pitches) > _PITCHES_TOLERANCE:
+        yield Finding(
+            "SPC201",
+            f"shafts {units.show(layout.centre_distance, units.LENGTH)} apart take {exact:.1f} pitches of chain",
+            ("layout", "pitches"),
+            f"write `pitches: {chain_selection.even_pitches(exact)}`, or correct the distance",
+        )
+
+
+KIND = MachineKind(
+    name="chain_drive",
+    title="chain conveyor or chain drive: polygon effect, resonance, safety, life, start",
+    spec=ChainDrive,
+    loads=LOADS,
+    effects=(*EFFECTS, *EFFECTS_OF_MOTION),
+    solvers=SOLVERS,
+    checks=(*CHECKS, *CHECKS_OF_MOTION),
+    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    assumed=assumptions,
+    parts=parts,
+    inspect=inspect,
+)

@@ -1,0 +1,114 @@
+"""What is filled in where a design file leaves it out, and how wrong that may be."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Interval
+from ptmcalc.contract.machine import Assumption
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Hold, Start, Stopping
+from ptmcalc.numerics.harmonic.parts import ZENER
+
+_STEEL = 2.06e11
+
+
+def _needs_modulus(spec: ChainDrive) -> float | None:
+    return 0.65 * _STEEL if spec.chain.stiffness is None else None
+
+
+def _needs_ratio(spec: ChainDrive) -> float | None:
+    damping = spec.chain.damping
+    return 0.05 if damping.law != ZENER and damping.time is None else None
+
+
+def _has(spec: ChainDrive, *types: type[ChainScene]) -> bool:
+    return any(isinstance(scene, types) for scene in spec.all_scenes)
+
+
+_OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
+    Assumption(
+        ("chain", "modulus"),
+        units.STRESS,
+        _needs_modulus,
+        lambda spec: Interval(0.5 * _STEEL, 0.8 * _STEEL),
+        "play of joints and bushes leaves 0.5 to 0.8 of steel's modulus on the section of the plates; measure it",
+    ),
+    Assumption(
+        ("chain", "damping", "ratio"),
+        units.RATIO,
+        _needs_ratio,
+        lambda spec: Interval(0.03, 0.08),
+        "chains of conveyors: 0.03 to 0.08 of critical in the first mode; measure it",
+    ),
+    Assumption(
+        ("chain", "unevenness"),
+        units.RATIO,
+        lambda spec: 1.2 if spec.chain.count > 1 else None,
+        lambda spec: Interval(1.1, 1.25),
+        "parallel chains share unevenly by 1.1 to 1.25",
+    ),
+)
+
+_OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
+    Assumption(
+        ("layout", "resistance", "turn_factor"),
+        units.RATIO,
+        lambda spec: 1.1,
+        lambda spec: Interval(1.05, 1.2),
+        "turns round two sprockets take 5 to 20 % of the resistances",
+    ),
+    Assumption(
+        ("layout", "resistance", "start_factor"),
+        units.RATIO,
+        lambda spec: 1.2 if _has(spec, Start) else None,
+        lambda spec: Interval(1.0, 1.5),
+        "common practice: 1.2 to 1.5 times the running resistance",
+    ),
+    Assumption(
+        ("layout", "resistance", "stop_factor"),
+        units.RATIO,
+        lambda spec: 0.8 if _has(spec, Stopping, Hold) else None,
+        lambda spec: Interval(0.6, 1.0),
+        "running and warm, a chain resists by 0.6 to 1 of its design resistance",
+    ),
+)
+
+_OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
+    Assumption(
+        ("layout", "service_factor"),
+        units.RATIO,
+        lambda spec: 1.4,
+        lambda spec: Interval(1.0, 2.1),
+        "ISO 10823: 1 for smooth to 2.1 for heavily shocked machines",
+    ),
+)
+
+
+def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
+    """What is assumed of the chain, of where it runs, of its drive and of its wear."""
+    yield from _OF_THE_CHAIN
+    yield from _OF_A_CONVEYOR if isinstance(spec.layout, ConveyorLayout) else _OF_TWO_SHAFTS
+    if spec.drive is not None:
+        rotor, ratio = spec.drive.motor.inertia, spec.drive.gear.ratio
+        yield Assumption(
+            ("drive", "gear", "efficiency"),
+            units.RATIO,
+            lambda spec: 0.94,
+            lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.90, 0.97),
+            "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+        )
+        yield Assumption(
+            ("drive", "coupling_inertia"),
+            units.INERTIA,
+            lambda spec: 0.15 * rotor,
+            lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
+            "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        )
+    if spec.wear is not None:
+        yield Assumption(
+            ("wear", "elongation"),
+            units.RATIO,
+            lambda spec: 0.04,
+            lambda spec: Interval(0.03, 0.06),
+            "3 to 6 % by the type of chain and sprocket (lecture notes, Kramatorsk 2007)",
+        )

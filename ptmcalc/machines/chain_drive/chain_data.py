@@ -1,0 +1,228 @@
+"""The chain, its sprockets and its wear, as a designer writes them."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.laws import sprocket
+from ptmcalc.numerics.harmonic.parts import HYSTERETIC, KELVIN_VOIGT, ZENER
+from ptmcalc.spec.fields import (
+    Fraction,
+    Inertia,
+    Measure,
+    PositiveArea,
+    PositiveForce,
+    PositiveInertia,
+    PositiveLength,
+    PositiveLineMass,
+    PositivePressure,
+    PositiveRatio,
+    PositiveStress,
+    PositiveTime,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+
+RatioFromOne = Annotated[float, Measure(units.FACTOR, at_least=1)]
+DampingRatio = Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)]
+PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
+PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
+
+LEAST_TEETH, MOST_TEETH = 4, 300
+_SAME_SIZE = 0.02
+
+
+class Damping(Fragment):
+    """How the chain damps its own vibration."""
+
+    law: Literal["kelvin_voigt", "hysteretic", "zener"] = "kelvin_voigt"
+    """`kelvin_voigt`: grows with the frequency; `hysteretic`: the same at all; `zener`: strongest at one"""
+    ratio: DampingRatio | None = None
+    """damping ratio of the first natural frequency; 0.05 is assumed when it is left out"""
+    time: PositiveTime | None = None
+    """retardation time (kelvin_voigt, instead of `ratio`) or relaxation time (zener)"""
+    stiffening: PositiveRatio | None = None
+    """zener: by what share a fast pull finds the chain stiffer than a slow one"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Every law has its own numbers."""
+        law = given.word("law")
+        if law == ZENER:
+            for key in ("time", "stiffening"):
+                if key not in given:
+                    yield given.missing(key, f"`zener` needs its `{key}`")
+            if "ratio" in given:
+                yield Conflict(("ratio",), "`zener` damps by `time` and `stiffening`", "delete `ratio`")
+            return
+        if "stiffening" in given:
+            yield Conflict(("stiffening",), "only `zener` stiffens", "delete `stiffening`, or write `law: zener`")
+        if law == KELVIN_VOIGT:
+            yield from at_most_one(given, "ratio", "time")
+        elif law == HYSTERETIC and "time" in given:
+            yield Conflict(("time",), "hysteretic damping has no time", "write `ratio: 0.05`")
+
+
+class ChainData(Fragment):
+    """The chain: all chains that run side by side are one strand."""
+
+    pitch: PositiveLength
+    """distance of the joints"""
+    mass: PositiveLineMass
+    """of one strand with its plates, flights or slats, without load"""
+    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    """chains side by side, or rows of a multiple roller chain, in a strand"""
+    unevenness: RatioFromOne | None = None
+    """share of the most loaded of several chains over an even one; 1.2 is assumed when left out, 1 for one chain"""
+    breaking_load: PositiveForce
+    """of one chain"""
+    stiffness: PositiveForce | None = None
+    """tensile stiffness EA of one chain (force over strain), or give `section`"""
+    section: PositiveArea | None = None
+    """of the plates of one chain at their narrowest; with `modulus` it gives the stiffness, and stresses follow"""
+    modulus: PositiveStress | None = None
+    """effective modulus of the built-up chain on `section`; 0.65 of steel's is assumed when it is left out"""
+    damping: Damping = Damping()
+    """its internal damping"""
+    pin_diameter: PositiveLength | None = None
+    """of the joints; needed for pressure and wear"""
+    bush_length: PositiveLength | None = None
+    """bearing length of a joint; needed for pressure"""
+    strength: PositiveStress | None = None
+    """tensile strength of the plates; counts the mean stress in the check of fatigue"""
+    fatigue_limit: PositiveStress | None = None
+    """stress amplitude the plates bear for the passes of the wanted life; needed to check fatigue"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The stiffness is given, or follows from the section."""
+        if "stiffness" not in given:
+            yield from exactly_one(given, "stiffness", "section")
+        yield from at_most_one(given, "stiffness", "modulus")
+        yield from together(given, "modulus", "section", "the modulus needs the section")
+
+
+class Sprocket(Fragment):
+    """A sprocket."""
+
+    teeth: Annotated[int, Field(strict=True)]
+    """number of teeth"""
+    diameter: PositiveLength | None = None
+    """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
+    inertia: Inertia | None = None
+    """on its own shaft, shaft and all; 0 when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A sprocket has enough teeth to be turned round by."""
+        yield from wrong_teeth(given)
+
+
+def wrong_teeth(given: Given) -> Iterator[Conflict]:
+    """Too few teeth to carry a chain round a shaft, or more than anybody cuts."""
+    teeth = given.raw.get("teeth")
+    number = int(teeth) if isinstance(teeth, str) and teeth.lstrip("-").isdigit() else teeth
+    if isinstance(number, bool) or not isinstance(number, int):
+        return
+    if number < LEAST_TEETH:
+        reason = (
+            f"{number} teeth do not make a sprocket: the chain would turn by {360 / max(number, 1):.0f} deg a tooth"
+        )
+        yield Conflict(("teeth",), reason, "write `teeth: 8`; traction chains run on 6 and more, roller chains on 17")
+    elif number > MOST_TEETH:
+        yield Conflict(("teeth",), f"no sprocket has {number} teeth", f"write at most `teeth: {MOST_TEETH}`")
+
+
+def teeth_of(given: Given) -> int | None:
+    """The teeth of a sprocket, where it has as many as a sprocket can have."""
+    teeth = given.raw.get("teeth")
+    sound = isinstance(teeth, int) and not isinstance(teeth, bool) and LEAST_TEETH <= teeth <= MOST_TEETH
+    return teeth if sound else None
+
+
+def wrong_size(given: Given, pitch: float | None, path: tuple[str, ...]) -> Iterator[Conflict]:
+    """A pitch diameter that the chain does not fit."""
+    diameter, teeth = given.number("diameter"), teeth_of(given)
+    if diameter is None or pitch is None:
+        return
+    where = (*path, "diameter")
+    if diameter <= pitch:
+        size, step = units.show(diameter, units.LENGTH), units.show(pitch, units.LENGTH)
+        reason = f"a pitch of {step} is no smaller than the sprocket itself, {size}"
+        yield Conflict(where, reason, "correct the pitch or the diameter")
+    elif teeth is not None:
+        fits = 2 * sprocket.pitch_radius(pitch, teeth)
+        if abs(diameter / fits - 1) > _SAME_SIZE:
+            right = units.show(fits, units.LENGTH)
+            reason = f"{teeth} teeth of this pitch have a pitch diameter of {right}, p/sin(180 deg/z)"
+            yield Conflict(where, reason, f"write `diameter: {right}`, or delete it; or correct the teeth")
+
+
+class TailSprocket(Fragment):
+    """The sprocket at the other end of a conveyor."""
+
+    teeth: Annotated[int, Field(strict=True)] | None = None
+    """number of teeth; those of the drive's when left out"""
+    diameter: PositiveLength | None = None
+    """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
+    inertia: Inertia | None = None
+    """on its own shaft, shaft and all; 0 when left out"""
+    driven: Literal["on", "off"] = "off"
+    """`on`: a drive of its own turns it evenly"""
+    phase: Fraction | None = None
+    """place in the pitch of the joints of a driven one, from those of the drive; the worst of all when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A sprocket has enough teeth; only a driven one has a phase."""
+        yield from wrong_teeth(given)
+        if "phase" in given and given.word("driven") != "on":
+            yield Conflict(("phase",), "only a driven tail has a phase of its own", "delete `phase`, or `driven: on`")
+
+
+class DrivenSprocket(Sprocket):
+    """The driven sprocket with the machine behind it."""
+
+    inertia: PositiveInertia
+    """of sprocket and driven machine, on this shaft"""
+    phase: Fraction | None = None
+    """place in the pitch of its joints, from those of the driver; the worst of all when left out"""
+
+
+class Archard(Fragment):
+    """Wear by pressure and sliding path."""
+
+    coefficient: PositiveWearDepth
+    """depth of wear over pressure and path, at the reference pressure"""
+    reference_pressure: PositivePressure
+    """of the test it comes from"""
+    exponent: Annotated[float, Measure(units.RATIO, at_least=1, at_most=4)] = 1.0
+    """of the pressure: 1 by Archard, 1.5 with scant and 3 with good lubrication by Reshetov"""
+
+
+class Wear(Fragment):
+    """Wear of the joints."""
+
+    coefficient: PositiveWearRate | None = None
+    """of the textbook: wear over force, time and path, from tests at the speed of the machine; or give `archard`"""
+    archard: Archard | None = None
+    """another model, by pressure and sliding path"""
+    tensions: Literal["sum", "mean"] = "sum"
+    """textbook: the tensions at run-on and run-off of a sprocket count by their `sum` or their `mean` (twice the
+    life)"""
+    elongation: PositiveRatio | None = None
+    """share of its length by which the chain may grow; 4 % is assumed when left out, 3 to 6 % is usual"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """One model at a time."""
+        yield from exactly_one(given, "coefficient", "archard")
+        if "archard" in given and "tensions" in given:
+            yield Conflict(("tensions",), "`archard` takes both tensions", "delete `tensions`")
+
+
+def even(pitches: float) -> int:
+    """The next even number [1]."""
+    return 2 * math.ceil(pitches / 2)

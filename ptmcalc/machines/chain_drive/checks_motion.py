@@ -1,0 +1,7 @@
+"""The checks of a chain that changes its speed."""
+
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.machines.chain_drive.checks_start import CHECKS_OF_STARTS
+from ptmcalc.machines.chain_drive.checks_stop import CHECKS_OF_STOPS
+
+CHECKS_OF_MOTION: tuple[AnyCheck, ...] = (*CHECKS_OF_STARTS, *CHECKS_OF_STOPS)

@@ -1,0 +1,183 @@
+"""Checks of a start: strong enough, quick enough, not too hard on the chain, no slack."""
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.starting import drive_of, start_case
+
+Loads = Mapping[str, Estimate]
+
+
+def torque_key(spec: ChainDrive) -> KeyPath:
+    """The key of the starting torque the file uses."""
+    motor = drive_of(spec).motor
+    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
+    return ("drive", "motor", next(key for key in keys if getattr(motor, key) is not None))
+
+
+def _torque_repair(spec: ChainDrive, scene: Start) -> KeyPath:
+    key = torque_key(spec)
+    return () if key[-1] == "curve" else key
+
+
+def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
+    """What makes a start quick or slow: the time of its profile, else the torque."""
+    if not scene.profile.imposes_speed or spec.scenes is None:
+        return torque_key(spec)
+    return ("scenes", list(spec.all_scenes).index(scene), "profile", scene.profile.time_key)
+
+
+def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
+    key = _profile_key(spec, scene)
+    return () if key[-1] in ("curve", "points") else key
+
+
+# -- strong enough --------------------------------------------------------------------------------------------------
+
+
+def _reserve_limit(spec: ChainDrive, scene: Start) -> Estimate:
+    """1: the drive moves the chain.
+
+    **Range** any start.
+    **Error** none.
+    **Source** Newton's law.
+    """
+    return Estimate.exact(1.0)
+
+
+WEAK: Check[ChainDrive, Start] = Check(
+    code="CHN120",
+    title="a drive too weak to start the chain",
+    scenes=frozenset({Start}),
+    loads=("starting_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_reserve_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: torque_key(spec),
+    repair=_torque_repair,
+    what="The mean starting force at the chain exceeds what resists at the start, or what an imposed speed asks for.",
+    why="A motor that does not move the chain burns, or trips its overload relay.",
+    formula="M i eta/R >= W_start                     torque\nM i eta/R >= W_start + (m + m_drive) a    speed",
+    source="Newton's law; resistance at the start 1.2 to 1.5 times that in motion by practice",
+)
+
+# -- quick enough ---------------------------------------------------------------------------------------------------
+
+
+def _time_limit(spec: ChainDrive, scene: Start) -> Estimate:
+    """Longest start of the file.
+
+    **Range** starts with a limit.
+    **Error** none: a chosen limit.
+    **Source** the motor's data sheet, or the plant's rules.
+    """
+    return Estimate.exact(spec.checks.start_time or math.inf)
+
+
+def _where_timed(spec: ChainDrive, scene: Start) -> Iterable[AnyCheck]:
+    """Where the file gives the limit."""
+    return (replace(SLOW, each=None),) if spec.checks.start_time is not None else ()
+
+
+SLOW: Check[ChainDrive, Start] = Check(
+    code="CHN121",
+    title="too slow a start of the chain",
+    scenes=frozenset({Start}),
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=_time_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _profile_key(spec, scene),
+    repair=_profile_repair,
+    each=_where_timed,
+    what="The rigid body reaches the speed of the file within the time it allows.",
+    why="A motor draws its starting current all that time, and heats up.",
+    formula="J_red w/(M - M_s) <= limit",
+    source="lecture notes Kramatorsk 2007; the motor's data sheet",
+)
+
+# -- strength -------------------------------------------------------------------------------------------------------
+
+
+def _safety_limit(spec: ChainDrive, scene: Start) -> Estimate:
+    """Breaking load over the largest tension of a start or a stop, of the file or 5.
+
+    **Range** starts and stops, which are rare against the passes of a tooth.
+    **Error** none: a chosen limit.
+    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    """
+    return Estimate.exact(spec.checks.safety_start)
+
+
+STRENGTH: Check[ChainDrive, Start] = Check(
+    code="CHN122",
+    title="too weak a chain for its start",
+    scenes=frozenset({Start}),
+    loads=("safety_start",),
+    sense=Sense.AT_LEAST,
+    limit=_safety_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _hard_start(spec, scene),
+    repair=lambda spec, scene: ("chain", "breaking_load"),
+    what="The largest tension at the run-on in the start leaves the breaking load its safety: static tension, the force"
+    " that accelerates the chain, the swing of an elastic chain, the centrifugal tension of full speed.",
+    why="A start of a full conveyor after a jam is the hardest pull of its life; a torque step pulls twice as hard as"
+    " the rigid body does.",
+    formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
+    source="makers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
+)
+
+
+_HARD = 2.0
+"""Starting force over the static resistance from which on the start is called hard; usual practice ends at 1.8."""
+
+
+def _hard_start(spec: ChainDrive, scene: Start) -> KeyPath:
+    """A motor far too strong, else the chain."""
+    case = start_case(spec, scene)
+    hard = case.available > _HARD * max(case.line.static_resistance, 0.0) and not case.imposed_speed
+    return torque_key(spec) if hard else ("chain", "breaking_load")
+
+
+# -- slack ----------------------------------------------------------------------------------------------------------
+
+
+def _slack_limit(spec: ChainDrive, scene: Start) -> Estimate:
+    """0: a chain never pushes.
+
+    **Range** any section of both strands.
+    **Error** none.
+    **Source** a chain has no stiffness against pressure.
+    """
+    return Estimate.exact(0.0)
+
+
+def _tension_key(spec: ChainDrive) -> KeyPath:
+    if isinstance(spec.layout, ConveyorLayout):
+        return ("layout", "takeup", "tension")
+    return ("layout", "slack_sag")
+
+
+SLACK: Check[ChainDrive, Start] = Check(
+    code="CHN123",
+    title="a strand that goes slack in the start",
+    scenes=frozenset({Start}),
+    loads=("tension_min",),
+    sense=Sense.AT_LEAST,
+    limit=_slack_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _tension_key(spec),
+    repair=lambda spec, scene: _tension_key(spec) if isinstance(spec.layout, ConveyorLayout) else (),
+    what="Every section of both strands keeps some tension at every moment of the start.",
+    why="A slack chain leaves its teeth, and snatches when it comes taut again.",
+    formula="min over sections and time of S >= 0",
+    source="a chain never pushes",
+)
+
+CHECKS_OF_STARTS: tuple[AnyCheck, ...] = (WEAK, SLOW, STRENGTH, SLACK)

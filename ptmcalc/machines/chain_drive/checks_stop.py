@@ -1,0 +1,252 @@
+"""Checks of a chain that stops or changes its speed: way, time, brake, slack, strength, what runs back."""
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.spec import (
+    ChainDrive,
+    ChainScene,
+    Coast,
+    EmergencyStop,
+    Hold,
+    SpeedRange,
+    Stop,
+    Stopping,
+)
+from ptmcalc.machines.chain_drive.stopping import acting_brake, allowed_way, stop_case
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Checks = Iterable[AnyCheck]
+
+_BRAKED: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop})
+_STOPS: frozenset[type[Scene]] = _BRAKED | {Coast}
+_HOUR = 3600.0
+
+
+def _brake_key(spec: ChainDrive, scene: ChainScene) -> KeyPath:
+    """The brake's torque, or where a brake would stand."""
+    return ("brake", "torque") if acting_brake(spec, scene) is not None else ("brake",)
+
+
+def _brake_repair(spec: ChainDrive, scene: ChainScene) -> KeyPath:
+    return ("brake", "torque") if acting_brake(spec, scene) is not None else ()
+
+
+def _way_key(spec: ChainDrive, scene: Stopping) -> KeyPath:
+    """The brake's delay or rise, where full torque from the first moment would stop the chain in time; else its
+    torque."""
+    brake, limit = acting_brake(spec, scene), allowed_way(spec, scene)
+    if brake is None or limit is None:
+        return _brake_key(spec, scene)
+    case = stop_case(spec, scene)
+    at_once = replace(case, brake=brake.model_copy(update={"delay": 0.0, "rise_time": 0.0}))
+    if (brake.delay or brake.rise_time) and at_once.rest()[1] <= limit:
+        return ("brake", "delay" if brake.delay >= brake.rise_time / 2 else "rise_time")
+    return _brake_key(spec, scene)
+
+
+# -- way and time ---------------------------------------------------------------------------------------------------
+
+
+def _way_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
+    """Longest way of the file, by the kind of stop.
+
+    **Range** a stop or an emergency stop with a limit.
+    **Error** none: a chosen limit.
+    **Source** the plant's safety rules.
+    """
+    return Estimate.exact(allowed_way(spec, scene) or math.inf)
+
+
+def _where_limited(spec: ChainDrive, scene: Stopping, check: AnyCheck) -> Checks:
+    """Where the file gives the way."""
+    return (replace(check, each=None),) if allowed_way(spec, scene) is not None else ()
+
+
+WAY: Check[ChainDrive, Stopping] = Check(
+    code="CHN124",
+    title="too long a way of the chain to stop",
+    scenes=_BRAKED,
+    loads=("stop_distance",),
+    sense=Sense.AT_MOST,
+    limit=_way_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _way_key(spec, scene),
+    repair=lambda spec, scene: _way_key(spec, scene) if acting_brake(spec, scene) is not None else (),
+    each=lambda spec, scene: _where_limited(spec, scene, WAY),
+    what="The chain comes to rest within the way the file allows, with the lowest resistance there can be.",
+    why="A chain that runs on drags along whoever it has caught, and overfills what it feeds.",
+    formula="s = integral of v dt until v = 0 <= limit",
+    source="the plant's safety rules",
+)
+
+
+def _time_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
+    """Longest time of any stop of the file; an hour without one: then it never stops.
+
+    **Range** any stop; a run-out only where the file gives the limit.
+    **Error** none: a chosen limit.
+    **Source** the plant's rules.
+    """
+    return Estimate.exact(spec.checks.stop_time or _HOUR)
+
+
+def _where_timed(spec: ChainDrive, scene: Stopping) -> Checks:
+    """Every stop; a run-out only with a limit."""
+    held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
+    return (replace(TIME, each=None),) if held else ()
+
+
+TIME: Check[ChainDrive, Stopping] = Check(
+    code="CHN125",
+    title="a chain that does not stop in time",
+    scenes=_STOPS,
+    loads=("stop_time",),
+    sense=Sense.AT_MOST,
+    limit=_time_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _brake_key(spec, scene),
+    repair=_brake_repair,
+    each=_where_timed,
+    what="The chain comes to rest within the time the file allows, or at all.",
+    why="A loaded chain that falls faster than its resistance holds it runs away when the drive is off.",
+    formula="t(v = 0) <= limit",
+    source="the plant's rules; balance of the rigid chain",
+)
+
+
+def _torque_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
+    """Torque of the brake on the motor shaft; one on the sprocket shaft through the gear without losses.
+
+        M = M_brake,   M_brake/i on the sprocket shaft
+
+    **Range** a brake at full torque; delay and rise are in the way (CHN124), not here.
+    **Error** none for a brake on the motor shaft; on the sprocket shaft the losses between are left out.
+    **Source** the maker's data.
+    """
+    brake = acting_brake(spec, scene)
+    if brake is None:
+        return Estimate.exact(0.0)
+    return Estimate.exact(brake.torque if brake.shaft == "motor" else brake.torque / stop_case(spec, scene).ratio)
+
+
+TORQUE: Check[ChainDrive, Stopping] = Check(
+    code="CHN126",
+    title="too weak a brake for the way of the chain",
+    scenes=_BRAKED,
+    loads=("brake_torque_required",),
+    sense=Sense.AT_MOST,
+    limit=_torque_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _brake_key(spec, scene),
+    repair=_brake_repair,
+    each=lambda spec, scene: _where_limited(spec, scene, TORQUE),
+    what="The brake holds what the rigid chain needs to stop within the way the file allows.",
+    why="A brake sized without the sign of the resistance is too weak downhill and needlessly violent uphill.",
+    formula="F_b R e/i + J a i/R <= M_brake,   F_b = m a - W,   a = v^2/(2 s)",
+    source="lecture notes Kramatorsk 2007, in the signed form",
+)
+
+# -- what it does to the chain --------------------------------------------------------------------------------------
+
+
+def _slack_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
+    """0: a chain never pushes.
+
+    **Range** any section of both strands.
+    **Error** none.
+    **Source** a chain has no stiffness against pressure.
+    """
+    return Estimate.exact(0.0)
+
+
+_TENSION: KeyPath = ("layout", "takeup", "tension")
+
+
+def _of_conveyors(spec: ChainDrive, scene: Stopping) -> Checks:
+    """Conveyors; between two shafts the other strand takes over where one goes slack."""
+    return (replace(SLACK, each=None),) if isinstance(spec.layout, ConveyorLayout) else ()
+
+
+SLACK: Check[ChainDrive, Stopping] = Check(
+    code="CHN127",
+    title="a strand that goes slack in the stop",
+    scenes=_STOPS,
+    loads=("tension_min",),
+    sense=Sense.AT_LEAST,
+    limit=_slack_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _TENSION,
+    repair=lambda spec, scene: _TENSION,
+    each=_of_conveyors,
+    what="Every section of both strands keeps some tension from the moment the motors let go until the chain rests.",
+    why="A slack chain leaves its teeth, folds where it is pushed, and snatches in the next start.",
+    formula="min over sections and time of S >= 0",
+    source="a chain never pushes",
+)
+
+
+def _safety_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
+    """Breaking load over the largest tension of a stop or a change of speed, of the file or 5.
+
+    **Range** stops and changes of speed, which are rare against the passes of a tooth.
+    **Error** none: a chosen limit.
+    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    """
+    return Estimate.exact(spec.checks.safety_start)
+
+
+STRENGTH: Check[ChainDrive, ChainScene] = Check(
+    code="CHN128",
+    title="too weak a chain for a stop or a change of speed",
+    scenes=_STOPS | {SpeedRange},
+    loads=("safety_start",),
+    sense=Sense.AT_LEAST,
+    limit=_safety_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("chain", "breaking_load"),
+    repair=lambda spec, scene: ("chain", "breaking_load"),
+    what="The largest tension of a stop, or of a run through a range of speeds with its resonances, leaves the"
+    " breaking load its safety; the centrifugal tension of full speed counts.",
+    why="A brake at the upper end of a descent stops the whole load by the strand below it; teeth that pass at a"
+    " natural frequency wind a chain up within a few turns.",
+    formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
+    source="makers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
+)
+
+# -- standstill -----------------------------------------------------------------------------------------------------
+
+
+def _hold_limit(spec: ChainDrive, scene: Hold) -> Estimate:
+    """Torque the backstop may be asked for: rated torque over the reserve; none without a backstop.
+
+    **Range** a chain at rest with its drive off.
+    **Error** none: a chosen reserve.
+    **Source** practice: reserve 1.25 to 1.75.
+    """
+    return Estimate.exact(spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0)
+
+
+HELD: Check[ChainDrive, Hold] = Check(
+    code="CHN129",
+    title="a chain that runs back",
+    scenes=frozenset({Hold}),
+    loads=("backstop_torque",),
+    sense=Sense.AT_MOST,
+    limit=_hold_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("backstop", "torque") if spec.backstop else ("backstop",),
+    repair=lambda spec, scene: ("backstop", "torque") if spec.backstop else (),
+    what="What pulls the loaded chain back is held by friction, or by the backstop with its reserve.",
+    why="A conveyor that runs back buries its tail, turns the motors backward and tears its flights off.",
+    formula="(q_G g H - W_friction at its lowest) R <= M_backstop/reserve",
+    source="lecture notes Kramatorsk 2007",
+)
+
+CHECKS_OF_STOPS: tuple[AnyCheck, ...] = (WAY, TIME, TORQUE, SLACK, STRENGTH, HELD)

@@ -1,0 +1,376 @@
+"""The effects a chain that changes its speed may call for."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import chain_resonance, loop_bounds
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.chain_drive import start_bounds
+from ptmcalc.machines.chain_drive.model import chain_line
+from ptmcalc.machines.chain_drive.passing import range_passing, start_passing
+from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies
+from ptmcalc.machines.chain_drive.solvers.stopping import OF_STOP
+from ptmcalc.machines.chain_drive.solvers.tooth_passes import range_loads
+from ptmcalc.machines.chain_drive.spec import (
+    ChainDrive,
+    ChainScene,
+    Coast,
+    EmergencyStop,
+    SpeedRange,
+    Start,
+    Stop,
+)
+from ptmcalc.machines.chain_drive.start_bounds import TENSIONS
+from ptmcalc.machines.chain_drive.starting import StartCase, light_return, start_case
+from ptmcalc.machines.chain_drive.stopping import StopCase, extremes, stop_case
+from ptmcalc.machines.chain_drive.strength import safety
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+
+ELASTIC_THRESHOLD = 0.05
+MODES_THRESHOLD = 0.05
+TEETH_THRESHOLD = 0.05
+STICKING_THRESHOLD = 0.1
+
+
+def _anything(loads: Loads) -> Offsets:
+    """No bound for any load that the swing of the chain can change."""
+    return {name: ANYTHING for name in loads if name in TENSIONS}
+
+
+# -- chain elasticity -----------------------------------------------------------------------------------------------
+
+
+def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
+    """Largest stray of the tension from the rigid body's, over the static tension of the same section.
+
+        E = max over the chain of a b(s) g/S_static(s)             start
+        E = (S_rigid,min - S_low)/S_static,min                     stop
+
+    a b(s) is the bound of a step (`laws.loop_bounds.stray`), g what the profile leaves of it; S_low is the bound of the
+    smallest tension in a stop.
+
+    **Range** any start and any stop; infinite where a section has no static tension.
+    **Error** an upper bound of the ratio.
+    **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
+    """
+    if isinstance(scene, Start):
+        value = start_bounds.stray_ratio(start_case(spec, scene))
+    else:
+        case = stop_case(spec, scene)
+        found, least = extremes(spec, case), min(case.line.ends)
+        value = (found.smallest - found.lowest) / least if least > 0 else math.inf
+    meaning = "tension the waves of the chain can add, over the static tension"
+    return Criterion("E", value, ELASTIC_THRESHOLD, meaning, "laws.loop_bounds")
+
+
+def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
+    """Interval of every load of the rigid body that holds all waves of the chain.
+
+        start: S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
+        stop:  S_static + min(0, -a r) - b sum |da| <= S <= S_static + max(0, -a r) + b sum |da|
+               S_ov <= 2 m a with a constant tension at the run-off, a (|r| + b) at either end of a fixed loop
+
+    **Range** a taut chain that slides forward, any tail mass and jump of impedance, any internal damping; a take-up
+    without mass. Where the interval reaches below 0 the chain may go slack: then nothing is known, nor along a motor's
+    curve or with a driven tail.
+    **Error** a bound; at the run-on with a constant tension at the run-off and without damping it is attained.
+    **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley); a damped mode never
+    strays further than an undamped one.
+    """
+    if not isinstance(scene, Start):
+        return _of_stop(spec, scene, loads)
+    case = start_case(spec, scene)
+    if not case.moves:
+        return {}
+    if case.follows_curve or _has_driven_tail(spec):
+        return _anything(loads)
+    intervals = start_bounds.enclosed(case)
+    found = start_bounds.offsets(spec, case, intervals, loads)
+    return found if intervals["tension_min"].low >= 0 else _unless_taut(found, loads)
+
+
+def _of_stop(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
+    """`elastic_bound` of a stop."""
+    case = stop_case(spec, scene)
+    given, found = extremes(spec, case), dict[str, Interval]()
+    if _has_driven_tail(spec):
+        return {name: ANYTHING for name in loads if name in OF_STOP}
+    if "tension_min" in loads:
+        top, known = min(case.line.ends), loads["tension_min"]
+        low = given.lowest - known.low if given.lowest >= 0 else -math.inf  # slack, and caught again
+        found["tension_min"] = Interval(low, top - known.high)
+    if "safety_start" in loads:
+        centrifugal, before = case.line.centrifugal, loads["safety_start"]
+        least = safety(spec, given.highest + centrifugal) if given.lowest >= 0 else -math.inf
+        most = safety(spec, max(case.line.ends) + centrifugal)
+        found["safety_start"] = Interval(min(least - before.low, 0.0), max(most - before.high, 0.0))
+    if "tension_overload_braking" in loads:
+        found["tension_overload_braking"] = _overload(spec, case, loads["tension_overload_braking"])
+    return found
+
+
+def _overload(spec: ChainDrive, case: StopCase, load: Estimate) -> Interval:
+    """What waves make of the tension that braking adds at the drive."""
+    if not case.line.fixed_length:
+        return Interval(0.0, load.high)
+    a = load.value / case.line.moving_mass
+    least, most = 0.0, 0.0
+    for losses in (case.efficiency, 1 / case.efficiency):
+        loop = light_return(spec, case.masses(losses))
+        for end in ((CARRY, 1.0), (RETURN, 0.0)):
+            r = abs(float(loop_bounds.quasi_static(loop, *end)))
+            least, most = max(least, r), max(most, r + float(loop_bounds.stray(loop, *end)))
+    return Interval(min(a * least - load.low, 0.0), max(a * most - load.high, 0.0))
+
+
+def _has_driven_tail(spec: ChainDrive) -> bool:
+    tail = getattr(spec.layout, "tail", None)
+    return tail is not None and bool(tail.driven == "on")
+
+
+def _unless_taut(found: Offsets, loads: Loads) -> Offsets:
+    """A chain that may go slack and be caught again: how low it surely comes stays known."""
+    least = found.get("tension_min")
+    return {**_anything(loads), **({} if least is None else {"tension_min": Interval(-math.inf, least.high)})}
+
+
+# -- higher modes ---------------------------------------------------------------------------------------------------
+
+
+def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
+    """Part of the dynamic tension at the run-on that is not in the first mode.
+
+        n = sum_(k>1) |M_k|/sum M_k
+
+    **Range** any start; infinite where the run-on has no quasi-static tension.
+    **Error** an upper bound of the part.
+    **Source** `chain_resonance.modal_rest`; the threshold of 5 % is an engineering choice.
+    """
+    case = start_case(spec, scene)
+    rest, _ = _behind_the_first(case)
+    whole = abs(float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)))
+    value = rest / whole if whole > 0 else math.inf
+    meaning = "part of the start's tension that is in higher modes"
+    return Criterion("n", value, MODES_THRESHOLD, meaning, "laws.chain_resonance")
+
+
+def _behind_the_first(case: StartCase) -> tuple[float, float]:
+    """Bound of the parts of all modes but the first at the run-on [kg], and the second frequency [rad/s]."""
+    w = natural_frequencies(case, _COUNTED)
+    gains = chain_resonance.modal_tensions(case.masses, w, CARRY, np.ones(1))[:, 0]
+    rest = float(chain_resonance.modal_rest(case.masses, w, CARRY, np.ones(1))[0])
+    return float(np.abs(gains[1:]).sum()) + rest, float(w[1])
+
+
+_COUNTED = 12
+
+
+def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
+    """Change of the dynamic tension when all of it is taken to swing in the first mode.
+
+        |dS| <= a R (g_1 + g_2),   R = sum_(k>1) |M_k|
+
+    g_1 and g_2 bound how far the first mode and those above the second frequency stray from the rigid body's
+    (`start_profile.phases`). With a constant tension at the run-off no mode has another sign: then the peak rises by no
+    more than a R (1 + g_2) less what R has in the peak already.
+
+    **Range** as the waves; a chain that stays taut, with the tensions of its running in it.
+    **Error** a bound.
+    **Source** sums over modes; derived.
+    """
+    case = start_case(spec, scene)
+    if not case.moves or "tension_dynamic_start" not in loads or scene.chain == "relaxed":
+        return _anything(loads)
+    rest, second = _behind_the_first(case)
+    first = float(natural_frequencies(case, 1)[0])
+    strays = [one.stray + other.stray for one, other in zip(case.phases(first), case.phases(second), strict=True)]
+    less = more = case.acceleration * rest * max(strays)
+    if not case.line.fixed_length:
+        whole = float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)) * case.acceleration
+        reached = loads["tension_dynamic_start"].value / whole if whole > 0 else 0.0
+        most = max(phase.high + phase.stray for phase in case.phases(second))
+        more = min(more, case.acceleration * rest * max(most - reached, 0.0))
+    found = start_bounds.spread(spec, case, less, more, loads)
+    return found if start_bounds.enclosed(case)["tension_min"].low >= 0 else _anything(loads)
+
+
+# -- a load that sticks ---------------------------------------------------------------------------------------------
+
+
+def sticking_criterion(spec: ChainDrive, scene: Start) -> Criterion:
+    """Resistance of a chain without tension over the force that accelerates it.
+
+        W/(m a);   0 for a start with the tensions of the running chain in it
+
+    **Range** any start. A chain that starts with its running tensions slides forward from the first moment on.
+    **Error** exact.
+    **Source** balance of a front of motion; the threshold of 10 % is an engineering choice.
+    """
+    case = start_case(spec, scene)
+    pulled = case.line.moving_mass * case.acceleration
+    value = 0.0
+    if scene.chain == "relaxed":
+        value = abs(case.line.static_resistance) / pulled if pulled > 0 else math.inf
+    return Criterion("W/(m a)", value, STICKING_THRESHOLD, "resistance over the inertia of the chain", "Newton's law")
+
+
+def sticking_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
+    """Nothing for a chain with its running tensions in it; no bound for a relaxed one.
+
+        the drive winds the chain up before its load breaks loose: no sum of modes holds that
+
+    **Range** any start.
+    **Error** exact for the first, none for the second.
+    **Source** two masses, `numerics.two_mass_start`, show how much it can be.
+    """
+    return _anything(loads) if scene.chain == "relaxed" else {}
+
+
+# -- inertia of the take-up weight ----------------------------------------------------------------------------------
+
+
+def weight_criterion(spec: ChainDrive, scene: Start) -> Criterion:
+    """How far the inertia of the take-up weight changes the run-off tension.
+
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = M w_1/(4 Z_2),   a_0 = F/m_drive;   0 without `takeup.mass`
+
+    a_0 is the acceleration of the drive alone, w_1 the lowest frequency, Z_2 the impedance of the return strand.
+
+    **Range** a gravity take-up; a file that gives no mass asks for a constant tension.
+    **Error** an estimate.
+    **Source** take-up weight on two falls; thresholds are an engineering choice.
+    """
+    kappa, drive = _weight_numbers(spec, start_case(spec, scene))
+    value = max(kappa / 0.1, drive / 0.03)
+    return Criterion("kappa", value, 1.0, "inertia of the take-up weight", "take-up weight on two falls")
+
+
+def _weight_numbers(spec: ChainDrive, case: StartCase) -> tuple[float, float]:
+    """kappa, and the acceleration of the drive alone over that of gravity [1]."""
+    mass = case.line.takeup_mass
+    if mass == 0 or not case.moves:
+        return 0.0, 0.0
+    impedance = math.sqrt(case.line.back.line_mass * case.line.back.stiffness)
+    kappa = mass / 4 * float(natural_frequencies(case, 1)[0]) / impedance
+    alone = case.acceleration * (1 if case.imposed_speed else case.whole_mass / case.masses.drive_mass)
+    return kappa, alone / spec.gravity
+
+
+def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
+    """Change of any tension when the take-up weight is taken without inertia.
+
+        d = T_0 (3.4 a_0/(2 g) + kappa)
+
+    **Range** below the threshold; unbounded above.
+    **Error** calibrated on belts, whose loop is the same: the largest drop seen of the run-off tension was
+    T_0 3.4 a_0/(2 g) at small kappa.
+    **Source** take-up weight on two falls; coverage samples of belts and chains.
+    """
+    case = start_case(spec, scene)
+    if case.line.takeup_mass == 0:
+        return {}
+    if weight_criterion(spec, scene).exceeded:
+        return _anything(loads)
+    kappa, drive = _weight_numbers(spec, case)
+    return _unless_slack(spec, case, case.line.run_off * (3.4 * drive / 2 + kappa), loads)
+
+
+def _unless_slack(spec: ChainDrive, case: StartCase, change: float, loads: Loads) -> Offsets:
+    """Offsets when every dynamic tension may be off by so much [N]; anything where the chain may go slack by it."""
+    found = start_bounds.spread(spec, case, change, change, loads)
+    lowest = loads["tension_min"].low if "tension_min" in loads else start_bounds.enclosed(case)["tension_min"].low
+    if lowest - change >= 0:
+        return found
+    return {**_anything(loads), **{name: found[name] for name in ("tension_min",) if name in found}}
+
+
+# -- teeth that pass ------------------------------------------------------------------------------------------------
+
+
+def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
+    """Most that the teeth can add to the run-on tension while the speed changes, over the static one.
+
+        P/S_static,   P of `passing.Passing.teeth_bound`;   infinite where the run-on has no tension
+
+    **Range** any start and any range of speeds; infinite with a driven tail and along a motor's curve.
+    **Error** an upper bound.
+    **Source** derived in `chain_start.passing_bound`; the threshold of 5 % is an engineering choice.
+    """
+    static = chain_line(spec, scene).run_on
+    value = _teeth(spec, scene) / static if static > 0 else math.inf
+    meaning = "what teeth that pass can add to the tension, over the static one"
+    return Criterion("P/S", value, TEETH_THRESHOLD, meaning, "laws.chain_start.passing_bound")
+
+
+def _teeth(spec: ChainDrive, scene: Start | SpeedRange) -> float:
+    """The bound of either scene [N]; unbounded for a driven tail and along a motor's curve."""
+    if _has_driven_tail(spec):
+        return math.inf
+    if isinstance(scene, SpeedRange):
+        return range_passing(spec, scene).teeth_bound(spec)
+    case = start_case(spec, scene)
+    if not case.moves:
+        return 0.0
+    return math.inf if case.follows_curve else start_passing(spec, scene).teeth_bound(spec)
+
+
+def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Offsets:
+    """Change of any tension of a start by its teeth, and all there is in a range of speeds.
+
+        start: |dS| <= P      range of speeds: 0 <= S <= P + m |e| R
+
+    **Range** a taut chain, its sprocket turned by a speed that only rises or only falls; unbounded with a driven tail
+    and along a motor's curve.
+    **Error** a bound; see `chain_start.passing_bound`.
+    **Source** variation of the input of every mode, derived.
+    """
+    most = _teeth(spec, scene)
+    if not math.isfinite(most):
+        return {name: ANYTHING for name in loads if name in TENSIONS or name == "tension_speed_range"}
+    if isinstance(scene, Start):
+        return _unless_slack(spec, start_case(spec, scene), most, loads)
+    passing = range_passing(spec, scene)
+    most += 2 * passing.masses.belt_mass * passing.sharpest
+    found = {}
+    for name, ends in range_loads(spec, scene, Estimate(0.0, 0.0, most)).items():
+        if name in loads:
+            found[name] = Interval(min(ends.low - loads[name].low, 0.0), max(ends.high - loads[name].high, 0.0))
+    return found
+
+
+_STARTS: frozenset[type[Scene]] = frozenset({Start})
+_STOPS: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})
+EFFECTS_OF_MOTION: tuple[AnyEffect, ...] = (
+    Effect("chain_elasticity", "elasticity of the chain", _STARTS | _STOPS, elastic_criterion, elastic_bound),
+    Effect(
+        "higher_modes",
+        "mass along the strands: higher modes",
+        _STARTS,
+        modes_criterion,
+        modes_bound,
+        part_of="chain_elasticity",
+    ),
+    Effect("chain_sticking", "a load that sticks and slides", _STARTS, sticking_criterion, sticking_bound),
+    Effect(
+        "tooth_passing",
+        "teeth that pass while the speed changes",
+        frozenset({Start, SpeedRange}),
+        teeth_criterion,
+        teeth_bound,
+    ),
+    Effect(
+        "takeup_weight",
+        "inertia of the chain's take-up weight",
+        _STARTS,
+        weight_criterion,
+        weight_bound,
+        calibrated=True,
+    ),
+)

@@ -1,0 +1,136 @@
+"""Where the chain runs and what it pulls: a conveyor with two strands, or two shafts."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.machines.chain_drive.chain_data import DrivenSprocket, RatioFromOne, TailSprocket, even
+from ptmcalc.spec.fields import (
+    Force,
+    Height,
+    LineMass,
+    MassFlow,
+    Measure,
+    PositiveForce,
+    PositiveLength,
+    PositiveMass,
+    PositivePower,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveTorque,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+
+Exponent = Annotated[float, Measure(units.RATIO, at_least=0, at_most=3)]
+
+
+class Resistance(Fragment):
+    """What resists the motion of a conveyor."""
+
+    coefficient: PositiveRatio
+    """resistance of the chain over its weight: 0.1 to 0.15 on rollers, 0.2 to 0.35 sliding"""
+    load_coefficient: PositiveRatio | None = None
+    """resistance of the load over its weight where the chain drags it; `coefficient` when left out"""
+    turn_factor: RatioFromOne | None = None
+    """factor k on all resistances for the turns round sprockets and guides; 1.1 is assumed when it is left out"""
+    force: Force = 0.0
+    """further resistance at the tail end: feeding, boot, cleaning"""
+    start_factor: RatioFromOne | None = None
+    """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
+    stop_factor: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None = None
+    """lowest resistance there can be, running and warm, over that in motion: for stops and backstops; 0.8 is assumed
+    when it is left out"""
+
+
+class TakeUp(Fragment):
+    """What keeps the chain of a conveyor taut."""
+
+    type: Literal["gravity", "screw"]
+    """`gravity`: a weight beside the drive keeps the run-off tension; `screw`: a fixed length of loop"""
+    tension: PositiveForce
+    """of the strand: at the run-off (gravity), or the mean round the loop when it was set (screw)"""
+    mass: PositiveMass | None = None
+    """of the weight with its carriage (gravity, on two falls); without it the tension stays constant"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Only a weight has a mass."""
+        if given.word("type") == "screw" and "mass" in given:
+            yield Conflict(("mass",), "a screw does not move", "delete `mass`, or write `type: gravity`")
+
+
+class ConveyorLayout(Fragment):
+    """A conveyor: a working strand with the load, a return strand, the drive at the head."""
+
+    type: Literal["conveyor"]
+    length: PositiveSpan
+    """between the shafts, one strand"""
+    lift: Height = 0.0
+    """height the load is raised by; negative when it is lowered"""
+    load: LineMass | None = None
+    """on the working strand, per length; or give `capacity`"""
+    capacity: MassFlow | None = None
+    """stream of material, instead of `load`"""
+    resistance: Resistance
+    """resistance to motion"""
+    takeup: TakeUp
+    """the take-up"""
+    tail: TailSprocket = TailSprocket()
+    """the sprocket at the tail"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The load is given in one way; a conveyor cannot rise more than it is long."""
+        yield from exactly_one(given, "load", "capacity")
+        length, lift = given.number("length"), given.number("lift")
+        if length is not None and lift is not None and abs(lift) > length:
+            yield Conflict(("lift",), "it rises more than it is long", "write a `lift` within the `length`")
+
+
+class TwoShafts(Fragment):
+    """A drive: two sprockets, the tight strand between them."""
+
+    type: Literal["drive"]
+    driven: DrivenSprocket
+    """the driven sprocket"""
+    centre_distance: PositiveLength | None = None
+    """of the shafts; follows from `pitches` when left out"""
+    pitches: Annotated[int, Field(ge=6, le=100_000, strict=True)] | None = None
+    """length of the chain in pitches, even; follows from `centre_distance`, rounded up to even, when left out"""
+    cranked_link: Literal["yes", "no"] = "no"
+    """an odd number of pitches, closed by a cranked link, which bears 80 % of the breaking load"""
+    power: PositivePower | None = None
+    """on the driven shaft, or give `torque`"""
+    torque: PositiveTorque | None = None
+    """on the driven shaft, instead of `power`"""
+    slack_sag: PositiveRatio = 0.02
+    """sag of the slack strand over its length; 1 to 3 % is usual"""
+    rated_power: PositivePower | None = None
+    """of one chain on 19 teeth at this speed, from the maker's chart; needed to check the choice of chain"""
+    service_factor: RatioFromOne | None = None
+    """f_1 of ISO 10823 for driver and driven machine, 1 to 2.1; 1.4 is assumed when it is left out"""
+    tooth_exponent: Exponent = 1.08
+    """of the tooth factor (19/z_1)^e: 1.08 by ISO 10823, 1 in some course cards"""
+    strand_factor: PositiveRatio | None = None
+    """capacity of the rows of chain over that of one; by ACA 1, 1.7, 2.5 for one, two, three when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """One of length and distance, one of power and torque; an even number of pitches."""
+        yield from exactly_one(given, "power", "torque")
+        if "centre_distance" not in given and "pitches" not in given:
+            yield from exactly_one(given, "centre_distance", "pitches")
+        pitches = given.raw.get("pitches")
+        if isinstance(pitches, int) and not isinstance(pitches, bool) and pitches % 2 == 1:
+            if given.word("cranked_link") != "yes":
+                reason = f"{pitches} pitches do not close: inner and outer links alternate"
+                hint = f"write `pitches: {even(pitches)}`, or `cranked_link: yes`"
+                yield Conflict(("pitches",), reason, hint)
+        elif given.word("cranked_link") == "yes":
+            reason = "an even number of pitches needs no cranked link"
+            yield Conflict(("cranked_link",), reason, "delete `cranked_link`, or give odd `pitches`")
+
+
+Layout = Annotated[ConveyorLayout | TwoShafts, Field(discriminator="type")]

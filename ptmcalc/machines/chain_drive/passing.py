@@ -1,0 +1,264 @@
+"""Teeth that pass while a chain changes its speed, as numbers: the ride, what excites the modes, what bounds them."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.laws import chain_resonance, chain_start, loop_bounds, polygon, sprocket, start_profile
+from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.machines.chain_drive.excitation import residual
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.model import (
+    FloatArray,
+    damping,
+    damping_ratios,
+    loop_masses,
+    natural_frequencies,
+    tail_teeth,
+)
+from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies as start_frequencies
+from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
+from ptmcalc.machines.chain_drive.starting import StartCase, ratios, start_case
+from ptmcalc.numerics import tooth_passes
+
+_FOR_BOUNDS = 12
+"""Modes that are bounded one by one; those above together."""
+_POINTS = 4001
+"""Points of time between which a way is a cubic."""
+_END = np.ones(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Passing:
+    """A change of speed: the loop and its modes, the chain's way, speed and acceleration over time, the fastest speed,
+    and the largest acceleration."""
+
+    masses: LoopMasses
+    frequencies: FloatArray
+    damping_ratios: FloatArray
+    way: Callable[[FloatArray], FloatArray]
+    speed: Callable[[FloatArray], FloatArray]
+    acceleration: Callable[[FloatArray], FloatArray]
+    kinks: tuple[float, ...]
+    window: float
+    fastest: float
+    sharpest: float
+
+    def shapes(self, strand: int, x: FloatArray) -> FloatArray:
+        """Tensions of the modes at sections, shape (k, n) [kg]."""
+        return chain_resonance.modal_shapes(self.masses, self.frequencies, strand, x)
+
+    def edges(self, spec: ChainDrive, *leads: float) -> FloatArray:
+        """Times between which all is smooth: engagements at the ends with these leads in pitches, and kinks."""
+        pitch = spec.chain.pitch
+        engaged = [tooth_passes.engagements(lambda t: self.way(t) / pitch, self.window, lead) for lead in leads]
+        return tooth_passes.passes(self.window, *engaged, np.array(self.kinks))
+
+    def places(self, spec: ChainDrive, times: FloatArray, middles: FloatArray, lead: float) -> FloatArray:
+        """Places in the pitch of an end, from -1/2 after an engagement to 1/2 before the next one."""
+        pitch = spec.chain.pitch
+        teeth = np.floor(self.way(middles) / pitch + lead)[:, None]
+        return np.asarray(self.way(times) / pitch + lead - teeth - 0.5)
+
+    def polygon(self, spec: ChainDrive, times: FloatArray, places: FloatArray, teeth: int) -> FloatArray:
+        """Acceleration of an end of the chain against the mean motion of its sprocket [m/s^2]."""
+        pitch = spec.chain.pitch
+        arm = pitch * teeth / (2 * math.pi)
+        mean, turning, angle = self.acceleration(times), self.speed(times) / arm, 2 * np.pi / teeth * places
+        turned = polygon.ramped_acceleration(angle, turning, 0.0, pitch, teeth)
+        return np.asarray(turned + mean * (sprocket.pitch_radius(pitch, teeth) / arm * np.cos(angle) - 1))
+
+    def follow(self, spec: ChainDrive, teeth: int) -> FloatArray:
+        """Most that each mode, and any above them, follows the teeth of a sprocket [m/s^2]."""
+        pitch = spec.chain.pitch
+        arm = pitch * teeth / (2 * math.pi)
+        passes = float(self.way(np.array([self.window]))[0]) / pitch + 2
+        high = np.append(self.frequencies, 1e6 * self.frequencies[-1])
+        zeta = np.append(self.damping_ratios, self.damping_ratios[-1])
+        return chain_start.passing_bound(high, zeta, self.fastest / arm, self.sharpest / arm, pitch, teeth, passes)
+
+    def far_bound(self, spec: ChainDrive) -> float:
+        """Most that the teeth of the driven one of two sprockets add at the run-on [N]."""
+        if not isinstance(spec.layout, TwoShafts):
+            return 0.0
+        follow = self.follow(spec, tail_teeth(spec))
+        on, far = (self.shapes(CARRY, x)[:, 0] for x in (_END, np.zeros(1)))
+        known = float(np.abs(on * far) @ follow[:-1]) / self.masses.belt_mass
+        greens = (float(loop_bounds.tension_green(self.masses, CARRY, x)) for x in (1.0, 0.0))
+        rests = [
+            max(green - float(one @ one) / self.masses.belt_mass, 0.0)
+            for green, one in zip(greens, (on, far), strict=True)
+        ]
+        return known + math.sqrt(rests[0] * rests[1]) * float(follow[-2:].max())
+
+    def teeth_bound(self, spec: ChainDrive) -> float:
+        """Most that the teeth can add to the run-on tension or take from it, whatever the phase [N].
+
+            sum B_on,k^2 x_k + R x_max      constant tension at the run-off
+            (G_on + (G_on G_off)^(1/2)) x_max + 2 (EA/L) u_max      a loop of fixed length, both its ends on the teeth
+
+        x_k are the bounds of `chain_start.passing_bound`, x_max the largest of them and of a mode beyond all others.
+        """
+        follow = residual(spec) * self.follow(spec, spec.sprocket.teeth)
+        on, off = (float(loop_bounds.tension_green(self.masses, *at)) for at in ((CARRY, 1.0), (RETURN, 0.0)))
+        if self.masses.fixed_length:
+            stretch = 2 * residual(spec) * self.ahead(spec) * self.stiffness
+            return (on + math.sqrt(on * off)) * float(follow.max()) + stretch
+        at_run_on = self.shapes(CARRY, _END)[:, 0] ** 2 / self.masses.belt_mass
+        behind = max(on - float(at_run_on.sum()), 0.0) * float(follow[-2:].max())
+        return float(at_run_on @ follow[:-1]) + behind + self.far_bound(spec)
+
+    def left_out(self, spec: ChainDrive, strand: int, x: FloatArray) -> FloatArray:
+        """Most that modes above those taken add at sections, shape (n,) [N].
+
+        (R_s R_on)^(1/2) x_max + (R_s R_off)^(1/2) x_max + 2 |e| R sum |M_k(s)|,   R_s = G_s - sum B_k(s)^2/M_belt
+        """
+        follow = residual(spec) * float(self.follow(spec, spec.sprocket.teeth)[-2:].max())
+
+        def rest(strand: int, x: FloatArray) -> FloatArray:
+            taken = np.sum(self.shapes(strand, x) ** 2, axis=0) / self.masses.belt_mass
+            return np.asarray(np.sqrt(np.maximum(loop_bounds.tension_green(self.masses, strand, x) - taken, 0.0)))
+
+        ends = float(rest(CARRY, _END)[0]) * follow
+        if self.masses.fixed_length:
+            ends += float(rest(RETURN, np.zeros(1))[0]) * follow
+        if isinstance(spec.layout, TwoShafts):
+            ends += float(rest(CARRY, np.zeros(1))[0]) * float(self.follow(spec, tail_teeth(spec))[-2:].max())
+        begun = chain_resonance.modal_rest(self.masses, self.frequencies, strand, x)
+        return np.asarray(rest(strand, x) * ends + 2 * self.sharpest * begun)
+
+    def ahead(self, spec: ChainDrive) -> float:
+        """Most that a polygon lets the chain run ahead of its mean motion [m]."""
+        places = np.linspace(-0.5, 0.5, 201)
+        return float(np.abs(polygon.polygon_displacement(places, spec.chain.pitch, spec.sprocket.teeth)).max())
+
+    @property
+    def stiffness(self) -> float:
+        """Of a loop of fixed length [N/m]; 0 with a constant tension at the run-off."""
+        if not self.masses.fixed_length:
+            return 0.0
+        return 1 / (self.masses.carry_compliance + self.masses.return_compliance)
+
+    @property
+    def excited_by_start(self) -> FloatArray:
+        """What excites each mode per mean acceleration, as `modal_shapes` at an end do per polygon's [kg]."""
+        share = 1.0 if self.masses.imposed_speed else self.masses.total_mass / self.masses.drive_mass
+        return share * (self.shapes(CARRY, _END) - self.shapes(RETURN, np.zeros(1)))[:, 0]
+
+
+def swinging(damping_ratios: FloatArray) -> int:
+    """How many of the lowest modes are followed tooth by tooth: those that swing, at least the first.
+
+    A mode beyond critical damping follows its input within the time of the chain's damping: it counts with those left
+    out, whose bound holds it.
+    """
+    return max(int(np.argmax(damping_ratios > 1)) if np.any(damping_ratios > 1) else len(damping_ratios), 1)
+
+
+def has_driven_tail(spec: ChainDrive) -> bool:
+    """Whether another drive turns the tail."""
+    return isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on"
+
+
+def range_passing(spec: ChainDrive, scene: SpeedRange, count: int = _FOR_BOUNDS) -> Passing:
+    """A range of speeds through which the sprocket is turned evenly faster or slower."""
+    masses = loop_masses(spec, scene)
+    w = natural_frequencies(spec, scene, count=count)
+    w = w[: swinging(damping_ratios(damping(spec, scene), w))]
+    first, last, time = scene.start, scene.end, scene.time
+    rate = (last - first) / time
+    return Passing(
+        masses=masses,
+        frequencies=w,
+        damping_ratios=damping_ratios(damping(spec, scene), w),
+        way=lambda t: np.asarray(first * t + rate * t**2 / 2),
+        speed=lambda t: np.asarray(first + rate * t),
+        acceleration=lambda t: np.full_like(t, rate),
+        kinks=(),
+        window=time,
+        fastest=max(first, last),
+        sharpest=abs(rate),
+    )
+
+
+def start_passing(spec: ChainDrive, scene: Start, count: int = _FOR_BOUNDS) -> Passing:
+    """The teeth of a start, its sprocket turned as the rigid body is."""
+    case = start_case(spec, scene)
+    way, speed, acceleration, kinks = _motion(case)
+    w = start_frequencies(case, count)
+    w = w[: swinging(ratios(spec, scene, w))]
+    return Passing(
+        masses=case.masses,
+        frequencies=w,
+        damping_ratios=ratios(spec, scene, w),
+        way=way,
+        speed=speed,
+        acceleration=acceleration,
+        kinks=kinks,
+        window=case.window,
+        fastest=case.line.speed,
+        sharpest=case.acceleration,
+    )
+
+
+Motion = tuple[
+    Callable[[FloatArray], FloatArray],
+    Callable[[FloatArray], FloatArray],
+    Callable[[FloatArray], FloatArray],
+    tuple[float, ...],
+]
+
+
+def _motion(case: StartCase) -> Motion:
+    """Way, speed and acceleration of the rigid body over time, and the kinks between smooth pieces; on a motor's curve
+    those of the mean torque.
+
+    The way under a torque that rises is the integral of a speed in closed form: cubics between many points of it.
+    """
+    v, a, shape, t_s = case.line.speed, case.acceleration, case.shape, case.rise_time
+    marks: tuple[float, ...] = () if shape == start_profile.STEP else (t_s / 2, t_s)
+    if isinstance(shape, tuple):
+        marks = tuple(t_s * share for share, _ in shape if share > 0)
+    if case.imposed_speed:
+        return (
+            lambda t: v * start_profile.rise_integral(shape, t_s, t),
+            lambda t: v * start_profile.rise(shape, t_s, t),
+            lambda t: v * start_profile.rise_rate(shape, t_s, t),
+            marks,
+        )
+    if shape == start_profile.STEP:
+        return (
+            lambda t: np.asarray(a * t**2 / 2),
+            lambda t: np.asarray(a * t),
+            lambda t: np.full_like(t, a),
+            (),
+        )
+    held, force, resistance = case.held, case.available / case.whole_mass, case.line.static_resistance / case.whole_mass
+    before = float(start_profile.rise_integral(shape, t_s, held))
+
+    def speed(t: FloatArray) -> FloatArray:
+        gained = start_profile.rise_integral(shape, t_s, t + held) - before
+        return np.asarray(np.maximum(force * gained - resistance * t, 0.0))
+
+    def acceleration(t: FloatArray) -> FloatArray:
+        return np.asarray(force * start_profile.rise(shape, t_s, t + held) - resistance)
+
+    return _way(speed, case.window), speed, acceleration, tuple(mark - held for mark in marks if mark > held)
+
+
+def _way(speed: Callable[[FloatArray], FloatArray], window: float) -> Callable[[FloatArray], FloatArray]:
+    """Integral of a speed: Simpson's rule between points, cubics through them and the speed there."""
+    times = np.linspace(0.0, window, _POINTS)
+    step, speeds = float(times[1]), speed(times)
+    gained = step / 6 * (speeds[:-1] + 4 * speed((times[:-1] + times[1:]) / 2) + speeds[1:])
+    ways = np.concatenate([[0.0], np.cumsum(gained)])
+
+    def found(t: FloatArray) -> FloatArray:
+        at = np.clip((np.asarray(t, float) / step).astype(int), 0, _POINTS - 2)
+        x = np.asarray(t, float) / step - at
+        rise, first, last = ways[at + 1] - ways[at], step * speeds[at], step * speeds[at + 1]
+        return np.asarray(ways[at] + x * (first + x * (3 * rise - 2 * first - last + x * (first + last - 2 * rise))))
+
+    return found

@@ -1,0 +1,89 @@
+"""Speeds of a chain drive at which a tooth harmonic meets a natural frequency, and the speeds between them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.laws import chain_resonance
+from ptmcalc.machines.chain_drive.excitation import mass_of_drive, residual
+from ptmcalc.machines.chain_drive.model import (
+    FloatArray,
+    chain_line,
+    damping,
+    damping_ratios,
+    natural_frequencies,
+    vibrating,
+)
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
+
+_MOST_ORDERS = 64
+_WIDEST = 0.5
+"""The range of speeds looked at where the file gives none, as a share of the speed on either side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resonances:
+    """Speeds V[n, k] of harmonics and modes, their weights over m a_max, the half widths of their bands, and the bands
+    of those that matter."""
+
+    frequencies: FloatArray
+    speeds: FloatArray
+    weights: FloatArray
+    half_widths: FloatArray
+    bands: FloatArray
+    least_weight: float
+
+    @property
+    def matter(self) -> FloatArray:
+        return np.asarray(self.weights >= self.least_weight)
+
+    def nearest(self, speed: float) -> tuple[float, int, int] | None:
+        """(distance of a speed from the nearest resonance that matters, in half widths of its band, harmonic, mode)."""
+        distances = np.where(self.matter, np.abs(speed / self.speeds - 1) / self.half_widths, np.inf)
+        order, mode = np.unravel_index(int(np.argmin(distances)), distances.shape)
+        least = float(distances[order, mode])
+        return (least, int(order) + 1, int(mode) + 1) if np.isfinite(least) else None
+
+
+def resonances(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> Resonances:
+    """All resonance speeds of a scene.
+
+        V_nk = p w_k/(2 pi n),   W_nk = (2/(pi n)) |D(w_k)|/(m w_k^2)
+
+    D is the dynamic stiffness of the damped chain at the sprocket, whatever its ends; without damping it is infinite at
+    w_k, and so are the weights.
+    """
+    drive = mass_of_drive(spec, carried)
+    frequencies = natural_frequencies(spec, scene, drive)
+    kind, mass = damping(spec, scene), chain_line(spec, scene).moving_mass
+    stiff = np.abs(dynamic_stiffness(vibrating(spec, scene, drive), frequencies))
+    stiff = np.where(damping_ratios(kind, frequencies) > 0, stiff, np.inf)
+    orders = np.arange(1.0, _MOST_ORDERS + 1)
+    share = 2 / np.pi * residual(spec)
+    weights = share * (stiff / (mass * frequencies**2)) / orders[:, None] if share > 0 else np.zeros((len(orders), 1))
+    limit = spec.checks.resonance
+    ratios = damping_ratios(kind, frequencies)
+    speeds = chain_resonance.resonance_speeds(frequencies, orders, spec.chain.pitch)
+    half = chain_resonance.exclusion_half_widths(ratios, limit.band)
+    weights, half = (np.broadcast_to(one, speeds.shape) for one in (weights, half))
+    matter = weights >= limit.weight
+    bands = chain_resonance.exclusion_bands(speeds[matter], half[matter])
+    return Resonances(frequencies, speeds, np.asarray(weights), np.asarray(half), bands, limit.weight)
+
+
+def safe_speeds(spec: ChainDrive, scene: Run, carried: frozenset[str]) -> tuple[float, float]:
+    """The nearest speeds below and above that of the file outside the bands of this and every other run [m/s]."""
+    runs = [scene, *(other for other in spec.all_scenes if isinstance(other, Run) and other != scene)]
+    found = [resonances(spec, one, carried) for one in runs]
+    centres, halves = (
+        np.concatenate([getattr(one, part)[one.matter] for one in found]) for part in ("speeds", "half_widths")
+    )
+    return chain_resonance.nearest_safe_speeds(spec.speed, chain_resonance.exclusion_bands(centres, halves))
+
+
+def operating_range(spec: ChainDrive) -> tuple[float, float]:
+    """Speeds between which safe windows and the sweep are looked for [m/s]."""
+    if spec.operating is not None:
+        return spec.operating.lowest, spec.operating.highest
+    return (1 - _WIDEST) * spec.speed, (1 + _WIDEST) * spec.speed

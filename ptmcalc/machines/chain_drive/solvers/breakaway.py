@@ -1,0 +1,87 @@
+"""A start of a relaxed chain: the drive takes up its stretch, and its load breaks loose."""
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import start_profile
+from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of
+from ptmcalc.machines.chain_drive.starting import StartCase, ratios, start_case
+from ptmcalc.numerics.two_mass_start import two_mass_start
+
+_POINTS = 201
+_WINDOWS = 2.0
+"""Window over the start time of the rigid body: the chain is wound up before it moves."""
+
+
+def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Largest run-on tension when a drive winds up a chain without tension until its load breaks loose.
+
+        S = S_run-off + K x,   K = w_1^2 m M/(m + M),   M sticks as long as K x <= W
+
+    **Range** a torque over time; a constant tension at the run-off; all resistance as friction of the load.
+    **Error** exact for two masses; none bound against a chain with its mass along it.
+    **Source** derived in `numerics.two_mass_start`; the step in closed form is `laws.two_mass.takeup`.
+    """
+    case = start_case(spec, scene)
+    drive, load = case.masses.drive_mass, case.masses.belt_mass
+    w = natural_frequencies(case, 1)
+    reduced = drive / (drive + load) * load
+    damping = 2 * float(ratios(spec, scene, w)[0]) * float(w[0]) * reduced
+    times = np.zeros(1)
+    if case.shape != start_profile.STEP:
+        times = np.linspace(0.0, case.rise_time, _POINTS)
+    forces = case.available * start_profile.rise(case.shape, case.rise_time, times)
+    window = _WINDOWS * case.duration
+    found = two_mass_start(
+        drive, load, float(w[0]) ** 2 * reduced, damping, case.line.static_resistance, times, forces, window
+    )
+    dynamic = case.line.run_off + found.largest - case.line.run_on
+    loads = loads_of(spec, case, Estimate.exact(max(dynamic, 0.0)), None)
+    at = {"time": found.largest_time}
+    return Result({name: Found(load, at) for name, load in loads.items()}, work=found.work, window=(0.0, window))
+
+
+def valid(spec: ChainDrive, scene: Start) -> Criterion:
+    """Whether a drive takes up a relaxed chain by its torque.
+
+        n = 1 for each of: running tensions in the chain, no motion, an imposed speed, a motor's curve, a fixed length,
+        a load that drives
+
+    **Range** any start.
+    **Error** exact: a count.
+    **Source** two masses and one spring.
+    """
+    case = start_case(spec, scene)
+    count = sum(_hindrances(scene, case))
+    return Criterion("n", float(count), 1.0, "what two masses and a spring do not have: nothing of it", "count")
+
+
+def _hindrances(scene: Start, case: StartCase) -> tuple[bool, ...]:
+    return (
+        scene.chain != "relaxed",
+        not case.moves,
+        case.imposed_speed,
+        case.follows_curve,
+        case.line.fixed_length,
+        case.line.static_resistance <= 0,
+    )
+
+
+BREAKAWAY: Solver[ChainDrive, Start] = Solver(
+    name="chain_breakaway",
+    title="two masses, a spring that never pushes, a load that sticks",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({Start}),
+    represents=frozenset({"chain_elasticity", "chain_sticking"}),
+    gives=frozenset(TENSIONS) - {"tension_min"},
+    run=run,
+    cost=lambda spec, scene, carried, level: 2e-2,
+    source="derived in ptmcalc.numerics.two_mass_start",
+    valid=valid,
+    always=frozenset({"chain_elasticity", "chain_sticking"}),
+)

@@ -1,0 +1,106 @@
+"""The polygon effect on strands with mass and elasticity all along: the Fourier series of the dynamic tension."""
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Finding, Found, History, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import polygon
+from ptmcalc.machines.chain_drive.excitation import (
+    FAR,
+    HARMONICS,
+    POLYGON,
+    WEAK,
+    answer,
+    mass_of_drive,
+    swept,
+    undamped,
+)
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.model import chain_line, vibrating
+from ptmcalc.machines.chain_drive.resonances import operating_range
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
+
+SWEEP = 200
+"""Speeds of a sweep."""
+_NEAR_A_STEP = 0.05
+
+
+def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
+    """Largest and smallest dynamic tension of a chain that the teeth drive unevenly.
+
+        S(t) = sum Im(D(w_n) (-b_n/w_n^2) e^(i w_n t)),   w_n = 2 pi n V/p
+
+    D is the dynamic stiffness of the strands with the ends of the machine: constant tension with or without a mass
+    that moves, a held end, or the other run of the same sprocket; the far end may be moved by a polygon of its own.
+    The largest tension over a range of speeds is the course of the load `tension_dynamic_polygon`.
+
+    **Range** linear strands that stay taut; tensions at both ends of what vibrates and at the tail.
+    **Error** told: what lies behind the last harmonic and between samples, both bounded; rounding.
+    **Source** `numerics.harmonic`; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, for the motion of the sprocket.
+    """
+    count = HARMONICS[level]
+    found = answer(spec, scene, carried, count)
+    loads = {name: Found(one) for name, one in loads_of_tension(spec, chain_line(spec, scene), found).items()}
+    at = {"pitch": found.place} if found.place is not None else {}
+    loads["tension_dynamic_polygon"] = Found(found.largest, at)
+    loads["tension_dynamic_polygon_min"] = Found(found.smallest)
+    loads["tension_dynamic_polygon_far"] = Found(found.far_largest)
+    loads["tension_polygon_bound"] = Found(Estimate.exact(found.bound))
+
+    def histories() -> dict[str, History]:
+        speeds = sweep_speeds(spec)
+        chain = vibrating(spec, scene, mass_of_drive(spec, carried))
+        peaks = swept(spec, chain, speeds, carried, count).largest
+        return {"tension_dynamic_polygon": History(units.FORCE, speeds.tolist(), peaks.tolist(), units.SPEED)}
+
+    return Result(loads, work=count, findings=_near_a_step(spec) + _without_damping(spec, scene), histories=histories)
+
+
+def sweep_speeds(spec: ChainDrive) -> np.ndarray:
+    """The speeds of the operating range, that of the file among them [m/s]."""
+    speeds = np.linspace(*operating_range(spec), SWEEP)
+    speeds[int(np.argmin(np.abs(speeds - spec.speed)))] = spec.speed
+    return speeds
+
+
+def _near_a_step(spec: ChainDrive) -> tuple[Finding, ...]:
+    """The textbook's table of lengths jumps at 25 and at 60 m."""
+    if not isinstance(spec.layout, ConveyorLayout) or spec.layout.tail.driven == "on":
+        return ()
+    threshold, distance = polygon.nearest_threshold(spec.layout.length)
+    if abs(distance) > _NEAR_A_STEP:
+        return ()
+    step = units.show(threshold, units.SPAN)
+    message = f"the textbook's polygon force jumps at a length of {step}, {abs(distance):.1%} from here: see the bars"
+    return (Finding("NUM108", message, ("layout", "length")),)
+
+
+def _without_damping(spec: ChainDrive, scene: Run) -> tuple[Finding, ...]:
+    if not undamped(spec, scene):
+        return ()
+    message = "a chain without damping has no bound for its polygon tension: its high harmonics meet modes at any speed"
+    return (Finding("NUM102", message, ("chain", "damping"), "write `damping: {ratio: 0.05}`, or a measured ratio"),)
+
+
+DISTRIBUTED_STRAND: Solver[ChainDrive, Run] = Solver(
+    name="distributed_strand",
+    title="polygon effect on strands with mass and elasticity",
+    fidelity=Fidelity.MODAL,
+    scenes=frozenset({Run}),
+    represents=frozenset({POLYGON, FAR, WEAK}),
+    gives=OF_TENSION
+    | {
+        "tension_dynamic_polygon",
+        "tension_dynamic_polygon_min",
+        "tension_dynamic_polygon_far",
+        "tension_polygon_bound",
+    },
+    run=run,
+    cost=lambda spec, scene, carried, level: 6e-3 * 4**level,
+    source="Fourier series of the polygon acceleration; dynamic stiffness of the strands",
+    always=frozenset({POLYGON}),
+    levels=len(HARMONICS),
+)

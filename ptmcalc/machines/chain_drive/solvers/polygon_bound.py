@@ -1,0 +1,43 @@
+"""The polygon effect by the sum of its absolute harmonics: no dynamic tension is larger, whatever the phases."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.chain_drive.excitation import FAR, POLYGON, QUIET, WEAK, Answer, Tail, answer_bound
+from ptmcalc.machines.chain_drive.model import chain_line, ends_at_tail
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
+
+
+def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
+    """Most that the polygon effect can add to any tension.
+
+        S <= sum |D(w_n)| |b_n|/w_n^2,   w_n = 2 pi n V/p,   and what lies behind the last harmonic
+
+    **Range** linear strands that stay taut, with whatever ends; infinite at a resonance without damping.
+    **Error** a bound: up to twice the largest tension near a resonance and several times it between two.
+    **Source** triangle inequality on the Fourier series; its rest in `numerics.harmonic.rest`.
+    """
+    bound = answer_bound(spec, scene, carried, near=True)
+    most = Estimate(bound, 0.0, bound, bound) if math.isfinite(bound) else Estimate.unknown(bound)
+    least = Estimate(-bound, -bound, 0.0, bound) if math.isfinite(bound) else Estimate.unknown(-bound)
+    tail = QUIET if ends_at_tail(spec) else Tail(most, least, most, least)
+    loads = loads_of_tension(spec, chain_line(spec, scene), Answer(most, least, most, least, tail, bound, None))
+    loads["tension_polygon_bound"] = Estimate.exact(bound)
+    return Result({name: Found(one) for name, one in loads.items()}, work=1024)
+
+
+POLYGON_BOUND: Solver[ChainDrive, Run] = Solver(
+    name="polygon_bound",
+    title="polygon effect, sum of its absolute harmonics",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Run}),
+    represents=frozenset({POLYGON, FAR, WEAK}),
+    gives=OF_TENSION | {"tension_polygon_bound"},
+    run=run,
+    cost=lambda spec, scene, carried, level: 3e-3,
+    source="Fourier series of the polygon acceleration; dynamic stiffness of the strands",
+    always=frozenset({POLYGON}),
+)

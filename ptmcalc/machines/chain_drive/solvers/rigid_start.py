@@ -1,0 +1,134 @@
+"""A start of the rigid chain: closed form, and the textbook's beside it. What waves add is the bound of that effect."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import chain_start, inertia, wave
+from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
+from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, rigid_tensions
+from ptmcalc.machines.chain_drive.starting import StartCase, curve_start, drive_of, motor_torque, start_case
+
+
+def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Loads of a start in which motors, chain and load move as one body.
+
+        m a + W = e (M i/R - J (i/R)^2 a),   e = eta or 1/eta by the direction of the power
+        J_red = J + m (R/i)^2/e,   t = (J_red/(M - W R/(e i))) w,   S = S_static + a r
+
+    m holds chain, load, tail and sprocket, R = z p/(2 pi), r is the mass the run-on pulls (gravity take-up) or that
+    less its mean over the loop (screw take-up). An imposed speed gives a = V q'_max.
+
+    **Range** any start; the losses of the gear as on the plateau of the torque.
+    **Error** no bar of its own but for a motor's curve, whose quadrature tells it; what waves and teeth add is in the
+    bounds of those effects.
+    **Source** Newton's law; lecture notes Kramatorsk 2007 with the efficiency in the direction of the power.
+    """
+    case = start_case(spec, scene)
+    _, swing, least = rigid_tensions(case)
+    loads = loads_of(spec, case, Estimate.exact(swing), Estimate.exact(least))
+    loads |= {name: Estimate.exact(value) for name, value in _of_the_drive(spec, case).items()}
+    loads["start_time"] = _start_time(spec, scene, case)
+    if case.follows_curve:
+        loads |= {name: Estimate.unknown(loads[name].value) for name in TENSIONS}
+    return Result({name: Found(load) for name, load in loads.items()}, work=1, window=(0.0, case.held + case.window))
+
+
+def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
+    gear, arm, mass = drive_of(spec).gear, mean_arm(spec), case.line.moving_mass
+    needed = case.line.static_resistance
+    if case.imposed_speed:
+        needed += case.acceleration * (mass + inertia_at_chain(spec, case))
+    driven = mass + filled(spec.sprocket.inertia) / arm**2
+    return {
+        "static_resistance": case.line.static_resistance,
+        "starting_force": case.available,
+        "starting_reserve": case.available / needed if needed > 0 else math.inf,
+        "acceleration_motor": case.acceleration * gear.ratio / arm,
+        "reduced_inertia": motor_side_inertia(spec) + driven * (arm / gear.ratio) ** 2 / case.losses,
+        "wave_speed": wave.wave_speed(case.line.working.stiffness, case.line.working.line_mass),
+    }
+
+
+def inertia_at_chain(spec: ChainDrive, case: StartCase) -> float:
+    """Motors, couplings and sprocket at the chain, through the losses of the start [kg]."""
+    gear, arm = drive_of(spec).gear, mean_arm(spec)
+    return (case.losses * motor_side_inertia(spec) * gear.ratio**2 + filled(spec.sprocket.inertia)) / arm**2
+
+
+def _start_time(spec: ChainDrive, scene: Start, case: StartCase) -> Estimate:
+    if not case.follows_curve:
+        return Estimate.exact(case.duration)
+    time, off = curve_start(spec, scene)
+    return Estimate.exact(time) if math.isinf(time) else Estimate.within(time, off)
+
+
+_GIVES = frozenset(
+    {
+        *TENSIONS,
+        "static_resistance",
+        "starting_force",
+        "starting_reserve",
+        "start_time",
+        "acceleration_motor",
+        "reduced_inertia",
+        "wave_speed",
+    }
+)
+RIGID_START: Solver[ChainDrive, Start] = Solver(
+    name="chain_rigid_start",
+    title="start of the rigid chain",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Start}),
+    represents=frozenset(),
+    gives=_GIVES,
+    run=run,
+    cost=lambda spec, scene, carried, level: 3e-4,
+    source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",
+)
+
+
+def notes(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Start by the textbook.
+
+        J_pr = J + m R^2/(i^2 eta),   eps = (M_p - M_s)/J_pr,   t = J_pr w/(M_p - M_s),   S = S_C + m eps R/i
+        M_s = W R/(i eta)
+
+    **Range** a torque; R is the radius through the pins, as the textbook has it, not z p/(2 pi).
+    **Error** no bound: the rigid-body part, the swing of an elastic chain left out; eta always as if the motor drives.
+    **Source** lecture notes Kramatorsk 2007.
+    """
+    case = start_case(spec, scene)
+    if case.imposed_speed:
+        return Result({}, work=1)
+    gear, r, mass = drive_of(spec).gear, radius(spec), case.line.moving_mass
+    ratio, efficiency = gear.ratio, filled(gear.efficiency)
+    whole = motor_side_inertia(spec) + inertia.mass_on_motor_shaft(mass, r, 1.0, ratio, efficiency, inertia.DRIVE)
+    static = case.line.static_resistance * r / (ratio * efficiency)
+    torque, speed = motor_torque(spec), case.line.speed / r * ratio
+    eps = chain_start.start_acceleration(torque, static, whole)
+    dynamic = chain_start.start_force(mass, max(eps, 0.0), r, ratio)
+    loads = {
+        "reduced_inertia": whole,
+        "acceleration_motor": max(eps, 0.0),
+        "start_time": chain_start.start_time(torque, static, whole, speed),
+        "tension_dynamic_start": dynamic,
+        "tension_start": case.line.run_on + dynamic,
+    }
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+
+
+START_NOTES: Solver[ChainDrive, Start] = Solver(
+    name="chain_start_notes",
+    title="textbook start: reduced inertia, start time, start force",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Start}),
+    represents=frozenset(),
+    gives=frozenset({"reduced_inertia", "acceleration_motor", "start_time", "tension_dynamic_start", "tension_start"}),
+    run=notes,
+    cost=lambda spec, scene, carried, level: 5e-5,
+    source="lecture notes Kramatorsk 2007",
+    decides=False,
+)

@@ -1,0 +1,287 @@
+"""A start of the elastic chain by its modes: one of them as two masses on a spring, or many as waves."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import belt_modes, chain_resonance, loop_bounds
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.chain_drive.model import FloatArray
+from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
+from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
+from ptmcalc.machines.chain_drive.starting import StartCase, Swinging, ratios, start_case
+from ptmcalc.numerics.mode_sum import Modes, Peaks, kicks, mode_sum
+
+_FEWEST = 24
+"""Modes at the coarsest level; four times as many at each finer one."""
+_SECTIONS = 24
+"""Modes for the sections along the chain; twice as many at each finer level."""
+_FAR_BEYOND = 4.0
+"""Damping ratio from which on a mode counts with those left out."""
+_ANGLE = 0.5
+"""Angle by which the fastest mode turns from one section to the next [rad]."""
+_SECONDS = 6e-8
+"""Per mode, sample and section; measured once, and only the ratio to other solvers' matters."""
+
+
+def natural_frequencies(case: Swinging, count: int) -> FloatArray:
+    """Of the loop that swings, drive and all, or with its sprocket held [rad/s]."""
+    return np.asarray(belt_modes.natural_frequencies(case.masses, 0.0, count))
+
+
+def felt(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int) -> int:
+    """So many of the lowest modes, without those far beyond critical damping, which follow at once."""
+    over = ratios(spec, scene, natural_frequencies(case, count)) > _FAR_BEYOND
+    return max(int(np.argmax(over)) if np.any(over) else count, 1)
+
+
+def _require_motion(case: StartCase) -> None:
+    if not case.moves or case.acceleration <= 0:
+        raise NumericsError("NUM102", "the drive does not move the chain: there is no motion to compute")
+
+
+# -- one mode -------------------------------------------------------------------------------------------------------
+
+
+def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Dynamic run-on tension of two masses on a spring: the drive, and all it pulls.
+
+        x'' + 2 zeta w x' + w^2 x = w^2 q + 2 zeta w q',   S = a r x,   w the first natural frequency of the chain
+
+    The spring is that with which both masses have the first frequency of the chain, its damper the damping of that
+    mode; of an imposed speed the drive has no end. Closed form between the kinks of the profile.
+
+    **Range** a taut chain that slides forward; a constant tension or a fixed length at the run-off.
+    **Error** what samples miss; what the higher modes do differently is the bound of that effect.
+    **Source** reduced system of two masses; derived in `numerics.mode_sum`.
+    """
+    case = start_case(spec, scene)
+    _require_motion(case)
+    w = natural_frequencies(case, 1)
+    whole = loop_bounds.quasi_static(case.masses, CARRY, np.ones(1))
+    modes = Modes(w, ratios(spec, scene, w), whole[None, :], whole, np.zeros(1))
+    peaks = mode_sum(modes, case.course, case.window)
+    dynamic = _largest(case, peaks, 0)
+    at = {"time": case.held + float(peaks.largest_time[0])}
+    loads = loads_of(spec, case, dynamic, None)
+    return Result(
+        {name: Found(load, at) for name, load in loads.items()},
+        work=peaks.samples,
+        window=(0.0, case.held + case.window),
+        findings=(),
+    )
+
+
+def _largest(case: StartCase, peaks: Peaks, place: int) -> Estimate:
+    """A largest dynamic tension with its numerical bar [N]."""
+    value, low, high = (
+        case.acceleration * float(part[place]) for part in (peaks.largest, peaks.largest_low, peaks.largest_high)
+    )
+    return Estimate(value, low, high, numerical=max(value - low, high - value))
+
+
+def _one_mode_cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
+    case = start_case(spec, scene)
+    return 5e-3 + 1e-6 * _samples(case, 1)
+
+
+def _samples(case: StartCase, count: int) -> float:
+    """Samples in the window, or until damping has ended the swing of the first mode."""
+    w = natural_frequencies(case, count)
+    return float(w[-1]) * case.window / _ANGLE if case.moves else 0.0
+
+
+# -- waves ----------------------------------------------------------------------------------------------------------
+
+
+def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Tensions of a start from many modes of both strands: what waves and their echoes come to.
+
+        S(s) = a (r(s) q + sum M_k(s) (x_k - q))
+
+    M_k(s) are the parts of the modes (`chain_resonance.modal_tensions`), internal damping that of the file at each of
+    their frequencies. The run-on takes more modes than the sections along both strands.
+
+    **Range** a taut chain that slides forward; hysteretic and Zener damping by the ratio of each mode.
+    **Error** told: what samples, sections and the modes left out can miss, all by bounds.
+    **Source** sums over modes, derived in `numerics.mode_sum` and `chain_resonance`; equal to d'Alembert's waves with
+    all of them.
+    """
+    case = start_case(spec, scene)
+    _require_motion(case)
+    many = felt(spec, scene, case, _FEWEST << (2 * level))
+    at_drive = peaks_at(spec, scene, case, many, ((CARRY, np.ones(1)),))
+    count = felt(spec, scene, case, _SECTIONS << level)
+    sections = sections_of(case, count)
+    along = peaks_at(spec, scene, case, count, sections)
+    dynamic = _largest(case, at_drive, 0)
+    smallest, where = extreme_anywhere(case, along, sections, count)
+    at = {"time": case.held + float(at_drive.largest_time[0])}
+    loads = {name: Found(load, at) for name, load in loads_of(spec, case, dynamic, None).items()}
+    loads["tension_min"] = Found(smallest, where)
+    found = Result(
+        loads,
+        work=at_drive.samples + along.samples,
+        window=(0.0, case.held + case.window),
+        health={"modes": float(many), "sections": float(len(along.smallest))},
+    )
+    return beyond_slack(found)
+
+
+def beyond_slack(result: Result) -> Result:
+    """The result, or what is left of it where the chain may go slack: how low it would come, and a finding where it
+    surely does. What a chain does that is caught again is not known."""
+    low = result.loads["tension_min"]
+    if low.estimate.low >= 0:
+        return result
+    loads = {
+        name: found if name == "tension_min" else replace(found, estimate=Estimate.unknown(found.estimate.value))
+        for name, found in result.loads.items()
+    }
+    if low.estimate.high >= 0:
+        return replace(result, loads=loads)
+    finding = Finding(
+        "NUM102",
+        f"the chain goes slack at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the run-off; what is said"
+        " of the time after that is not trusted",
+    )
+    return replace(result, loads=loads, findings=(finding,))
+
+
+Sections = tuple[tuple[int, FloatArray], ...]
+
+
+def sections_of(case: Swinging, count: int) -> Sections:
+    """Shares of both strands, close enough for the fastest mode; a strand without mass has its ends."""
+    fastest = float(natural_frequencies(case, count)[-1])
+    found = []
+    for strand, mass, compliance in (
+        (RETURN, case.masses.return_mass, case.masses.return_compliance),
+        (CARRY, case.masses.carry_mass, case.masses.carry_compliance),
+    ):
+        angle = fastest * math.sqrt(mass * compliance)
+        found.append((strand, np.linspace(0.0, 1.0, math.ceil(angle / _ANGLE) + 2)))
+    return tuple(found)
+
+
+def modes_at(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, sections: Sections) -> Modes:
+    """The modes of a start at sections."""
+    w = natural_frequencies(case, count)
+    masses = case.masses
+    gains = np.concatenate([chain_resonance.modal_tensions(masses, w, *one) for one in sections], axis=1)
+    whole = np.concatenate([loop_bounds.quasi_static(masses, *one) for one in sections])
+    rest = np.concatenate([chain_resonance.modal_rest(masses, w, *one) for one in sections])
+    return Modes(w, ratios(spec, scene, w), gains, whole, rest)
+
+
+def peaks_at(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, sections: Sections) -> Peaks:
+    return mode_sum(modes_at(spec, scene, case, count, sections), case.course, case.window)
+
+
+def extreme_anywhere(
+    case: Swinging, peaks: Peaks, sections: Sections, count: int, sign: int = -1
+) -> tuple[Estimate, dict[str, float]]:
+    """Smallest (or with sign 1 the largest) tension anywhere with its bar, and where and when it is [N, m, s]."""
+    a, static = case.acceleration, np.concatenate([static_at(case, strand, x) for strand, x in sections])
+    found = (peaks.smallest, peaks.smallest_low, peaks.smallest_high, peaks.smallest_time)
+    if sign > 0:
+        found = (-peaks.largest, -peaks.largest_high, -peaks.largest_low, peaks.largest_time)
+    value, low, high = (a * part - sign * static for part in found[:3])
+    which = int(value.argmin())
+    least = float(low.min()) - a * _between_sections(case, sections, count)
+    most = max(float(high.min()), float(value[which]))
+    middle, bar = float(value[which]), max(float(value[which]) - least, most - float(value[which]))
+    ends = (least, most) if sign < 0 else (-most, -least)
+    at = {"time": case.held + float(found[3][which]), "position": position_of(case, sections, which)}
+    return Estimate(-sign * middle, ends[0], ends[1], numerical=bar), at
+
+
+def position_of(case: Swinging, sections: Sections, which: int) -> float:
+    """Where a section lies, from the run-off on [m]."""
+    back, working = case.line.back.length, case.line.working.length
+    places = [x * back if strand == RETURN else back + x * working for strand, x in sections]
+    return float(np.concatenate(places)[which])
+
+
+def travel_time(case: Swinging, strand: int) -> float:
+    """Of a wave along a strand of the loop that swings [s]."""
+    loop = case.masses
+    if strand == RETURN:
+        return math.sqrt(loop.return_mass * loop.return_compliance)
+    return math.sqrt(loop.carry_mass * loop.carry_compliance)
+
+
+def _between_sections(case: Swinging, sections: Sections, count: int) -> float:
+    """What the modes taken can do between two sections, per acceleration: an eighth of their bend [kg].
+
+    |M_k''| <= (w t)^2 |M_k|, t the travel time of the strand; a mode strays by its kicks at most
+    """
+    w = natural_frequencies(case, count)
+    jumps, variation = kicks(case.course, case.window)
+    stray = jumps + variation / w
+    worst = 0.0
+    for strand, x in sections:
+        gains = np.abs(chain_resonance.modal_tensions(case.masses, w, strand, x)).max(axis=1)
+        bend = (w * travel_time(case, strand) * float(x[1])) ** 2 / 8
+        worst = max(worst, float(np.sum(bend * gains * stray)))
+    return worst
+
+
+def _waves_cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
+    case = start_case(spec, scene)
+    if not case.moves:
+        return 0.0
+    count, along = (felt(spec, scene, case, one) for one in (_FEWEST << (2 * level), _SECTIONS << level))
+    sections = sum(len(x) for _, x in sections_of(case, along))
+    return 5e-3 + 1e-7 * _samples(case, count) * count + _SECONDS / 20 * _samples(case, along) * along * sections
+
+
+def valid(spec: ChainDrive, scene: Start) -> Criterion:
+    """Whether the modes of a start are known: something moves, and nothing but torque or speed over time drives.
+
+        n = 1 for a drive too weak, + 1 for a motor's curve, + 1 for a tail with a drive of its own
+
+    **Range** any start.
+    **Error** exact: a count.
+    **Source** Newton's law; a torque that goes with the speed damps and drives the modes.
+    """
+    case = start_case(spec, scene)
+    own = getattr(spec.layout, "tail", None)
+    count = (not case.moves) + case.follows_curve + (own is not None and own.driven == "on")
+    meaning = "too weak a drive, a motor's curve, a driven tail: none of them"
+    return Criterion("n", float(count), 1.0, meaning, "count")
+
+
+ONE_MODE: Solver[ChainDrive, Start] = Solver(
+    name="chain_one_mode",
+    title="two masses on a spring, of the chain's first frequency",
+    fidelity=Fidelity.MODAL,
+    scenes=frozenset({Start}),
+    represents=frozenset({"chain_elasticity"}),
+    gives=frozenset(TENSIONS) - {"tension_min"},
+    run=one_mode,
+    cost=_one_mode_cost,
+    source="reduced system of two masses",
+    valid=valid,
+    always=frozenset({"chain_elasticity"}),
+)
+WAVES: Solver[ChainDrive, Start] = Solver(
+    name="chain_start_waves",
+    title="waves on both strands, as the sum of their modes",
+    fidelity=Fidelity.MODAL,
+    scenes=frozenset({Start}),
+    represents=frozenset({"chain_elasticity", "higher_modes"}),
+    gives=frozenset(TENSIONS),
+    run=waves,
+    cost=_waves_cost,
+    source="sums over modes; derived in ptmcalc.numerics.mode_sum",
+    valid=valid,
+    always=frozenset({"chain_elasticity", "higher_modes"}),
+    levels=3,
+)

@@ -1,0 +1,315 @@
+"""A chain that changes its speed under its teeth: the rigid body's answer, and every mode tooth after tooth."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import loop_bounds, polygon
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.chain_drive.excitation import far_place, residual
+from ptmcalc.machines.chain_drive.layout import TwoShafts
+from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, tail_teeth
+from ptmcalc.machines.chain_drive.passing import (
+    Passing,
+    has_driven_tail,
+    range_passing,
+    start_passing,
+)
+from ptmcalc.machines.chain_drive.solvers.start_waves import (
+    Sections,
+    beyond_slack,
+    position_of,
+    sections_of,
+    travel_time,
+)
+from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
+from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
+from ptmcalc.machines.chain_drive.starting import StartCase, start_case
+from ptmcalc.machines.chain_drive.strength import safety
+from ptmcalc.numerics import tooth_passes
+
+_LEADS = 2
+"""Places of the first joint in the pitch that are tried, at the coarsest level; twice as many at each finer one."""
+_MODES = 6
+"""Modes that the teeth excite one by one, at the coarsest level; twice as many at each finer one."""
+_SECONDS = 4e-6
+"""Per place and mode; measured once, and only the ratio to other solvers' matters."""
+_PER_SECTION = 1.5e-8
+
+
+def range_loads(spec: ChainDrive, scene: SpeedRange, dynamic: Estimate) -> dict[str, Estimate]:
+    """The loads of a range of speeds, from the largest dynamic tension at the run-on."""
+    line = chain_line(spec, scene)
+    most, least, value = (line.run_on + one + line.centrifugal for one in (dynamic.high, dynamic.low, dynamic.value))
+    middle, low, high = (safety(spec, one) if math.isfinite(one) else 0.0 for one in (value, most, least))
+    slope = middle / value if value > 0 else 0.0
+    return {"tension_speed_range": dynamic, "safety_start": Estimate(middle, low, high, dynamic.numerical * slope)}
+
+
+def range_notes(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level: int) -> Result:
+    """Polygon force by the textbook at the fastest speed of a range.
+
+        S_D = 3 m a_max,   m = (m_G + lambda m_K) L
+
+    **Range** teeth far slower than the first natural frequency.
+    **Error** no bound: see `polygon.textbook_polygon_force`; it knows no resonance on the way.
+    **Source** lecture notes Kramatorsk 2007.
+    """
+    line = chain_line(spec, scene)
+    fastest, working, back = max(scene.start, scene.end), line.working, line.back
+    peak = float(polygon.peak_acceleration(fastest, spec.chain.pitch, spec.sprocket.teeth))
+    load, share = working.line_mass - back.line_mass, polygon.return_share(working.length)
+    mass = polygon.textbook_mass(load, back.line_mass, working.length, share)
+    force = polygon.textbook_polygon_force(mass, peak)
+    return Result({"tension_speed_range": Found(Estimate.exact(force))}, work=1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """Dynamic tensions: the largest at the run-on with its bar and its time, the smallest at every section with its bar
+    and its time; what every mode followed at most; the places in time looked at."""
+
+    largest: Estimate
+    time: float
+    smallest: FloatArray
+    smallest_bar: FloatArray
+    smallest_time: FloatArray
+    followed: FloatArray
+    work: int
+
+
+def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
+    """Every mode through the passes of the teeth at both ends, for several places of the first joint.
+
+    The joints may stand anywhere when the change begins: the largest counts, and what it differs from that of half as
+    many places is in the bar, with what the quadrature, the modes left out and the teeth of a driven sprocket may miss.
+    """
+    count = _LEADS << level
+    found = [_ridden(spec, passing, sections, k / count) for k in range(count)]
+    tops, lows = (np.array([getattr(one, name) for one in found]) for name in ("largest", "smallest"))
+    errors = np.max([one.error for one in found], axis=0)
+    errors += np.concatenate([passing.left_out(spec, strand, x) for strand, x in (_RUN_ON, *sections)])
+    if isinstance(spec.layout, TwoShafts):
+        errors += _by_the_driven(spec, passing, sections)
+    high, which = tops[:, 0].max(), int(tops[:, 0].argmax())
+    apart = high - min(tops[::2, 0].max(), tops[1::2, 0].max())
+    bar = float(errors[0] + apart)
+    rows, columns = lows.argmin(axis=0), np.arange(lows.shape[1])
+    low_apart = np.maximum(lows[::2].min(axis=0), lows[1::2].min(axis=0)) - lows.min(axis=0)
+    return _Found(
+        Estimate(float(high), max(float(high) - bar, 0.0), float(high) + bar, numerical=bar),
+        float(found[which].largest_time[0]),
+        lows[rows, columns][1:],
+        (errors + low_apart)[1:],
+        np.array([one.smallest_time for one in found])[rows, columns][1:],
+        np.max([one.followed for one in found], axis=0),
+        sum(one.work for one in found),
+    )
+
+
+_RUN_ON = CARRY, np.ones(1)
+
+
+def _ridden(spec: ChainDrive, passing: Passing, sections: Sections, lead: float) -> tooth_passes.Passing:
+    """All passes when the first joint is a lead behind its engagement."""
+    share, begun, teeth = residual(spec), passing.excited_by_start, spec.sprocket.teeth
+    on, off = passing.shapes(*_RUN_ON)[:, 0], passing.shapes(RETURN, np.zeros(1))[:, 0]
+    gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
+    gains /= passing.masses.belt_mass
+    behind = np.concatenate([loop_bounds.quasi_static(passing.masses, *one) for one in (_RUN_ON, *sections)])
+    behind -= begun @ gains  # what the modes left out take of the mean acceleration, followed at once
+    fixed, stiffness = passing.masses.fixed_length, share * passing.stiffness
+    leads = (lead, (lead + (far_place(spec) or 0.0)) % 1.0) if fixed else (lead,)
+
+    def moved(times: FloatArray, middles: FloatArray) -> FloatArray:
+        found = passing.acceleration(times)[:, :, None] * begun
+        for shape, one in zip((on, -off), leads, strict=False):
+            places = passing.places(spec, times, middles, one)
+            found = found + share * passing.polygon(spec, times, places, teeth)[:, :, None] * shape
+        return np.asarray(found)
+
+    def followed(times: FloatArray, middles: FloatArray) -> FloatArray:
+        found = passing.acceleration(times)[:, :, None] * behind
+        if not fixed:
+            return np.asarray(found)
+        both = [passing.places(spec, times, middles, one) for one in leads]
+        ahead = [polygon.polygon_displacement(one, spec.chain.pitch, spec.sprocket.teeth) for one in both]
+        return np.asarray(found + (stiffness * (ahead[0] - ahead[1]))[:, :, None])
+
+    return tooth_passes.tooth_passes(
+        passing.edges(spec, *leads),
+        moved,
+        passing.frequencies,
+        passing.damping_ratios,
+        gains,
+        followed,
+    )
+
+
+def _by_the_driven(spec: ChainDrive, passing: Passing, sections: Sections) -> FloatArray:
+    """Most that the teeth of the driven sprocket add at the run-on and at sections, on their own: nobody knows where
+    they stand against those of the driver [N]."""
+    teeth, far = tail_teeth(spec), passing.shapes(CARRY, np.zeros(1))[:, 0]
+    gains = np.concatenate([passing.shapes(strand, x) for strand, x in (_RUN_ON, *sections)], axis=1)
+
+    def moved(times: FloatArray, middles: FloatArray) -> FloatArray:
+        places = passing.places(spec, times, middles, 0.0)
+        return np.asarray(passing.polygon(spec, times, places, teeth)[:, :, None] * far)
+
+    found = tooth_passes.tooth_passes(
+        passing.edges(spec, 0.0), moved, passing.frequencies, passing.damping_ratios, gains / passing.masses.belt_mass
+    )
+    return np.asarray(np.maximum(found.largest, -found.smallest) + found.error)
+
+
+def through(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], level: int) -> Result:
+    """Dynamic tension while a range of speeds is passed through, resonances and all.
+
+        S = sum M_k x_k,   x_k'' + 2 zeta_k w_k x_k' + w_k^2 x_k = w_k^2 a + 2 zeta_k w_k a'
+        a = e R cos(phi) - w^2 R sin(phi)
+
+    Every pass of a tooth has its own map of the state, so that no resonance is too slow or too sharp.
+
+    **Range** a sprocket whose speed changes evenly, whatever the chain does; modes at rest at the beginning of the
+    range; in a loop of fixed length the damping of the stretch by the teeth is left out.
+    **Error** told: quadrature, modes left out, and where the joints stand at the beginning.
+    **Source** derived in `numerics.run_through`; kinematics of the polygon.
+    """
+    found = _passed(spec, range_passing(spec, scene, _MODES << level), (), level)
+    loads = range_loads(spec, scene, found.largest)
+    return Result(
+        {name: Found(load, {"time": found.time}) for name, load in loads.items()},
+        work=found.work,
+        window=(0.0, scene.time),
+    )
+
+
+def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """Dynamic run-on tension of a start with its teeth: the mean acceleration and the polygon in one run.
+
+        S(s) = sum B_k(s) x_k,   x_k follows A_k a_rigid + B_k(on) a_on - B_k(off) a_off
+        a_on = e R cos(phi) - w^2 R sin(phi) - a_rigid
+
+    Teeth act between the chain and its drive: a light drive gives way to them. With a screw take-up those of the
+    run-off act too, and the difference of both stretches the loop.
+
+    **Range** a speed or a torque over time, with the angle of the sprocket that of the rigid body.
+    **Error** told as in `through`.
+    **Source** derived in `numerics.run_through`.
+    """
+    case, passing = start_case(spec, scene), start_passing(spec, scene, _MODES << level)
+    if case.acceleration <= 0:
+        raise NumericsError("NUM102", "the drive does not move the chain: there is no motion to compute")
+    sections = sections_of(case, len(passing.frequencies))
+    found = _passed(spec, passing, sections, level)
+    smallest, at = _lowest(case, passing, found, sections)
+    loads = {
+        name: Found(load, {"time": case.held + found.time})
+        for name, load in loads_of(spec, case, found.largest, None).items()
+    }
+    loads["tension_min"] = Found(smallest, at)
+    return beyond_slack(Result(loads, work=found.work, window=(0.0, case.held + case.window)))
+
+
+def _lowest(case: StartCase, passing: Passing, found: _Found, sections: Sections) -> tuple[Estimate, dict[str, float]]:
+    """Smallest tension anywhere, with what the modes can do between two sections in its bar.
+
+    |B_k(s)''| <= (w t)^2 |B_k|, t the travel time of the strand; an eighth of it times the square of the distance
+    """
+    static = np.concatenate([static_at(case, strand, x) for strand, x in sections])
+    between = 0.0
+    for strand, x in sections:
+        transit = travel_time(case, strand)
+        shapes = np.abs(passing.shapes(strand, x)).max(axis=1) / passing.masses.belt_mass
+        bend = (passing.frequencies * transit * float(x[1])) ** 2 / 8
+        between = max(between, float(np.sum(bend * shapes * found.followed)))
+    values = static + np.minimum(found.smallest, 0.0)
+    lows, which = values - found.smallest_bar - between, int(values.argmin())
+    high = min(float((values + found.smallest_bar).min()), float(static.min()))
+    value = float(values[which])
+    bar = max(value - float(lows.min()), high - value)
+    at = {"time": case.held + float(found.smallest_time[which]), "position": position_of(case, sections, which)}
+    return Estimate(value, float(lows.min()), max(high, value), numerical=bar), at
+
+
+def _cost(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
+    if not 0 < passing.window < math.inf:
+        return 0.0
+    fastest = float(np.max(passing.frequencies * np.maximum(1.0, 2 * passing.damping_ratios)))
+    places = fastest * passing.window / 2 + 10 * float(passing.way(np.array([passing.window]))[0]) / spec.chain.pitch
+    return 5e-3 + (_LEADS << level) * places * len(passing.frequencies) * (_SECONDS + _PER_SECTION * sections)
+
+
+def range_valid(spec: ChainDrive, scene: SpeedRange) -> Criterion:
+    """Whether only its own teeth move the chain.
+
+        n = 1 for a tail that another drive turns
+
+    **Range** any range of speeds.
+    **Error** exact: a count.
+    **Source** polygon effect at both ends.
+    """
+    return Criterion("n", float(has_driven_tail(spec)), 1.0, "driven tails: none", "count")
+
+
+def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
+    """Whether the speed of a start is known over time, and only its own teeth move the chain.
+
+        n = 1 for a tail that another drive turns, + 1 for a motor's curve or no motion
+
+    **Range** any start.
+    **Error** exact: a count.
+    **Source** polygon effect at both ends; a torque that goes with the speed damps and drives the modes.
+    """
+    case = start_case(spec, scene)
+    unknown = case.follows_curve or not case.moves
+    count = float(has_driven_tail(spec)) + float(unknown)
+    return Criterion("n", count, 1.0, "driven tails, motors' curves: none", "count")
+
+
+RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(
+    name="chain_range_notes",
+    title="textbook polygon force at the fastest speed",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({SpeedRange}),
+    represents=frozenset(),
+    gives=frozenset({"tension_speed_range"}),
+    run=range_notes,
+    cost=lambda spec, scene, carried, level: 5e-5,
+    source="lecture notes Kramatorsk 2007",
+    decides=False,
+)
+RANGE: Solver[ChainDrive, SpeedRange] = Solver(
+    name="chain_run_through",
+    title="every mode through the range, tooth after tooth",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({SpeedRange}),
+    represents=frozenset({"tooth_passing"}),
+    gives=frozenset({"tension_speed_range", "safety_start"}),
+    run=through,
+    cost=lambda spec, scene, carried, level: _cost(spec, range_passing(spec, scene, _MODES << level), 1, level),
+    source="derived in ptmcalc.numerics.run_through",
+    valid=range_valid,
+    always=frozenset({"tooth_passing"}),
+    levels=3,
+)
+START_TEETH: Solver[ChainDrive, Start] = Solver(
+    name="chain_start_teeth",
+    title="every mode of the start, tooth after tooth",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({Start}),
+    represents=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),
+    gives=frozenset(TENSIONS),
+    run=started,
+    cost=lambda spec, scene, carried, level: _cost(spec, start_passing(spec, scene, _MODES << level), 80, level),
+    source="derived in ptmcalc.numerics.run_through",
+    valid=start_valid,
+    always=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),
+    levels=3,
+)

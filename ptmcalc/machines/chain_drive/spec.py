@@ -1,0 +1,329 @@
+"""How a designer writes a chain drive: a chain conveyor, or two shafts with a chain between them."""
+
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.start import Profile
+from ptmcalc.laws import chain_selection, sprocket
+from ptmcalc.machines.chain_drive.chain_data import (
+    ChainData,
+    RatioFromOne,
+    Sprocket,
+    Wear,
+    even,
+    teeth_of,
+    wrong_size,
+)
+from ptmcalc.machines.chain_drive.layout import Layout, TwoShafts
+from ptmcalc.spec.fields import (
+    Force,
+    Fraction,
+    Inertia,
+    Measure,
+    PositiveAngle,
+    PositivePressure,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveSpeed,
+    PositiveTime,
+    PositiveTorque,
+    RunningTime,
+    Time,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.scene import Scene
+
+
+class Drive(Fragment):
+    """Motors and gear on the shaft of the driving sprocket."""
+
+    motor: Motor
+    """the motors"""
+    coupling_inertia: Inertia | None = None
+    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
+    gear: Gear
+    """the gear; `{ratio: 1, efficiency: 1}` without one"""
+
+
+class Brake(Fragment):
+    """A brake."""
+
+    torque: PositiveTorque
+    """braking torque when fully applied"""
+    shaft: Literal["sprocket", "motor"] = "motor"
+    """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
+    delay: Time = 0.0
+    """from the command until it begins to act"""
+    rise_time: Time = 0.0
+    """from then until its full torque, rising straight"""
+
+
+class Backstop(Fragment):
+    """A device that keeps a loaded conveyor from running back."""
+
+    torque: PositiveTorque
+    """what it holds, on the sprocket shaft"""
+    reserve: RatioFromOne = 1.25
+    """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
+
+
+class Equalising(Fragment):
+    """A drive whose sprocket turns so unevenly that the chain runs evenly."""
+
+    residual: Fraction = 0.0
+    """what is left of the polygon effect, as a share of it: how imperfectly the law is followed"""
+
+
+class Operating(Fragment):
+    """Range of speeds the drive is run at,."""
+
+    lowest: PositiveSpeed
+    """slowest chain speed"""
+    highest: PositiveSpeed
+    """fastest chain speed"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The range is not empty."""
+        low, high = given.number("lowest"), given.number("highest")
+        if low is not None and high is not None and low >= high:
+            yield Conflict(("highest",), "it is not above the lowest speed", "swap them")
+
+
+BandWidth = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+
+
+class ResonanceLimit(Fragment):
+    """What counts as too near a resonance."""
+
+    band: BandWidth = 0.15
+    """how near to a resonance speed, as a share of it; twice the damping ratio where that is more"""
+    weight: PositiveRatio = 0.5
+    """force of a tooth harmonic in resonance, over m a_max, from which on it matters"""
+
+
+class ChainChecks(CheckSettings):
+    """Limits of the checks of a chain drive; None stands for the default of the layout."""
+
+    resonance: ResonanceLimit = ResonanceLimit()
+    """how far the speed keeps from resonances"""
+    safety_static: PositiveRatio | None = None
+    """breaking load over static and centrifugal tension; 10 for conveyors, 7 for drives when left out"""
+    safety_dynamic: PositiveRatio | None = None
+    """breaking load over the largest tension of steady running; 7 for conveyors, 5 for drives when left out"""
+    safety_start: PositiveRatio = 5.0
+    """breaking load over the largest tension of a start or stop"""
+    joint_pressure: PositivePressure | None = None
+    """largest pressure in the joints; 20 to 30 MPa is usual"""
+    wrap: PositiveAngle = 2.0943951023931953
+    """smallest wrap of a sprocket; 120 deg by handbooks"""
+    teeth: Annotated[int, Field(ge=1, strict=True)] | None = None
+    """fewest teeth; 6 for conveyors, 17 for drives when left out"""
+    ratio: PositiveRatio = 6.0
+    """largest ratio of the teeth of a drive"""
+    centre_distance_least: PositiveRatio = 30.0
+    """smallest distance of the shafts of a drive, in pitches"""
+    centre_distance_most: PositiveRatio = 80.0
+    """largest distance of the shafts of a drive without support of the strands, in pitches"""
+    least_tension: Force = 0.0
+    """smallest tension of a strand in steady running"""
+    life: RunningTime | None = None
+    """wanted life; needed to check wear and fatigue"""
+    fatigue: PositiveRatio = 1.0
+    """largest use of the permissible stress amplitude"""
+    start_time: PositiveTime | None = None
+    """longest start"""
+    stop_distance: PositiveSpan | None = None
+    """longest way of the chain in a `stop`"""
+    emergency_stop_distance: PositiveSpan | None = None
+    """longest way of the chain in an `emergency_stop`"""
+    stop_time: PositiveTime | None = None
+    """longest time of any stop"""
+
+
+class ChainScene(Scene):
+    """Base of the scenes of a chain drive."""
+
+    load: Literal["full", "empty"] = "full"
+    """with its load or power, or without"""
+
+    def default_name(self) -> str:
+        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+
+
+class Run(ChainScene):
+    """Steady running at the speed of the file."""
+
+    type: Literal["run"] = "run"
+
+
+class Start(ChainScene):
+    """A start from rest."""
+
+    type: Literal["start"] = "start"
+    profile: Profile = Profile()
+    """how the drive comes up; a torque step when left out"""
+    chain: Literal["frozen", "relaxed"] = "frozen"
+    """how the chain lies: with the tensions of its running in it, or without any but the take-up's after a long rest"""
+
+
+class Stopping(ChainScene):
+    """Base of the scenes in which a running chain comes to rest."""
+
+
+class Stop(Stopping):
+    """The drive is switched off at full speed; the chain runs out, or is braked."""
+
+    type: Literal["stop"] = "stop"
+    brake: Literal["on", "off"] = "on"
+    """whether the brake of the file acts"""
+
+
+class EmergencyStop(Stopping):
+    """The drive falls out at full speed and the brake comes in."""
+
+    type: Literal["emergency_stop"] = "emergency_stop"
+
+
+class Coast(Stopping):
+    """The drive is switched off and no brake acts; a measured way tells the resistance."""
+
+    type: Literal["coast"] = "coast"
+    measured_distance: PositiveSpan | None = None
+    """way of a real run-out from the speed of the file"""
+
+
+class Hold(ChainScene):
+    """A loaded conveyor stands still with its drive off."""
+
+    type: Literal["backstop"] = "backstop"
+
+
+class SpeedRange(ChainScene):
+    """The speed rises (or falls) evenly through a range, and through the resonances in it."""
+
+    type: Literal["speed_range"] = "speed_range"
+    start: PositiveSpeed = Field(alias="from")
+    """chain speed at the beginning"""
+    end: PositiveSpeed = Field(alias="to")
+    """chain speed at the end"""
+    time: PositiveTime
+    """in which it changes"""
+
+
+AnyScene = Annotated[Run | Start | Stop | EmergencyStop | Coast | Hold | SpeedRange, Field(discriminator="type")]
+
+IN_MOTION: frozenset[type[Scene]] = frozenset({Start, Stop, EmergencyStop, Coast, SpeedRange})
+"""Scenes in which the chain does not run evenly."""
+
+
+class ChainDrive(MachineSpec):
+    """A chain conveyor, or a drive by chain between two shafts."""
+
+    kind: Literal["chain_drive"]
+    layout: Layout
+    """where the chain runs and what it pulls: `type: conveyor` or `type: drive`"""
+    chain: ChainData
+    """the chain"""
+    sprocket: Sprocket
+    """the driving sprocket"""
+    speed: PositiveSpeed
+    """mean speed of the chain"""
+    operating: Operating | None = None
+    """range of speeds of a drive with variable speed; half to one and a half of `speed` is looked at when left out"""
+    drive: Drive | None = None
+    """motors and gear; needed for starts and stops"""
+    equalising: Equalising | None = None
+    """an equalising drive"""
+    brake: Brake | None = None
+    """the brake"""
+    backstop: Backstop | None = None
+    """what keeps an inclined conveyor from running back"""
+    wear: Wear | None = None
+    """wear of the joints; needed for the life"""
+    checks: ChainChecks = ChainChecks()
+    """limits, and checks switched off by code"""
+    scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
+    """what happens to the machine; a loaded run when left out, and a loaded start where the drive is given"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Sprockets fit the chain; a start needs its motors, a stop its gear."""
+        yield from super().conflicts(given)
+        chain, driver, layout = (given.block(key) for key in ("chain", "sprocket", "layout"))
+        pitch = chain.number("pitch") if chain else None
+        if driver is not None:
+            yield from wrong_size(driver, pitch, ("sprocket",))
+        if layout is not None and "type" in layout.raw:
+            yield from _of_layout(layout, driver, pitch)
+        yield from _scenes_that_lack(given)
+
+    @property
+    def all_scenes(self) -> Sequence[ChainScene]:
+        if self.scenes is not None:
+            return self.scenes
+        return (Run(), Start()) if self.drive is not None else (Run(),)
+
+    @property
+    def settings(self) -> ChainChecks:
+        return self.checks
+
+
+def _of_layout(layout: Given, driver: Given | None, pitch: float | None) -> Iterator[Conflict]:
+    """The other sprocket fits the chain, and the chain goes round both; paths hold the type of the layout."""
+    named, key = ("drive", "driven") if layout.model is TwoShafts else ("conveyor", "tail")
+    other = layout.block(key)
+    if other is None:
+        return
+    yield from wrong_size(other, pitch, ("layout", named, key))
+    if driver is None or pitch is None:
+        return
+    teeth = [teeth_of(one) for one in (driver, other)]
+    if None in teeth:
+        return
+    one, two = (z or 0 for z in teeth)
+    least = sprocket.pitch_radius(pitch, one) + sprocket.pitch_radius(pitch, two)
+    apart = "centre_distance" if layout.model is TwoShafts else "length"
+    distance, pitches = layout.number(apart), layout.raw.get("pitches")
+    if distance is not None and distance <= least:
+        room = units.show(least, units.LENGTH)
+        reason = f"the sprockets touch: their pitch radii together are {room}"
+        yield Conflict(("layout", named, apart), reason, "write about 40 pitches, or correct the pitch of the chain")
+    elif distance is None and isinstance(pitches, int):
+        needed = chain_selection.chain_pitches(least, pitch, one, two)
+        if pitches <= needed:
+            reason = f"{pitches} pitches do not reach round both sprockets, which touch at {needed:.1f}"
+            hint = f"write `pitches: {even(2 * needed)}`"
+            yield Conflict(("layout", named, "pitches"), reason, hint)
+
+
+_MOVED_BY_DRIVE = ("start", "stop", "emergency_stop", "coast")
+
+
+def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
+    """A start needs motors, a backstop scene a conveyor."""
+    layout = given.block("layout")
+    between_shafts = layout is not None and layout.model is TwoShafts and "type" in layout.raw
+    for index, scene in enumerate(given.blocks("scenes")):
+        what = scene.raw.get("type") if scene else None
+        if what in _MOVED_BY_DRIVE and "drive" not in given:
+            reason = f"a `{what}` needs the motors and the gear: there is no `drive`"
+            hint = "add `drive: {motor: {inertia: 0.35 kg*m^2, mean_starting_torque: 160 N*m}, gear: {ratio: 40}}`"
+            yield Conflict(("scenes", index), reason, hint)
+        if what == "backstop" and between_shafts:
+            yield Conflict(("scenes", index), "nothing runs back between two shafts", "delete the scene")
+        profile = scene.raw.get("profile") if scene and what == "start" else None
+        if isinstance(profile, dict) and profile.get("shape") == "curve" and not _has_curve(given):
+            hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
+            yield Conflict(("scenes", index, "start", "profile", "shape"), "the motor has no `curve` to follow", hint)
+
+
+def _has_curve(given: Given) -> bool:
+    drive = given.raw.get("drive")
+    motor = drive.get("motor") if isinstance(drive, dict) else None
+    return isinstance(motor, dict) and "curve" in motor

@@ -1,0 +1,219 @@
+"""A chain drive as a file writes it: what it says, and what it answers where something is wrong."""
+
+from typing import Any
+
+import pytest
+import yaml
+from support.chains import CH_05, MOTOR, ROLLER, chain_of
+from support.command import ptmcalc
+from support.machines import changed
+
+from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.engine.load import load_text
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
+from ptmcalc.machines.chain_drive.spec import Run, Start
+
+
+def problems(data: dict[str, Any]) -> list[Diagnostic]:
+    return list(load_text(yaml.safe_dump(data, sort_keys=False).encode(), "case.yaml").diagnostics)
+
+
+def faulty(data: dict[str, Any], *path: str | int) -> Diagnostic:
+    """The only error of a file, at a place."""
+    found = [one for one in problems(data) if one.severity == "error"]
+    assert [one.path for one in found] == [path], [(one.path, one.message) for one in found]
+    return found[0]
+
+
+def lines(text: str) -> list[str]:
+    return text.strip().splitlines()
+
+
+class TestBadInput:
+    def test_an_odd_number_of_pitches(self) -> None:
+        found = faulty(changed(ROLLER, layout__pitches=117, layout__centre_distance=None), "layout", "pitches")
+        assert found.code == "SPC113"
+        assert "117 pitches do not close" in found.message
+        assert "pitches: 118" in found.hint
+        assert "cranked_link: yes" in found.hint
+
+    def test_a_cranked_link_in_an_even_chain(self) -> None:
+        found = faulty(changed(ROLLER, layout__pitches=118, layout__cranked_link="yes"), "layout", "cranked_link")
+        assert "even" in found.message
+
+    @pytest.mark.parametrize("teeth", [3, 0, -8])
+    def test_three_teeth(self, teeth: int) -> None:
+        found = faulty(changed(CH_05, sprocket__teeth=teeth), "sprocket", "teeth")
+        assert f"{teeth} teeth do not make a sprocket" in found.message
+        assert "teeth: 8" in found.hint
+
+    def test_three_teeth_at_the_tail(self) -> None:
+        assert faulty(changed(CH_05, layout__tail__teeth=3), "layout", "tail", "teeth").code == "SPC113"
+        assert faulty(changed(ROLLER, layout__driven__teeth=2), "layout", "driven", "teeth").code == "SPC113"
+
+    def test_more_teeth_than_anybody_cuts(self) -> None:
+        assert "300" in faulty(changed(ROLLER, layout__driven__teeth=1000), "layout", "driven", "teeth").hint
+
+    def test_half_a_tooth(self) -> None:
+        assert faulty(changed(CH_05, sprocket__teeth=8.5), "sprocket", "teeth").code == "SPC111"
+
+    def test_a_pitch_larger_than_the_sprocket(self) -> None:
+        found = faulty(changed(CH_05, sprocket__diameter="300 mm"), "sprocket", "diameter")
+        assert "320 mm is no smaller than the sprocket itself, 300 mm" in found.message
+
+    def test_a_diameter_that_is_not_that_of_its_teeth(self) -> None:
+        found = faulty(changed(CH_05, sprocket__diameter="900 mm"), "sprocket", "diameter")
+        assert "836.2 mm" in found.message
+        assert "diameter: 836.2 mm" in found.hint
+        assert chain_of(changed(CH_05, sprocket__diameter="836.2 mm")).sprocket.diameter == pytest.approx(0.8362)
+        faulty(changed(ROLLER, layout__driven__diameter="1 m"), "layout", "driven", "diameter")
+        faulty(changed(CH_05, layout__tail__diameter="1 m"), "layout", "tail", "diameter")
+
+    def test_shafts_inside_the_sprockets(self) -> None:
+        found = faulty(changed(ROLLER, layout__centre_distance="250 mm"), "layout", "centre_distance")
+        assert "307.7 mm" in found.message
+
+    def test_a_conveyor_shorter_than_its_sprockets(self) -> None:
+        found = faulty(changed(CH_05, chain__pitch="160 m"), "layout", "length")
+        assert "the sprockets touch" in found.message
+
+    def test_a_chain_too_short_for_its_sprockets(self) -> None:
+        found = faulty(changed(ROLLER, layout__centre_distance=None, layout__pitches=40), "layout", "pitches")
+        assert "40 pitches" in found.message
+
+    def test_neither_stiffness_nor_section(self) -> None:
+        found = faulty(changed(CH_05, chain__section=None, chain__modulus=None), "chain")
+        assert "`stiffness` or `section`" in found.message
+
+    def test_stiffness_and_modulus(self) -> None:
+        faulty(changed(CH_05, chain__stiffness="3 MN"), "chain", "modulus")
+
+    @pytest.mark.parametrize(
+        ("damping", "key"),
+        [
+            ({"law": "zener", "time": "10 ms", "stiffening": 0.2, "ratio": 0.05}, "ratio"),
+            ({"law": "hysteretic", "time": "10 ms"}, "time"),
+            ({"ratio": 0.05, "time": "10 ms"}, "time"),
+            ({"ratio": 0.05, "stiffening": 0.2}, "stiffening"),
+        ],
+    )
+    def test_damping_with_numbers_of_another_law(self, damping: dict[str, Any], key: str) -> None:
+        faulty(changed(CH_05, chain__damping=damping), "chain", "damping", key)
+
+    def test_zener_without_its_time(self) -> None:
+        found = faulty(changed(CH_05, chain__damping={"law": "zener", "stiffening": 0.2}), "chain", "damping")
+        assert "`zener` needs its `time`" in found.message
+
+    def test_load_twice_or_not_at_all(self) -> None:
+        faulty(changed(CH_05, layout__capacity="100 t/h"), "layout", "capacity")
+        assert "`load` or `capacity`" in faulty(changed(CH_05, layout__load=None), "layout").message
+
+    def test_a_conveyor_that_rises_more_than_it_is_long(self) -> None:
+        faulty(changed(CH_05, layout__lift="41 m"), "layout", "lift")
+
+    def test_a_screw_with_a_mass(self) -> None:
+        data = changed(CH_05, layout__takeup={"type": "screw", "tension": "20 kN", "mass": "4 t"})
+        faulty(data, "layout", "takeup", "mass")
+
+    def test_a_phase_of_a_tail_that_is_not_driven(self) -> None:
+        faulty(changed(CH_05, layout__tail__phase=0.3), "layout", "tail", "phase")
+
+    def test_power_and_torque(self) -> None:
+        faulty(changed(ROLLER, layout__torque="2 kN*m"), "layout", "torque")
+
+    def test_neither_distance_nor_pitches(self) -> None:
+        found = faulty(changed(ROLLER, layout__centre_distance=None), "layout")
+        assert "`centre_distance` or `pitches`" in found.message
+
+    def test_an_empty_range_of_speeds(self) -> None:
+        faulty(changed(CH_05, operating={"lowest": "1 m/s", "highest": "1 m/s"}), "operating", "highest")
+
+    def test_wear_by_two_models(self) -> None:
+        archard = {"coefficient": "1e-17 m^2/N", "reference_pressure": "20 MPa"}
+        faulty(changed(CH_05, wear={"coefficient": "1e-12 Hz/N", "archard": archard}), "wear", "archard")
+        faulty(changed(CH_05, wear={"archard": archard, "tensions": "mean"}), "wear", "tensions")
+
+    def test_a_start_without_a_drive(self) -> None:
+        found = faulty(changed(CH_05, scenes=[{"type": "run"}, {"type": "start"}]), "scenes", 1)
+        assert "drive: {motor:" in found.hint
+
+    def test_nothing_runs_back_between_shafts(self) -> None:
+        faulty(changed(ROLLER, scenes=[{"type": "backstop"}]), "scenes", 0)
+
+    def test_a_start_along_a_curve_the_motor_does_not_have(self) -> None:
+        data = changed(CH_05, drive=MOTOR, scenes=[{"type": "start", "profile": {"shape": "curve"}}])
+        faulty(data, "scenes", 0, "profile", "shape")
+
+    def test_a_band_of_no_width(self) -> None:
+        faulty(changed(CH_05, checks={"resonance": {"band": 0}}), "checks", "resonance", "band")
+
+    def test_the_type_of_the_layout(self) -> None:
+        found = problems(changed(CH_05, layout__type="conveyer"))
+        assert found[0].path == ("layout", "type")
+        assert "conveyor" in found[0].hint
+
+    def test_several_mistakes_are_all_shown(self) -> None:
+        data = changed(CH_05, sprocket__teeth=3, chain__pitch="320", layout__lift="99 m", layout__tail__phase=0.3)
+        assert len(problems(data)) == 4
+
+    def test_the_place_is_printed(self, tmp_path: Any) -> None:
+        file = tmp_path / "chain.yaml"
+        text = yaml.safe_dump(changed(CH_05, sprocket__teeth=3), sort_keys=False)
+        file.write_text(text, encoding="utf-8")
+        line = next(k for k, one in enumerate(lines(text), 1) if "teeth: 3" in one)
+        done = ptmcalc("check", file)
+        assert done.status == 2
+        assert f"chain.yaml:{line}:3: error SPC113" in done.out
+
+
+class TestNotes:
+    def test_a_motor_that_does_not_fit_the_speed(self) -> None:
+        data = changed(CH_05, drive=MOTOR, drive__motor__speed="1470 rpm", drive__gear__ratio=100)
+        found = [one for one in problems(data) if one.code == "SPC201"]
+        assert [one.path for one in found] == [("speed",)]
+        assert problems(changed(data, drive__gear__ratio=125.44)) == []
+
+    def test_a_take_up_weight_that_pulls_otherwise(self) -> None:
+        found = problems(changed(CH_05, layout__takeup__mass="2000 kg"))
+        assert [one.path for one in found] == [("layout", "takeup", "mass")]
+        assert "4.077 t" in found[0].hint
+        assert problems(changed(CH_05, layout__takeup__mass="4077 kg")) == []
+
+    def test_a_speed_outside_its_range(self) -> None:
+        found = problems(changed(CH_05, operating={"lowest": "0.6 m/s", "highest": "1 m/s"}))
+        assert [one.path for one in found] == [("operating",)]
+
+    def test_a_distance_that_is_not_that_of_its_pitches(self) -> None:
+        found = problems(changed(ROLLER, layout__pitches=130))
+        assert [one.path for one in found] == [("layout", "pitches")]
+        assert "pitches: 118" in found[0].hint
+
+
+class TestWhatIsLeftOut:
+    def test_scenes(self) -> None:
+        assert [type(scene) for scene in chain_of(changed(CH_05, scenes=None)).all_scenes] == [Run]
+        driven = chain_of(changed(CH_05, scenes=None, drive=MOTOR))
+        assert [type(scene) for scene in driven.all_scenes] == [Run, Start]
+
+    def test_the_two_layouts(self) -> None:
+        assert isinstance(chain_of(CH_05).layout, ConveyorLayout)
+        assert isinstance(chain_of(ROLLER).layout, TwoShafts)
+
+    def test_what_is_assumed_is_said_with_its_interval(self) -> None:
+        data = changed(
+            CH_05, chain__modulus=None, chain__damping=None, chain__count=2, layout__resistance={"coefficient": 0.1}
+        )
+        assumed = {one.path: one for one in load_text(yaml.safe_dump(data).encode(), "case.yaml").assumed}
+        assert set(assumed) == {
+            ("chain", "modulus"),
+            ("chain", "damping", "ratio"),
+            ("chain", "unevenness"),
+            ("layout", "resistance", "turn_factor"),
+        }
+        assert assumed["chain", "modulus"].value == pytest.approx(0.65 * 206e9)
+        assert assumed["chain", "modulus"].interval.low == pytest.approx(103e9)
+
+    def test_factors_of_starts_and_stops_only_where_there_are_some(self) -> None:
+        data = changed(CH_05, drive=MOTOR, scenes=[{"type": "start"}, {"type": "stop"}])
+        paths = {one.path[-1] for one in load_text(yaml.safe_dump(data).encode(), "case.yaml").assumed}
+        assert {"start_factor", "stop_factor"} <= paths
