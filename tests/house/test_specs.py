@@ -29,6 +29,10 @@ MOST_EVALUATIONS = {
     "conveyor/two_drive_conveyor.yaml": 8_000_000,
     "conveyor/screw_takeup_conveyor.yaml": 8_000_000,
     "conveyor/overland_conveyor.yaml": 10_000_000,
+    "conveyor/grain_conveyor.yaml": 20_000_000,
+    "chain_drive.yaml": 100_000,
+    "chain_drive/roller_drive.yaml": 10_000,
+    "chain_drive/inclined_scraper.yaml": 100_000,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 
