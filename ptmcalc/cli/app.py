@@ -58,6 +58,9 @@ class Law(StrEnum):
 
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
+BudgetOption = Annotated[
+    str, typer.Option("--budget", help="Predicted time a scene may take at most, e.g. 2s.")
+]
 EffectsOption = Annotated[
     list[str] | None,
     typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
@@ -144,6 +147,7 @@ def check(
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
+    budget: BudgetOption = "60 s",
     history: Annotated[
         list[str] | None,
         typer.Option(
@@ -166,7 +170,7 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), histories=bool(history))
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget))
     reports = check_paths(paths, options)
     for target, name in files:
         _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))
@@ -232,6 +236,19 @@ def _effects(given: list[str] | None) -> dict[str, str]:
             raise UsageError(f"`{text}` is not NAME=on|off|auto", "e.g. --effects sag=off")
         chosen[name] = wish
     return chosen
+
+
+def _budget(text: str) -> float:
+    """Seconds of a budget."""
+    from ptmcalc.base import units
+
+    try:
+        seconds = units.read(text, units.TIME)
+    except units.UnitError as error:
+        raise UsageError(f"--budget: {error.reason}", error.hint) from None
+    if seconds < 0:
+        raise UsageError(f"--budget: `{text}` is less than no time", "e.g. --budget 2s")
+    return seconds
 
 
 @app.command()

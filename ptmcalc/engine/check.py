@@ -29,7 +29,7 @@ from ptmcalc.contract.result import History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
-from ptmcalc.engine.run import Run, Settled, sensitive, settle, without
+from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
 from ptmcalc.engine.textbook import far_from_textbook
 from ptmcalc.spec.machine import MachineSpec
@@ -41,12 +41,14 @@ SUFFIXES = (".yaml", ".yml")
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What the command line asks besides the files: some scenes, an accuracy, forced effects."""
+    """What the command line asks besides the files: some scenes, an accuracy, forced effects, and the predicted seconds
+    that settling a scene may take at most, or looking for a repair."""
 
     scenes: tuple[str, ...] = ()
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
+    budget: float = WORK_BUDGET
 
 
 def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
@@ -91,13 +93,13 @@ def check(loaded: Loaded, options: Options) -> FileReport:
         return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
     kind, spec = loaded.kind, loaded.spec
     made = plan(kind, spec, chosen_scenes(spec, options.scenes))
-    settled = [settle(kind, spec, scene) for scene in made.scenes]
-    flips = _flips(kind, spec, made, settled, loaded.assumed)
+    settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
+    flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)
     diagnostics = loaded.diagnostics + tuple(
         Diagnostic(f.code, f.message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
         for f in dict.fromkeys(finding for scene in settled for finding in scene.said)
     )
-    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options.histories).scene() for scene in settled)
+    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
 
@@ -130,7 +132,12 @@ Flips = Mapping[Key, tuple[AssumedReport, float, Verdict]]
 
 
 def _flips(
-    kind: AnyKind, spec: MachineSpec, made: Plan, settled: list[Settled], assumed: Iterable[AssumedReport]
+    kind: AnyKind,
+    spec: MachineSpec,
+    made: Plan,
+    settled: list[Settled],
+    assumed: Iterable[AssumedReport],
+    budget: float,
 ) -> Flips:
     """Verdicts that change when an assumed value goes to an end of its interval.
 
@@ -141,7 +148,7 @@ def _flips(
     chosen = [scene.scene.label for scene in made.scenes]
     for value, end, changed in variants(spec, assumed):
         again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
-        for key, ruling in _by_key(again, [settle(kind, changed, scene) for scene in again.scenes]):
+        for key, ruling in _by_key(again, [settle(kind, changed, scene, budget=budget) for scene in again.scenes]):
             if ruling.verdict is not base.get(key) and key not in found:
                 found[key] = (value, end, ruling.verdict)
     return found
@@ -162,7 +169,7 @@ class _Assembly:
     spec: MachineSpec
     settled: Settled
     flips: Flips
-    histories: bool
+    options: Options
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
@@ -262,7 +269,7 @@ class _Assembly:
     def _histories(self) -> Mapping[str, History]:
         """Courses of loads over time, each from the richest run that knows it."""
         found: dict[str, History] = {}
-        for run in self.settled.runs if self.histories else ():
+        for run in self.settled.runs if self.options.histories else ():
             found |= run.result.histories()
         return found
 
@@ -316,7 +323,7 @@ class _Assembly:
                     scene.label,
                     self.loaded.assumed,
                     digits=3,
-                    seconds=REPAIR_SECONDS,
+                    seconds=min(REPAIR_SECONDS, self.options.budget),
                 )
                 if path
                 else None

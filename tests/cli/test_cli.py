@@ -283,6 +283,23 @@ def test_a_bad_accuracy_is_refused(accuracy: str, code: str) -> None:
     assert f"error {code} `accuracy`" in done.out
 
 
+def test_a_budget_of_nothing_decides_nothing_and_says_what_the_next_run_would_take() -> None:
+    found = checked(PASSING, "--budget", "0 s", status=3)
+    assert found["verdict"] == "undecided"
+    over = [finding["message"] for finding in found["diagnostics"] if finding["code"] == "NUM103"]
+    assert len(over) == len(found["scenes"])
+    assert all("predicted to take" in message for message in over)
+    assert checked(PASSING, "--budget", "60 s") == checked(PASSING)
+
+
+@pytest.mark.parametrize("budget", ["2", "2 mm", "-1 s", "nan s", "much"])
+def test_a_bad_budget_is_refused(budget: str) -> None:
+    done = ptmcalc("check", PASSING, "--budget", budget)
+    assert done.status == 2
+    assert "--budget" in done.err
+    assert "Traceback" not in done.err
+
+
 def effects_of(found: dict[str, Any]) -> dict[str, Any]:
     return {effect["name"]: effect for scene in found["scenes"] for effect in scene["effects"]}
 

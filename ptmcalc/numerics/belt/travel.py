@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt.course import Course, FloatArray
 from ptmcalc.numerics.belt.give import Give
 from ptmcalc.numerics.belt.station import Seen
@@ -38,9 +39,17 @@ class Travel:
         course: the cells.
         stiffness: EA of the relaxed belt [N].
         speed: at which the belt is to run [m/s].
+
+    Raises:
+        NumericsError: NUM102 when the belt is not slower than its waves in every cell.
     """
 
     def __init__(self, course: Course, stiffness: float, speed: float) -> None:
+        slowest = float((np.diff(course.places) / course.step).min())
+        if speed >= slowest:
+            raise NumericsError(
+                "NUM102", f"the belt runs at {speed:.3g} m/s and its waves at {slowest:.3g} m/s: none comes back"
+            )
         self.course, self.stiffness = course, stiffness
         part = speed * course.step / float(np.diff(course.places).min())
         self.every = int(min(max(_WAY / part, 1), _SELDOM))

@@ -25,7 +25,15 @@ from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_travel, delay_lines_do, starting_force
+from ptmcalc.machines.conveyor.model import (
+    BeltLine,
+    FloatArray,
+    belt_line,
+    belt_travel,
+    delay_lines_do,
+    start_case,
+    starting_force,
+)
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
@@ -481,7 +489,8 @@ def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """The same for a plain start, of which only what the running belt carries along is left to the cells.
 
         v/c, belt speed over that of its slowest wave, read from the other side: below 0.015 the bound of that effect is
-        narrower than the bars of the cells;   1 for anything but a plain start;   else as `valid`
+        narrower than the bars of the cells, unless a drum may slip: it has no bound of how far;
+        1 for anything but a plain start;   else as `valid`
 
     **Range** any scene in motion.
     **Error** exact; the limit of 0.015 is an engineering choice, and none for a file that asks for `moving_belt: on`.
@@ -490,10 +499,18 @@ def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     if not _plain(spec, scene):
         return Criterion("plain", 1.0, 1.0, "no plain start: the network carries it", "solvers.network")
     speed = belt_travel(belt_line(spec, scene))
-    if speed < _WORTH and spec.effects.get("moving_belt") != "on":
+    if speed < _WORTH and spec.effects.get("moving_belt") != "on" and not _may_slip(spec, scene):
         meaning = "what the belt carries along is bounded closer than the cells know it"
         return Criterion("0.015 c/v", _WORTH / speed, 1.0, meaning, "effects.travel_bound")
     return _simulable(spec, scene)
+
+
+def _may_slip(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether the drive of a plain start may come to the limit of its grip."""
+    assert isinstance(scene, Start)
+    case = start_case(spec, scene)
+    used = bounds.enclosed_loads(case, bounds.enclose(case)).get("slip_utilisation_max")
+    return used is not None and used.high >= 1
 
 
 def _plain(spec: Conveyor, scene: ConveyorScene) -> bool:
