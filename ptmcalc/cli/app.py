@@ -58,9 +58,7 @@ class Law(StrEnum):
 
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
-BudgetOption = Annotated[
-    str, typer.Option("--budget", help="Predicted time a scene may take at most, e.g. 2s.")
-]
+BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time a scene may take at most, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
     typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
@@ -148,6 +146,9 @@ def check(
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
     budget: BudgetOption = "60 s",
+    repairs: Annotated[
+        bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
+    ] = True,
     history: Annotated[
         list[str] | None,
         typer.Option(
@@ -170,7 +171,7 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget))
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
     reports = check_paths(paths, options)
     for target, name in files:
         _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))

@@ -41,14 +41,15 @@ SUFFIXES = (".yaml", ".yml")
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What the command line asks besides the files: some scenes, an accuracy, forced effects, and the predicted seconds
-    that settling a scene may take at most, or looking for a repair."""
+    """What the command line asks besides the files: some scenes, an accuracy, forced effects, the predicted seconds
+    that settling a scene may take at most, or looking for a repair, and whether repairs are looked for at all."""
 
     scenes: tuple[str, ...] = ()
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
     budget: float = WORK_BUDGET
+    repairs: bool = True
 
 
 def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
@@ -306,7 +307,7 @@ class _Assembly:
                 for planned in self.settled.plan.effects
                 if planned.forced_off and verdict is not Verdict.NOT_CHECKED
             ),
-            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
+            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL and self.options.repairs else None,
             loads=check.loads,
         )
 

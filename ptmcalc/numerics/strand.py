@@ -133,6 +133,31 @@ class _Drum:
         return self.node.step(self.force[k] - n_on + (p_off if self.fixed else 0.0))
 
     def _gripped(self, k: int, n_on: float, p_off: float) -> tuple[float, float]:
+        """One step of a drum that sticks, slips, or goes from one to the other; most steps see no change."""
+        if self.slipping:
+            force = (self.force[k - 1], self.force[k]) if self.force else (0.0, 0.0)
+            pushed = force[0] + force[1] - self._pull(*self.arriving, self.belt[k - 1])
+            belt = self._slip_speed(n_on, p_off)
+            if self.imposed:
+                drum = self.imposed[k]
+            else:
+                drum = self.drum[k - 1] + self.step_size * (pushed - self._pull(n_on, p_off, belt)) / (2 * self.mass)
+            if self.slipping * (drum - belt) >= 0:
+                return belt, drum
+        else:
+            node = self.node
+            forcing = (self.force[k] if self.force else 0.0) - n_on + (p_off if self.fixed else 0.0)
+            if self.imposed:
+                speed = self.imposed[k]
+            else:
+                decay, old, new = node.full
+                speed = decay * self.drum[k - 1] + (old * node.forcing + new * forcing) / node.impedance
+            if not self._breaks(n_on, p_off, speed):
+                node.speed, node.forcing = speed, forcing
+                return speed, speed
+        return self._changed(k, n_on, p_off)
+
+    def _changed(self, k: int, n_on: float, p_off: float) -> tuple[float, float]:
         """One step with slip and stick located inside it; `at` runs from 0 to 1 through the step."""
         forces = (self.force[k - 1], self.force[k]) if self.force else (0.0, 0.0)
         speeds = (self.imposed[k - 1], self.imposed[k]) if self.imposed else (0.0, 0.0)
@@ -199,9 +224,10 @@ class _Drum:
         return on * self.squeeze - off if sense > 0 else off * self.squeeze - on
 
     def _breaks(self, n_on: float, p_off: float, belt: float) -> int:
-        if self._excess(n_on, p_off, belt, 1) > 0:
+        on, off = self._sides(n_on, p_off, belt)
+        if on * self.squeeze - off > 0:
             return 1
-        return -1 if self._excess(n_on, p_off, belt, -1) > 0 else 0
+        return -1 if off * self.squeeze - on > 0 else 0
 
     def _slip_speed(self, n_on: float, p_off: float) -> float:
         """Belt speed at which the friction law holds with equality; a belt that would run back is held."""

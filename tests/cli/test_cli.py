@@ -292,6 +292,17 @@ def test_a_budget_of_nothing_decides_nothing_and_says_what_the_next_run_would_ta
     assert checked(PASSING, "--budget", "60 s") == checked(PASSING)
 
 
+def test_repairs_are_looked_for_or_not() -> None:
+    with_them, without = checked(SLIPPING, status=1), checked(SLIPPING, "--no-repairs", status=1)
+    repairs = [
+        [check.get("repair") for scene in found["scenes"] for check in scene["checks"]]
+        for found in (with_them, without)
+    ]
+    assert any(repairs[0])
+    assert not any(repairs[1])
+    assert with_them["verdict"] == without["verdict"] == "fail"
+
+
 @pytest.mark.parametrize("budget", ["2", "2 mm", "-1 s", "nan s", "much"])
 def test_a_bad_budget_is_refused(budget: str) -> None:
     done = ptmcalc("check", PASSING, "--budget", budget)

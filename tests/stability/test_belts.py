@@ -159,7 +159,7 @@ EXTREMES: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("name", EXTREMES)
 def test_an_extreme_machine_gets_verdicts_or_a_reason(name: str, takeup: str) -> None:
     """Whatever cannot be computed is a finding and an open verdict, never NaN, never a pass without a number."""
-    report = report_of(changed(BW_02, takeup__type=takeup, **EXTREMES[name]))
+    report = report_of(changed(BW_02, takeup__type=takeup, **EXTREMES[name]), repairs=True, budget=0.5)
     assert report.scenes
     for scene in report.scenes:
         for load in scene.loads:

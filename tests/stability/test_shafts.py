@@ -454,6 +454,6 @@ EXTREMES: dict[str, list[str]] = {
 @pytest.mark.parametrize(("key", "value"), [(key, value) for key in EXTREMES for value in EXTREMES[key]])
 def test_whatever_a_file_may_say_ends_in_a_report(key: str, value: str) -> None:
     wide = changed(C23, **{key: float(value) if " " not in value else value})
-    report = sound(report_of(wide))
+    report = sound(report_of(wide, repairs=True, budget=0.5))
     assert [scene.name for scene in report.scenes] == ["run_up", "steady", "run_out"]
     assert all(check.verdict in set(Verdict) for scene in report.scenes for check in scene.checks)

@@ -172,6 +172,6 @@ def spec_of(data: dict[str, Any]) -> Drivetrain:
     return spec
 
 
-def report_of(data: dict[str, Any], **options: Any) -> FileReport:
-    """The whole report of a machine."""
-    return check(loaded(data), Options(**options))
+def report_of(data: dict[str, Any], *, repairs: bool = False, **options: Any) -> FileReport:
+    """The whole report of a machine; repairs are looked for where a test asks for them, for they cost the most."""
+    return check(loaded(data), Options(**options, repairs=repairs))

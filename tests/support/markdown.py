@@ -34,7 +34,7 @@ class MarkdownCase(pytest.Item):
         self.block = block
 
     def runtest(self) -> None:
-        report = check(load_text(self.block.encode(), self.path.name), Options())
+        report = check(load_text(self.block.encode(), self.path.name), Options(repairs=False))
         expected = list(_expected(self.block))
         missing = [entry for entry in expected if not _found(report, *entry)]
         if missing or (not expected and report.verdict != "pass"):

@@ -151,7 +151,7 @@ def test_in_resonance_it_fails_what_the_textbook_would_pass(order: int) -> None:
     assert load.formula.ratio > 2.2
     between = 7 * math.sqrt((static + load.formula.value) * (static + load.estimate.value))
     data = changed(plain, chain__breaking_load=f"{between} N")
-    report = report_of(data)
+    report = report_of(data, repairs=True)
     assert between / (static + load.formula.value) > 7
     for code in ("CHN101", "CHN102"):
         judgement = check_of(scene_of(report), code)
@@ -278,7 +278,7 @@ def test_plan_and_explain() -> None:
 
 
 def test_a_weak_chain_away_from_resonances_is_told_how_strong_it_must_be() -> None:
-    report = report_of(changed(CH_05, speed="1.3 m/s", chain__breaking_load="300 kN"))
+    report = report_of(changed(CH_05, speed="1.3 m/s", chain__breaking_load="300 kN"), repairs=True)
     judgement = check_of(scene_of(report), "CHN102")
     assert judgement.blame.path == ("chain", "breaking_load")
     assert judgement.repair is not None

@@ -25,8 +25,8 @@ RIGID = replace(GRAVITY, rigid=True, tension=200e3, drives={"head": Drive(torque
 PLAIN = replace(GRAVITY, sections=((500.0, 18.0),))
 
 
-def started(rig: Rig, profile: dict[str, Any], **changes: Any) -> SceneReport:
-    return scene_of(report_of(changed(rig.data({"type": "start", "profile": profile}), **changes)))
+def started(rig: Rig, profile: dict[str, Any], repairs: bool = False, **changes: Any) -> SceneReport:
+    return scene_of(report_of(changed(rig.data({"type": "start", "profile": profile}), **changes), repairs=repairs))
 
 
 def heat_of(scene: SceneReport) -> LoadReport:
@@ -164,7 +164,7 @@ def test_a_start_at_the_margins_neither_slips_nor_goes_slack(rig: Rig, shape: st
     strong = replace(rig, drives={"head": Drive(torque=40e3)})
     sharp: dict[str, Any] = {"shape": shape, "time": "2 s"}
     off = {code: {"off": "-"} for code in ("CNV104",)}
-    scene = started(strong, sharp, checks={"start_margins": "on", **off})
+    scene = started(strong, sharp, repairs=True, checks={"start_margins": "on", **off})
     check = check_of(scene, "CNV118")
     assert check.verdict is Verdict.FAIL
     assert check.repair is not None
