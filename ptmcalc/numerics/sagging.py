@@ -245,7 +245,7 @@ class _History:
     """Samples of both ends and the tail, and extremes of all cells gathered in blocks."""
 
     def __init__(self, samples: int, belt: _Belt) -> None:
-        self.on, self.off, self.force_end = np.zeros(samples), np.zeros(samples), 0.0
+        self.on, self.off = np.zeros(samples), np.zeros(samples)
         self.belt_speed, self.drum_speed, self.tail_speed = np.zeros(samples), np.zeros(samples), np.zeros(samples)
         self.off_speed = np.zeros(samples)
         self.tail_back, self.tail_carry = np.zeros(samples), np.zeros(samples)
