@@ -135,7 +135,7 @@ class _Belt:
         self.strain += self.step * apart / self.size
         new = _tension(self.unstrained + self.stiffness * self.strain, self.lump, self.tension, self.last)
         self.last, self.tension = self.tension, new
-        softening = 2 * self.lump / new**3
+        softening = 2 * self.lump / (new * new * new)
         steepening = 1.5 * self.stiffness * softening / (new * (1 + softening) ** 2)
         self.apart, opening = apart, np.maximum(apart, 0.0)
         self.viscous = self.line_mass * opening * np.minimum(steepening * opening, self.fastest)

@@ -22,7 +22,7 @@ from ptmcalc.machines.conveyor.spec import Conveyor
 KIND = load_kind("conveyor")
 MACHINES, SEED = 200, 20261121
 ALL = tuple(range(MACHINES))
-SOME = (*range(90), 155)
+SOME = (*range(60), 155)
 """A bounded part, and a machine whose first wave meets a belt that sags: its bound was once that of a straight one."""
 SLOW = {"moving_belt": "off"}  # what a running belt carries along has a test of its own
 MOST_CONTOURS = 20  # longer starts cost more and say no more

@@ -54,9 +54,9 @@ REFERENCE = 3e-9
 """What the independent integration is good for, as a share of the largest load of a kind."""
 SEED = 20261122
 SAMPLES = [
-    pytest.param(("linear", 100, SEED), id="linear"),
-    pytest.param(("play", 60, SEED + 1), id="play"),
-    pytest.param(("motor", 50, SEED + 2), id="motor"),
+    pytest.param(("linear", 60, SEED), id="linear"),
+    pytest.param(("play", 36, SEED + 1), id="play"),
+    pytest.param(("motor", 30, SEED + 2), id="motor"),
     *(
         pytest.param((sort, 400, SEED + 10 * k), id=f"{sort}-{k}", marks=pytest.mark.study)
         for sort in SORTS

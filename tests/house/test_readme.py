@@ -79,7 +79,10 @@ def test_the_table_names_every_command_and_no_other() -> None:
     }
 
 
-@pytest.mark.parametrize("option", sorted(set(re.findall(r"(--?[a-z][a-z-]*)[ =`]", README.partition("## Commands")[2]))))
+OPTIONS = sorted(set(re.findall(r"(--?[a-z][a-z-]*)[ =`]", README.partition("## Commands")[2])))
+
+
+@pytest.mark.parametrize("option", OPTIONS)
 def test_an_option_the_readme_names_exists(option: str) -> None:
     helps = [unpainted(ptmcalc(command, "--help").out) for command in ("check", "solve", "scale")]
     assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)

@@ -169,7 +169,7 @@ class _Spans:
         front[1:-1] = np.abs(tension[2:] - tension[:-2]) * self.slackness[1:-1]
         front *= self.between
         np.minimum(front, 1.0, out=front)
-        self.viscous = self.damped * tension**1.5 * front
+        self.viscous = self.damped * tension * np.sqrt(tension) * front
         self.late = np.maximum(_LATE * front, _LATEST)
         self.stored = float((self.sags * self.slackness * (self.climb * self.slackness - 2)).sum())
         """energy U - climb e = -2 k/S + climb k/S^2 [J]"""
