@@ -76,7 +76,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     )
 
 
-_KEPT = Kept[loop.Motion]()
+_KEPT = Kept[loop.Motion](lambda motion: len(motion.times))
 
 
 def _motion(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> loop.Motion:

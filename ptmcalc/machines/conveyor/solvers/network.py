@@ -148,7 +148,7 @@ class _March:
     work: int
 
 
-_KEPT = Kept[tuple[Drawn, Set, int]]()
+_KEPT = Kept[tuple[Drawn, Set, int]](lambda made: len(made[0].times))
 
 
 def _causes(case: Moving) -> tuple[object, ...]:
