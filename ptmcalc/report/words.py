@@ -80,7 +80,7 @@ def margin(judgement: Judgement) -> str:
         return "unlimited"
     if judgement.limit.value == 0:
         return f"{'+' if judgement.margin >= 0 else ''}{number(judgement.margin, judgement.quantity)}"
-    return f"{100 * judgement.margin / abs(judgement.limit.value):+.1f} %"
+    return f"{100 * judgement.margin / abs(judgement.limit.value) + 0.0:+.1f} %"  # a limit just kept has no minus
 
 
 def relative_margin(judgement: Judgement) -> float:
