@@ -42,8 +42,10 @@ from ptmcalc.laws import (
     loop_bounds,
     motor,
     polygon,
+    reeving,
     resistance,
     response,
+    rope_drum,
     sag,
     shaft,
     shock,
@@ -58,6 +60,7 @@ from ptmcalc.laws import (
     vertical_curve,
     vibration,
     wave,
+    wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 
@@ -129,6 +132,7 @@ CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
+PACKINGS = ("nested", "square")
 SHAPES = ("step", "ramp", "cosine", "parabolic")
 POINTS = ((0.0, 0.0), (0.3, 0.1), (1.0, 1.0))
 
@@ -490,6 +494,23 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     chain_fatigue.tooth_passes: [(1e8, 0.32, 0.5)],
     chain_fatigue.stress_amplitude: [(7e4, 8e3, 16e-4)],
     chain_fatigue.fatigue_utilisation: [(2e7, 2.5e7, 9e7, 6e8), (2e7, 2.5e7, 9e7, np.inf)],
+    reeving.tackle_efficiency: [(4, 0.98), (1, 0.98)],
+    reeving.lowering_tackle_efficiency: [(4, 0.98), (1, 0.98)],
+    reeving.fall_pulls: [(5e4, falls, 0.98, 400.0, up) for falls in (1, 4, 5) for up in (True, False)],
+    reeving.rope_speed: [(0.1, 4, 2)],
+    reeving.rope_between_drum_and_end: [(12.0, 4, 2, 3.0)],
+    wire_rope.metallic_area: [(0.0175, 0.5)],
+    wire_rope.hook_stiffness: [(1.05e11, 1.14e-4, 4, 2, 27.0)],
+    wire_rope.rope_safety: [(9e4, 1.3e4), (9e4, 0.0)],
+    rope_drum.layer_step: [(0.0175, 0.0195, packing) for packing in PACKINGS],
+    rope_drum.layer_radius: [(0.3, 0.0175, 0.0152, 3)],
+    rope_drum.turns_in_layer: [(30.0, packing, 2) for packing in PACKINGS],
+    rope_drum.drum_capacity: [(0.3, 0.0175, 30.0, 5, 0.0152, packing) for packing in PACKINGS],
+    rope_drum.turns_for_length: [(length, 0.3, 0.0175, 30.0, 0.0152, p) for length in (9.0, 163.0) for p in PACKINGS],
+    rope_drum.drum_length_required: [(163.0, 0.3, 0.0175, 0.0195, 5, 0.0152, packing) for packing in PACKINGS],
+    rope_drum.fleet_angle: [(0.5, 0.05, 6.0)],
+    rope_drum.hoop_stress: [(1.3e4, 0.0195, 0.012, 1.75)],
+    rope_drum.layer_factor: [(1,), (2,)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -550,6 +571,9 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     belt_resistance.secondary_resistance: [(ValueError, (4e4, 79.0))],
     belt_section.minimum_pulley_diameter: [(ValueError, ("rubber", 0.006))],
     stopping.brake_torque_for_distance: [(ValueError, (19e3, 9e3, 0.5, 0.1, 0.65, 40.0, 0.9, 0.35, "seed"))],
+    rope_drum.layer_step: [(ValueError, (0.0175, 0.0195, "loose")), (ValueError, (0.0175, 0.035, "nested"))],
+    rope_drum.turns_for_length: [(ValueError, (9.0, 0.3, 0.0175, 1.5, 0.0152, "nested"))],
+    rope_drum.layer_factor: [(ValueError, (3,))],
 }
 
 

@@ -38,8 +38,10 @@ from ptmcalc.laws import (
     loop_bounds,
     motor,
     polygon,
+    reeving,
     resistance,
     response,
+    rope_drum,
     sag,
     shaft,
     shock,
@@ -54,6 +56,7 @@ from ptmcalc.laws import (
     vertical_curve,
     vibration,
     wave,
+    wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 
@@ -109,6 +112,10 @@ class Draw:
         if "ramp" in among and self.rng.random() < 0.2:
             return (0.0, 0.0), (self.share() / 2 + 1e-12, self.share()), (1.0, 1.0)
         return str(self.rng.choice(among))
+
+
+def packed(draw: Draw) -> str:
+    return str(draw.rng.choice(["nested", "square"]))
 
 
 def two_interval(draw: Draw) -> tuple[float, float, float, float]:
@@ -745,6 +752,47 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*whole_loop(bool(d.rng.integers(2)))(d), *d.positive(1), 0.9 + d.share()),
     ),
     "modal_damping": (belt_modes.modal_damping, lambda d: tuple(d.positive(4))),
+    "tackle_efficiency": (reeving.tackle_efficiency, lambda d: (int(d.rng.integers(1, 64)), d.share())),
+    "lowering_tackle_efficiency": (
+        reeving.lowering_tackle_efficiency,
+        lambda d: (int(d.rng.integers(1, 26)), max(d.share(), 1e-12)),
+    ),
+    "fall_pulls": (
+        reeving.fall_pulls,
+        lambda d: (
+            d.positive(1)[0],
+            int(d.rng.integers(1, 24)),
+            max(d.share(), 1e-12),
+            d.positive(1)[0],
+            bool(d.rng.integers(2)),
+        ),
+    ),
+    "rope_speed": (reeving.rope_speed, lambda d: (*d.positive(1), 4, 2)),
+    "rope_between_drum_and_end": (
+        reeving.rope_between_drum_and_end,
+        lambda d: (d.positive(1)[0], 4, 2, d.positive(1)[0]),
+    ),
+    "metallic_area": (wire_rope.metallic_area, lambda d: (*d.positive(1), d.share())),
+    "hook_stiffness": (wire_rope.hook_stiffness, lambda d: (*d.positive(2), 4, 2, *d.positive(1))),
+    "rope_safety": (wire_rope.rope_safety, lambda d: tuple(d.positive(2))),
+    "layer_step": (rope_drum.layer_step, lambda d: (on := d.positive(1)[0], on * (1 + 0.99 * d.share()), packed(d))),
+    "layer_radius": (rope_drum.layer_radius, lambda d: (*d.positive(3), 7)),
+    "turns_in_layer": (rope_drum.turns_in_layer, lambda d: (*d.positive(1), packed(d), 4)),
+    "drum_capacity": (
+        rope_drum.drum_capacity,
+        lambda d: (*d.positive(3), int(d.rng.integers(1, 20)), *d.positive(1), packed(d)),
+    ),
+    "turns_for_length": (
+        rope_drum.turns_for_length,
+        lambda d: (*d.positive(3), 2 + d.positive(1)[0], *d.positive(1), packed(d)),
+    ),
+    "drum_length_required": (
+        rope_drum.drum_length_required,
+        lambda d: (*d.positive(4), int(d.rng.integers(1, 20)), *d.positive(1), packed(d)),
+    ),
+    "fleet_angle": (rope_drum.fleet_angle, lambda d: tuple(d.positive(3))),
+    "hoop_stress": (rope_drum.hoop_stress, lambda d: tuple(d.positive(4))),
+    "layer_factor": (rope_drum.layer_factor, lambda d: (int(d.rng.integers(1, 3)),)),
 }
 SIGNED = {
     "acceleration",
@@ -798,6 +846,7 @@ SIGNED = {
     "start_shares",
     "start_acceleration",
     "rigid_acceleration",
+    "fall_pulls",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

@@ -1,0 +1,77 @@
+"""What is filled in where a design file leaves it out, and how wrong that may be."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Interval
+from ptmcalc.contract.machine import Assumption
+from ptmcalc.machines.hoist.spec import Hoist
+
+_MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0  # kg/m^3, mass per length over d^2
+_PITCH, _NARROW, _WIDE = 1.12, 1.06, 1.18  # of a groove, in rope diameters
+
+
+def _pitch(spec: Hoist) -> float | None:
+    return _PITCH * spec.rope.diameter if spec.drum.surface == "grooved" else None
+
+
+_OF_THE_TACKLE: tuple[Assumption[Hoist], ...] = (
+    Assumption(
+        ("reeving", "sheave_efficiency"),
+        units.RATIO,
+        lambda spec: 0.98,
+        lambda spec: Interval(0.97, 0.985),
+        "sheaves on rolling bearings: 0.98 to 0.985; 0.95 to 0.97 on plain ones",
+    ),
+    Assumption(
+        ("rope", "fill_factor"),
+        units.RATIO,
+        lambda spec: 0.5 if spec.rope.area is None else None,
+        lambda spec: Interval(0.4, 0.6),
+        "0.4 with a fibre core to 0.6 with a steel core and more compacted; the maker's list has the area",
+    ),
+    Assumption(
+        ("rope", "modulus"),
+        units.STRESS,
+        lambda spec: 1.05e11,
+        lambda spec: Interval(0.9e11, 1.3e11),
+        "wire ropes on their metallic area: 90 GPa new to 130 GPa run in, half of the wire's; measure it",
+    ),
+    Assumption(
+        ("rope", "mass"),
+        units.LINE_MASS,
+        lambda spec: _MASS_FACTOR * spec.rope.diameter**2,
+        lambda spec: Interval(_LIGHT * spec.rope.diameter**2, _HEAVY * spec.rope.diameter**2),
+        "EN 12385-4: 0.34 to 0.43 kg/(100 m mm^2) times the square of the diameter",
+    ),
+    Assumption(
+        ("drum", "pitch"),
+        units.LENGTH,
+        _pitch,
+        lambda spec: Interval(_NARROW * spec.rope.diameter, _WIDE * spec.rope.diameter),
+        "grooves of hoist drums: 1.1 to 1.15 rope diameters apart",
+    ),
+)
+
+
+def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
+    """What is assumed of tackle, rope and drum, and of the drive where the file has one."""
+    yield from _OF_THE_TACKLE
+    if spec.gearbox is not None:
+        ratio = spec.gearbox.ratio
+        yield Assumption(
+            ("gearbox", "efficiency"),
+            units.RATIO,
+            lambda spec: 0.94,
+            lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.90, 0.97),
+            "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+        )
+    if spec.motor is not None:
+        rotor = spec.motor.inertia
+        yield Assumption(
+            ("motor", "coupling_inertia"),
+            units.INERTIA,
+            lambda spec: 0.15 * rotor,
+            lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
+            "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        )

@@ -1,0 +1,134 @@
+"""What moves and holds the load, as a designer writes it: motor, gearbox, brake, and what they are made for."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components import drive
+from ptmcalc.laws.duty import DUTY_TYPES
+from ptmcalc.spec.fields import (
+    Inertia,
+    Measure,
+    PositivePower,
+    PositiveTorque,
+    Time,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+
+Mechanism = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
+ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
+DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
+LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
+Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+
+
+class Motor(drive.Motor):
+    """The hoisting motors, one of several equal ones."""
+
+    coupling_inertia: Inertia | None = None
+    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
+    rated_torque: PositiveTorque | None = None
+    """of one motor, or give `power` and `speed`; needed to check its heating"""
+    power: PositivePower | None = None
+    """rated power of one motor"""
+    rated_duty: DutyFactor = 1.0
+    """duty factor of the rating, e.g. `40 %`; continuous when left out"""
+    starts_per_hour: Rate | None = None
+    """how often the maker lets it start; needed to check the starts"""
+    cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
+        "self_ventilated"
+    )
+    """how it is cooled at rest"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The rating is given in one way."""
+        yield from super().conflicts(given)
+        yield from at_most_one(given, "rated_torque", "power")
+        yield from together(given, "power", "speed", "the rated torque is power over speed")
+
+    @property
+    def rated(self) -> float | None:
+        """Rated torque of one motor [N*m]."""
+        if self.power is not None and self.speed is not None:
+            return self.power / self.speed
+        return self.rated_torque
+
+
+class Gearbox(drive.Gear):
+    """The gear between motor and drum."""
+
+    reverse_efficiency: ReverseEfficiency | None = None
+    """from drum to motor; 2 - 1/efficiency when left out, negative for a self-locking gear"""
+    stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
+    """of shafts and gear between rotor and drum, on the drum shaft; rigid when left out"""
+    backlash: Annotated[float, Measure(units.ANGLE, at_least=0)] = 0.0
+    """the whole play between rotor and drum, as an angle of the drum"""
+
+
+class Brake(Fragment):
+    """The holding brake."""
+
+    torque: PositiveTorque
+    """of all brakes together, fully applied"""
+    shaft: Literal["motor", "drum"] = "motor"
+    """the shaft it sits on"""
+    delay: Time = 0.0
+    """from switching off until it begins to act"""
+    rise_time: Time = 0.0
+    """from then until its full torque"""
+    rise: Literal["linear", "exponential"] = "linear"
+    """how it comes up; `rise_time` is the time constant of an exponential rise"""
+
+
+class Classes(Fragment):
+    """What the hoist is classed as."""
+
+    mechanism: Mechanism | None = None
+    """group of the mechanism, M1 to M8; needed for the limits of rope, drum and sheaves"""
+    hoisting: Literal["HC1", "HC2", "HC3", "HC4"] | None = None
+    """hoisting class, with `drive` for the standard's factor of lifting a load off the ground"""
+    drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
+    """how the hoisting speed is controlled; HD1 has no creep speed"""
+
+
+class SpectrumPoint(Fragment):
+    """A part of the hoist's working life."""
+
+    share: Share
+    """of all cycles"""
+    load: LoadShare
+    """over the rated load"""
+
+
+class Duty(Fragment):
+    """What the hoist does all day."""
+
+    type: Literal["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"] = "S3"
+    """duty type of IEC 60034-1"""
+    factor: DutyFactor = 0.4
+    """share of a cycle in which the motor is on"""
+    starts_per_hour: Rate | None = None
+    """of the motor"""
+    lift: Annotated[float, Measure(units.SPAN, above=0)] | None = None
+    """way of the hook in an average cycle; half the lifting height when left out"""
+    load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
+    """loads over the life; the rated load always, when left out"""
+    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    """hoisting cycles in the life, which with the spectrum give the group of ISO 4301-1"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The shares of a spectrum are a whole; a continuous duty knows no factor."""
+        points = given.blocks("load_spectrum")
+        shares = [point.number("share") if point else None for point in points]
+        known = [share for share in shares if share is not None]
+        if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
+            reason = f"the shares add up to {sum(known):.3g}"
+            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+        kind = given.word("type")
+        if kind is not None and not DUTY_TYPES[kind].at_rest and "factor" in given and given.number("factor") != 1:
+            yield Conflict(("factor",), f"{kind} has no rest", "delete `factor`, or write `type: S3`")

@@ -1,0 +1,203 @@
+"""A hoist as numbers: its tackle, its rope as a spring, its drum layer by layer, its drive reduced to a shaft."""
+
+import math
+from dataclasses import dataclass
+
+from ptmcalc.laws import gearing, reeving, rope_drum, wire_rope
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene
+
+
+def filled(value: float | None) -> float:
+    """A value the file or an assumption has given by now."""
+    assert value is not None, "assumptions are filled in before anything is computed"
+    return value
+
+
+# -- load and tackle ------------------------------------------------------------------------------------------------
+
+
+def hook_mass(spec: Hoist, scene: HoistScene) -> float:
+    """What hangs on the hook block, the block in it [kg]."""
+    return spec.hook_block + (spec.load if scene.load == "full" else 0.0)
+
+
+def fall_length(spec: Hoist, hook_height: float) -> float:
+    """Of a fall with the hook so high above its lowest position [m]."""
+    return spec.least_fall + spec.height - hook_height
+
+
+def hook_height(scene: HoistScene) -> float:
+    """Of the hook above its lowest position [m]."""
+    return scene.hook_height if scene.hook_height is not None else 0.0
+
+
+def deflection_efficiency(spec: Hoist) -> float:
+    """Of all sheaves between drum and tackle [1]."""
+    given = spec.reeving
+    one = given.deflection_efficiency if given.deflection_efficiency is not None else filled(given.sheave_efficiency)
+    return one**given.deflection_sheaves
+
+
+def falls_of_a_rope(spec: Hoist) -> int:
+    """Falls of one of the ropes that run onto the drum."""
+    return spec.reeving.falls // spec.reeving.ropes
+
+
+@dataclass(frozen=True, slots=True)
+class Pulls:
+    """Pulls of one rope while the hook moves evenly [N]."""
+
+    drum: float
+    """at the drum"""
+    first: float
+    """of the fall that leads to the drum, at its upper end"""
+    least: float
+    """smallest of all falls, at its lower end"""
+
+
+def pulls(spec: Hoist, mass: float, hook_height: float, hauling: bool) -> Pulls:
+    """Pulls of one rope with a mass on the hook, the rope's own weight in it."""
+    falls, weight = falls_of_a_rope(spec), filled(spec.rope.mass) * fall_length(spec, hook_height) * spec.gravity
+    load = mass * spec.gravity / spec.reeving.ropes
+    ends = reeving.fall_pulls(load, falls, filled(spec.reeving.sheave_efficiency), weight, hauling)
+    lost = deflection_efficiency(spec)
+    at_drum = float(ends[0]) / lost if hauling else float(ends[0]) * lost
+    return Pulls(at_drum, float(ends[0]), float(ends.min()) - weight)
+
+
+# -- rope -----------------------------------------------------------------------------------------------------------
+
+
+def metallic_area(spec: Hoist) -> float:
+    """Of one rope [m^2]."""
+    rope = spec.rope
+    return rope.area if rope.area is not None else wire_rope.metallic_area(rope.diameter, filled(rope.fill_factor))
+
+
+def rope_length(spec: Hoist, hook_height: float) -> float:
+    """Of one rope between drum and fixed end or equalising sheave [m]."""
+    given = spec.reeving
+    return reeving.rope_between_drum_and_end(
+        fall_length(spec, hook_height), given.falls, given.ropes, given.lead_length
+    )
+
+
+def hook_stiffness(spec: Hoist, hook_height: float) -> float:
+    """Of all ropes at the hook [N/m]."""
+    given = spec.reeving
+    return wire_rope.hook_stiffness(
+        filled(spec.rope.modulus), metallic_area(spec), given.falls, given.ropes, rope_length(spec, hook_height)
+    )
+
+
+# -- drum -----------------------------------------------------------------------------------------------------------
+
+
+def pitch(spec: Hoist) -> float:
+    """From turn to turn of the rope on the drum [m]."""
+    return spec.rope.diameter if spec.drum.surface == "smooth" and spec.drum.pitch is None else filled(spec.drum.pitch)
+
+
+def layer_step(spec: Hoist) -> float:
+    """What a layer adds to the radius [m]."""
+    return rope_drum.layer_step(spec.rope.diameter, pitch(spec), spec.winding.packing)
+
+
+def layer_radius(spec: Hoist, layer: int) -> float:
+    """Of the centre of the rope in a layer, from 1 [m]."""
+    return rope_drum.layer_radius(spec.drum.diameter, spec.rope.diameter, layer_step(spec), layer)
+
+
+def layer_turns(spec: Hoist) -> float:
+    """Turns of the first layer [1]."""
+    return spec.drum.length / pitch(spec)
+
+
+@dataclass(frozen=True, slots=True)
+class Wound:
+    """A rope on its drum: turns, layers, and the radius of the centre of the outermost layer [m]."""
+
+    length: float
+    turns: float
+    layers: int
+    radius: float
+
+
+def dead_length(spec: Hoist) -> float:
+    """Rope that stays on the drum [m]."""
+    return spec.drum.dead_wraps * 2 * math.pi * layer_radius(spec, 1)
+
+
+def wound(spec: Hoist, hook_height: float) -> Wound:
+    """One rope on the drum with the hook so high."""
+    length = dead_length(spec) + hook_height * falls_of_a_rope(spec)
+    turns, layers = rope_drum.turns_for_length(
+        length,
+        spec.drum.diameter,
+        spec.rope.diameter,
+        layer_turns(spec),
+        layer_step(spec),
+        spec.winding.packing,
+    )
+    return Wound(length, turns, layers, layer_radius(spec, layers))
+
+
+# -- speed ----------------------------------------------------------------------------------------------------------
+
+
+def drum_speed(spec: Hoist, which: str = "main") -> float:
+    """Of the drum at the main or the creep speed [rad/s]."""
+    given = spec.speed
+    if which == "main" and given.drum is not None:
+        return given.drum
+    hook = filled(given.main if which == "main" else given.creep)
+    return reeving.rope_speed(hook, spec.reeving.falls, spec.reeving.ropes) / layer_radius(spec, 1)
+
+
+def hook_speed(spec: Hoist, which: str = "main", layer: int = 1) -> float:
+    """Of the hook with the rope on a layer, the drum at the main or the creep speed [m/s]."""
+    return drum_speed(spec, which) * layer_radius(spec, layer) / falls_of_a_rope(spec)
+
+
+# -- drive ----------------------------------------------------------------------------------------------------------
+
+
+def efficiency(spec: Hoist) -> float:
+    """Of the gearbox, from motor to drum; 1 without one [1]."""
+    return filled(spec.gearbox.efficiency) if spec.gearbox is not None else 1.0
+
+
+def reverse_efficiency(spec: Hoist) -> float:
+    """Of the gearbox from drum to motor; negative where it locks itself [1]."""
+    if spec.gearbox is not None and spec.gearbox.reverse_efficiency is not None:
+        return spec.gearbox.reverse_efficiency
+    return gearing.reverse_efficiency(efficiency(spec))
+
+
+def motor_side_inertia(spec: Hoist) -> float:
+    """Rotors and couplings of all motors on the motor shaft [kg*m^2]; 0 without motors."""
+    if spec.motor is None:
+        return 0.0
+    return spec.motor.count * (spec.motor.inertia + filled(spec.motor.coupling_inertia))
+
+
+def drum_torque(spec: Hoist, mass: float, hauling: bool) -> float:
+    """Largest torque of all ropes on the drum, whatever the height of the hook [N*m].
+
+    The pull falls as the rope shortens, the radius grows with every layer: it is largest where a layer begins.
+    """
+    lift, layer, most = 0.0, 1, 0.0
+    while True:
+        most = max(most, pulls(spec, mass, lift, hauling).drum * layer_radius(spec, layer))
+        lift = (_room(spec, layer) - dead_length(spec)) / falls_of_a_rope(spec)
+        layer += 1
+        if lift >= spec.height:
+            return spec.reeving.ropes * most
+        lift = max(lift, 0.0)
+
+
+def _room(spec: Hoist, layers: int) -> float:
+    """Rope that so many layers take [m]."""
+    return rope_drum.drum_capacity(
+        spec.drum.diameter, spec.rope.diameter, layer_turns(spec), layers, layer_step(spec), spec.winding.packing
+    )

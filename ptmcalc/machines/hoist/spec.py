@@ -1,0 +1,268 @@
+"""How a designer writes a hoist: from the load over the tackle and the drum to the motor and its brake."""
+
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components.start import Profile
+from ptmcalc.machines.hoist.drive_data import Brake, Classes, Duty, Gearbox, Motor
+from ptmcalc.machines.hoist.tackle import (
+    Drum,
+    Limiter,
+    Reeving,
+    Rope,
+    Structure,
+    Winding,
+    layers_that_do_not_fit,
+)
+from ptmcalc.spec.fields import (
+    Fraction,
+    Mass,
+    Measure,
+    PositiveAngle,
+    PositiveAngularSpeed,
+    PositiveLength,
+    PositiveMass,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveSpeed,
+    PositiveStress,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.scene import Scene
+
+HookHeight = Annotated[float, Measure(units.SPAN, at_least=0)]
+
+
+class Speeds(Fragment):
+    """How fast the hoist runs."""
+
+    main: PositiveSpeed | None = None
+    """of the hook with the rope on the first layer, or give `drum`"""
+    drum: PositiveAngularSpeed | None = None
+    """of the drum"""
+    creep: PositiveSpeed | None = None
+    """slow speed of the hook, on the first layer"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The speed is given in one way; creeping is slower."""
+        yield from exactly_one(given, "main", "drum")
+        main, creep = given.number("main"), given.number("creep")
+        if main is not None and creep is not None and creep >= main:
+            yield Conflict(("creep",), "the creep speed is not below the main one", "swap them")
+
+
+class HoistChecks(CheckSettings):
+    """Limits of the checks of a hoist; None stands for the limit of its class."""
+
+    rope_safety: PositiveRatio | None = None
+    """breaking force over the largest static pull (Zp); by the group of the mechanism when left out"""
+    drum_ratio: PositiveRatio | None = None
+    """drum diameter over rope diameter (h1), to the middle of the rope; by the group when left out"""
+    sheave_ratio: PositiveRatio | None = None
+    """sheave diameter over rope diameter (h2), to the middle of the rope; by the group when left out"""
+    equaliser_ratio: PositiveRatio | None = None
+    """equalising sheave diameter over rope diameter (h3); by the group when left out"""
+    drum_slenderness: PositiveRatio = 4.0
+    """largest length of the wound part over the diameter of the drum"""
+    dead_wraps: PositiveRatio = 2.0
+    """fewest turns that stay on the drum"""
+    flange_margin: PositiveRatio = 1.5
+    """least height of the flanges over the last layer, in rope diameters"""
+    fleet_angle: PositiveAngle | None = None
+    """largest angle of the rope at the drum; 4 deg, or 2 deg for a rotation-resistant rope, when left out"""
+    layer_factor: PositiveRatio | None = None
+    """hoop stress of all layers over that of the first; 1 for one layer and 1.75 for two when left out"""
+    hoop_stress: PositiveStress | None = None
+    """largest hoop stress of the drum shell; needed to check it"""
+    motor_reserve: PositiveRatio = 1.4
+    """least mean starting torque over the static torque of hoisting"""
+    motor_excess: PositiveRatio = 4.0
+    """largest mean starting torque over the static torque of hoisting"""
+    brake_reserve: PositiveRatio | None = None
+    """least brake torque over that of the lowering load; by the group when left out"""
+
+
+class HoistScene(Scene):
+    """Base of the scenes of a hoist."""
+
+    load: Literal["full", "empty"] = "full"
+    """the rated load on the hook, or the hook block alone"""
+    hook_height: HookHeight | None = None
+    """of the hook above its lowest position; at the lowest when left out"""
+
+    def default_name(self) -> str:
+        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+
+
+class Run(HoistScene):
+    """Hoisting and lowering at an even speed."""
+
+    type: Literal["run"] = "run"
+
+
+class Lift(HoistScene):
+    """A load is lifted off the ground."""
+
+    type: Literal["lift"] = "lift"
+    rope: Literal["slack", "taut"] = "slack"
+    """whether the drive must take up slack rope first, or the rope is taut without force"""
+    slack: PositiveLength | None = None
+    """way of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
+    speed: Literal["main", "creep"] = "main"
+    """of the hoist"""
+    profile: Profile = Profile()
+    """how the drive comes up; a torque step when left out"""
+
+
+class Start(HoistScene):
+    """A hanging load is set in motion."""
+
+    type: Literal["start"] = "start"
+    direction: Literal["up", "down"] = "up"
+    """of the load"""
+    profile: Profile = Profile()
+    """how the drive comes up; a torque step when left out"""
+
+
+class Stop(HoistScene):
+    """A load in motion is stopped by the brake."""
+
+    type: Literal["stop"] = "stop"
+    direction: Literal["up", "down"] = "up"
+    """of the load"""
+    speed: Literal["main", "creep"] = "main"
+    """before the stop"""
+
+
+class LowerBrake(HoistScene):
+    """A load that is lowered is braked to a halt."""
+
+    type: Literal["lower_brake"] = "lower_brake"
+    speed: Literal["main", "creep"] = "main"
+    """before the stop"""
+
+
+class Release(HoistScene):
+    """A part of the hanging load comes off at once: a grab, a magnet, a cut sling."""
+
+    type: Literal["release"] = "release"
+    share: Fraction = 1.0
+    """part of the rated load that comes off"""
+    manner: Literal["quick", "slow"] = "quick"
+    """how it comes off: by a magnet, or by a grab"""
+
+
+class WindUp(HoistScene):
+    """The rope climbs from a layer to the next one while the drum turns evenly."""
+
+    type: Literal["winding"] = "winding"
+    layer: Annotated[int, Field(ge=2, le=20, strict=True)] = 2
+    """the layer it climbs to"""
+
+
+AnyScene = Annotated[Run | Lift | Start | Stop | LowerBrake | Release | WindUp, Field(discriminator="type")]
+
+
+class Hoist(MachineSpec):
+    """A rope hoist: a load on a hook block, a tackle, a drum, a gearbox, a motor and a brake."""
+
+    kind: Literal["hoist"]
+    load: PositiveMass
+    """rated load on the hook"""
+    hook_block: Mass = 0.0
+    """hook block and whatever stays on the hook"""
+    height: PositiveSpan
+    """lifting height"""
+    least_fall: Annotated[float, Measure(units.SPAN, at_least=0)] = 0.0
+    """length of a fall with the hook at its highest"""
+    speed: Speeds
+    """of hook or drum"""
+    reeving: Reeving
+    """how the rope runs"""
+    rope: Rope
+    """the wire rope"""
+    drum: Drum
+    """the drum"""
+    winding: Winding = Winding()
+    """how the rope lies on the drum in several layers"""
+    gearbox: Gearbox | None = None
+    """between motor and drum; with `motor` needed for starts and stops"""
+    motor: Motor | None = None
+    """the hoisting motors"""
+    brake: Brake | None = None
+    """the holding brake"""
+    limiter: Limiter | None = None
+    """the rated capacity limiter"""
+    structure: Structure | None = None
+    """what the hoist stands on; rigid when left out"""
+    classes: Classes = Field(default=Classes(), alias="class")
+    """what the hoist is classed as"""
+    duty: Duty | None = None
+    """what the hoist does all day; needed to check the motor's heating and starts"""
+    checks: HoistChecks = HoistChecks()
+    """limits, and checks switched off by code"""
+    scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
+    """what happens to the machine; a loaded run when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The rope fits the drum; scenes have what they need."""
+        yield from super().conflicts(given)
+        drum, rope, winding = (given.block(key) for key in ("drum", "rope", "winding"))
+        if drum is not None and rope is not None:
+            nested = winding is None or winding.word("packing") != "square"
+            yield from layers_that_do_not_fit(drum, rope, nested)
+        yield from _scenes_that_lack(given)
+
+    @property
+    def all_scenes(self) -> Sequence[HoistScene]:
+        return self.scenes if self.scenes is not None else (Run(),)
+
+    @property
+    def settings(self) -> HoistChecks:
+        return self.checks
+
+
+_DRIVEN = ("lift", "start", "stop", "lower_brake")
+_BRAKED = ("stop", "lower_brake")
+
+
+def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
+    """What moves the load needs motor and gearbox, what stops it a brake; the hook stays between its ends."""
+    speeds, drum, motor = given.block("speed"), given.block("drum"), given.block("motor")
+    height = given.number("height")
+    for index, scene in enumerate(given.blocks("scenes")):
+        what = scene.raw.get("type") if scene else None
+        if scene is None or not isinstance(what, str):
+            continue
+        for key, wanted in (("motor", _DRIVEN), ("gearbox", _DRIVEN), ("brake", _BRAKED)):
+            if what in wanted and key not in given:
+                yield Conflict(("scenes", index), f"a `{what}` needs the `{key}`", _ADD[key])
+        if "speed" in scene and scene.raw.get("speed") == "creep" and speeds is not None and "creep" not in speeds:
+            hint = "add `creep: 0.02 m/s` to `speed`"
+            yield Conflict(("scenes", index, what, "speed"), "the hoist has no creep speed", hint)
+        hook = scene.number("hook_height")
+        if hook is not None and height is not None and hook > height:
+            reason = f"the hook is lifted by {units.show(height, units.SPAN)} only"
+            yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or correct the `height`")
+        if what == "winding" and drum is not None:
+            layers, wanted = drum.raw.get("layers", 1), scene.raw.get("layer", 2)
+            if isinstance(layers, int) and isinstance(wanted, int) and wanted > layers:
+                reason = f"the rope never climbs to layer {wanted}: the drum has {layers}"
+                yield Conflict(("scenes", index), reason, f"write `layers: {wanted}` under `drum`")
+        profile = scene.raw.get("profile")
+        if isinstance(profile, dict) and profile.get("shape") == "curve" and motor is not None and "curve" not in motor:
+            hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
+            yield Conflict(("scenes", index, what, "profile", "shape"), "the motor has no `curve` to follow", hint)
+
+
+_ADD = {
+    "motor": "add `motor: {inertia: 0.35 kg*m^2, speed: 965 rpm, mean_starting_torque: 300 N*m}`",
+    "gearbox": "add `gearbox: {ratio: 40, efficiency: 0.94}`",
+    "brake": "add `brake: {torque: 400 N*m, delay: 0.2 s}`",
+}

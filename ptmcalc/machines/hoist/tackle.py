@@ -1,0 +1,190 @@
+"""What carries the load, as a designer writes it: reeving, rope, drum, and the structure it hangs on."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.spec.fields import (
+    Efficiency,
+    Inertia,
+    Mass,
+    Measure,
+    PositiveArea,
+    PositiveForce,
+    PositiveLength,
+    PositiveLineMass,
+    PositiveStress,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+
+MOST_FALLS = 64
+
+Ratio = Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)]
+Wraps = Annotated[float, Measure(units.FACTOR, at_least=0, at_most=100)]
+Offset = Annotated[float, Measure(units.SPAN, at_least=0)]
+FillFactor = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
+Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
+
+
+class Reeving(Fragment):
+    """How the rope runs between drum, sheaves and hook block."""
+
+    falls: Annotated[int, Field(strict=True)]
+    """parts of rope the load hangs on, all together"""
+    ropes: Literal[1, 2] = 1
+    """parts of rope that run onto the drum: 2 for a twin tackle with an equalising sheave"""
+    sheave_efficiency: Efficiency | None = None
+    """of a sheave in the tackle; 0.98 is assumed when it is left out"""
+    deflection_sheaves: Annotated[int, Field(ge=0, le=40, strict=True)] = 0
+    """sheaves between drum and tackle that only turn the rope, on each rope"""
+    deflection_efficiency: Efficiency | None = None
+    """of a deflection sheave; that of the tackle's sheaves when left out"""
+    sheave_diameter: PositiveLength | None = None
+    """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
+    equaliser_diameter: PositiveLength | None = None
+    """of the equalising sheave at the bottom of the groove"""
+    lead_length: Offset = 0.0
+    """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
+    lead_offset: Offset = 0.0
+    """of the first sheave from the middle of the wound part, along the drum"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The load hangs on a rope; a twin tackle has an even number of falls."""
+        falls, ropes = whole(given, "falls"), given.raw.get("ropes", 1)
+        if falls is None:
+            return
+        if falls < 1:
+            reason = f"a load does not hang on {falls} parts of rope"
+            yield Conflict(("falls",), reason, "write the number of parts the hook block hangs on, e.g. `falls: 4`")
+        elif falls > MOST_FALLS:
+            yield Conflict(("falls",), f"no tackle has {falls} falls", f"write at most `falls: {MOST_FALLS}`")
+        elif ropes == 2 and falls % 2:
+            reason = f"{falls} falls do not share out on two ropes"
+            yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
+
+
+class Rope(Fragment):
+    """The wire rope."""
+
+    diameter: PositiveLength
+    """nominal diameter"""
+    construction: Annotated[str, Field(max_length=200)] = ""
+    """what the maker calls it, e.g. `6x36WS-IWRC 1960 sZ`"""
+    area: PositiveArea | None = None
+    """metallic area, or give `fill_factor`"""
+    fill_factor: FillFactor | None = None
+    """metallic area over that of the circle round the rope; 0.5 is assumed when neither is given"""
+    modulus: PositiveStress | None = None
+    """modulus of elasticity of the rope on its metallic area, not of its wire; 105 GPa is assumed when left out"""
+    mass: PositiveLineMass | None = None
+    """per length; assumed from the diameter when it is left out"""
+    breaking_force: PositiveForce | None = None
+    """minimum breaking force; needed to check the safety of the rope"""
+    rotation_resistant: Literal["yes", "no"] = "no"
+    """whether it is a rotation-resistant rope, which bears a smaller fleet angle"""
+    damping: Ratio = 0.0
+    """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The area is given in one way."""
+        yield from at_most_one(given, "area", "fill_factor")
+
+
+class Drum(Fragment):
+    """The drum."""
+
+    diameter: PositiveLength
+    """of the surface the rope lies on: the bottom of the grooves"""
+    length: PositiveLength
+    """along the axis, of the part one rope is wound on"""
+    surface: Literal["grooved", "smooth"] = "grooved"
+    """of the barrel"""
+    pitch: PositiveLength | None = None
+    """from turn to turn; of a grooved drum 1.12 rope diameters are assumed when left out, of a smooth one they touch"""
+    layers: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
+    """layers of rope the drum is made for"""
+    dead_wraps: Wraps = 3.0
+    """turns that stay on the drum with the hook at its lowest"""
+    flange_height: PositiveLength | None = None
+    """of the flanges above the surface; needed for more than one layer"""
+    shell_thickness: PositiveLength | None = None
+    """of the shell below the grooves; needed to check its stress"""
+    inertia: Inertia | None = None
+    """of drum and what turns with it, on its shaft; 0 when left out"""
+
+
+class Structure(Fragment):
+    """What the hoist stands on: a bridge, a jib, a trestle. Without it the hoist is held fast."""
+
+    stiffness: Stiffness
+    """force over deflection where the hoist stands"""
+    mass: Mass = 0.0
+    """that moves with it; of a simple bridge about half of its own, and the trolley"""
+    damping: Ratio = 0.0
+    """damping ratio of its own vibration"""
+
+
+class Limiter(Fragment):
+    """A rated capacity limiter: it switches the motor off."""
+
+    factor: Annotated[float, Measure(units.FACTOR, above=0)] = 1.1
+    """force in the rope at which it trips, over the static one of the rated load"""
+    delay: Annotated[float, Measure(units.TIME, at_least=0)] = 0.0
+    """from then until the motor is off and the brake is told to act"""
+
+
+class Winding(Fragment):
+    """How the rope lies in several layers on the drum."""
+
+    packing: Literal["nested", "square"] = "nested"
+    """`nested`: a layer lies in the valleys of the one below; `square`: on top of it"""
+    crossovers: Annotated[int, Field(ge=1, le=4, strict=True)] = 2
+    """places in a turn where the rope climbs over to the next valley"""
+    crossover: Annotated[float, Measure(units.ANGLE, above=0)] | None = None
+    """angle of the drum over which a crossover reaches; 60 deg is assumed when it is left out"""
+    paper_modulus: PositiveStress | None = None
+    """modulus in the formula of the winding paper, which takes that of the wire, 210 GPa, when left out"""
+
+
+def whole(given: Given, key: str) -> int | None:
+    """A whole number the file writes, as far as it is one."""
+    number = given.raw.get(key)
+    if isinstance(number, str) and number.lstrip("-").isdigit():
+        number = int(number)
+    return number if isinstance(number, int) and not isinstance(number, bool) else None
+
+
+def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[Conflict]:
+    """Rope and drum fit together; paths begin at the machine."""
+    d, big = rope.number("diameter"), drum.number("diameter")
+    if d is None or big is None:
+        return
+    thick, size = units.show(d, units.LENGTH), units.show(big, units.LENGTH)
+    if d >= big:
+        reason = f"a rope of {thick} is not wound on a drum of {size}"
+        yield Conflict(("drum", "diameter"), reason, f"write e.g. `diameter: {units.show(18 * d, units.LENGTH)}`")
+        return
+    pitch, length, layers = drum.number("pitch"), drum.number("length"), whole(drum, "layers") or 1
+    if pitch is not None and not d <= pitch <= 2 * d:
+        reason = f"turns of a rope of {thick} lie one to two of its diameters apart"
+        yield Conflict(("drum", "pitch"), reason, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
+        return
+    if length is not None and length < 3 * (pitch or d):
+        reason = "it does not take three turns of the rope side by side"
+        yield Conflict(("drum", "length"), reason, f"write e.g. `length: {units.show(20 * d, units.LENGTH)}`")
+    flange = drum.number("flange_height")
+    if layers > 1 and "flange_height" not in drum:
+        example = units.show(layers * d + 2 * d, units.LENGTH)
+        reason = f"{layers} layers are held by flanges: their height is missing"
+        yield Conflict(("drum", "layers"), reason, f"add `flange_height: {example}`")
+    step = d if not nested else (d**2 - ((pitch or d) / 2) ** 2) ** 0.5
+    if flange is not None and layers > 1 and d + (layers - 1) * step > flange:
+        holds = 1 + int((flange - d) / step) if flange >= d else 0
+        reason = f"the flanges of {units.show(flange, units.LENGTH)} hold {holds} layers, not {layers}"
+        needed = units.show(d + (layers - 1) * step + 1.5 * d, units.LENGTH)
+        fix = f"write `layers: {holds}`, or" if holds else "write"
+        yield Conflict(("drum", "layers"), reason, f"{fix} `flange_height: {needed}`")
