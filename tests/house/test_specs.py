@@ -34,6 +34,7 @@ MOST_EVALUATIONS = {
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
     "hoist.yaml": 100,
+    "hoist/crane_hoist_m5.yaml": 100,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 

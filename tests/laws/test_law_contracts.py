@@ -38,6 +38,8 @@ from ptmcalc.laws import (
     duty,
     equalising,
     gearing,
+    hoist_class,
+    hoisting,
     inertia,
     loop_bounds,
     motor,
@@ -511,6 +513,23 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rope_drum.fleet_angle: [(0.5, 0.05, 6.0)],
     rope_drum.hoop_stress: [(1.3e4, 0.0195, 0.012, 1.75)],
     rope_drum.layer_factor: [(1,), (2,)],
+    hoisting.drum_torque: [(1.3e4, 2, 0.16)],
+    hoisting.hoisting_torque: [(4e3, 40.0, 0.9)],
+    hoisting.lowering_torque: [(4e3, 40.0, 0.9), (4e3, 40.0, -0.2)],
+    hoisting.sinking_acceleration: [
+        (4e3, brake, 0.5, 130.0, 40.0, eta, 2 - 1 / eta) for brake in (60.0, 120.0) for eta in (0.9, 0.45)
+    ],
+    hoisting.speed_after_drop: [(0.6, 12.0)],
+    hoisting.hoist_start_time: [
+        (mean, 4e3, 0.5, 130.0, 101.0, 40.0, 0.9, 0.89, up) for mean in (90.0, 200.0) for up in (True, False)
+    ],
+    hoist_class.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
+    hoist_class.equivalent_load: [(0.28, 3.0)],
+    hoist_class.use_of_cycles: [(1e5,)],
+    hoist_class.use_of_hours: [(5e3,)],
+    hoist_class.load_class: [(0.28,), (1.0,)],
+    hoist_class.group: [(3, 3)],
+    hoist_class.rope_safety_of_group: [("M5", layers, hot) for layers in (1, 3) for hot in (True, False)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -574,6 +593,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     rope_drum.layer_step: [(ValueError, (0.0175, 0.0195, "loose")), (ValueError, (0.0175, 0.035, "nested"))],
     rope_drum.turns_for_length: [(ValueError, (9.0, 0.3, 0.0175, 1.5, 0.0152, "nested"))],
     rope_drum.layer_factor: [(ValueError, (3,))],
+    hoist_class.rope_safety_of_group: [(ValueError, ("M7", 2))],
 }
 
 

@@ -34,6 +34,8 @@ from ptmcalc.laws import (
     duty,
     equalising,
     gearing,
+    hoist_class,
+    hoisting,
     inertia,
     loop_bounds,
     motor,
@@ -793,6 +795,28 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "fleet_angle": (rope_drum.fleet_angle, lambda d: tuple(d.positive(3))),
     "hoop_stress": (rope_drum.hoop_stress, lambda d: tuple(d.positive(4))),
     "layer_factor": (rope_drum.layer_factor, lambda d: (int(d.rng.integers(1, 3)),)),
+    "drum_torque": (hoisting.drum_torque, lambda d: (*d.positive(1), 2, *d.positive(1))),
+    "hoisting_torque": (hoisting.hoisting_torque, lambda d: (*d.positive(2), max(d.share(), 1e-12))),
+    "lowering_torque": (hoisting.lowering_torque, lambda d: (*d.positive(2), d.share())),
+    "sinking_acceleration": (
+        hoisting.sinking_acceleration,
+        lambda d: (*d.positive(5), eta := max(d.share(), 0.51), 2 - 1 / eta),
+    ),
+    "speed_after_drop": (hoisting.speed_after_drop, lambda d: tuple(d.positive(2))),
+    "hoist_start_time": (
+        lambda *given: min(hoisting.hoist_start_time(*given), 1e99),  # infinite where the motor stalls
+        lambda d: (*d.positive(6), eta := max(d.share(), 0.51), 2 - 1 / eta, bool(d.rng.integers(2))),
+    ),
+    "spectrum_factor": (hoist_class.spectrum_factor, lambda d: (np.full(4, 0.25), np.array([d.share()] * 4))),
+    "equivalent_load": (hoist_class.equivalent_load, lambda d: (d.share(),)),
+    "use_of_cycles": (hoist_class.use_of_cycles, lambda d: tuple(d.positive(1))),
+    "use_of_hours": (hoist_class.use_of_hours, lambda d: tuple(d.positive(1))),
+    "load_class": (hoist_class.load_class, lambda d: (d.share(),)),
+    "group": (hoist_class.group, lambda d: (int(d.rng.integers(10)), int(d.rng.integers(1, 5)))),
+    "rope_safety_of_group": (
+        hoist_class.rope_safety_of_group,
+        lambda d: (f"M{d.rng.integers(1, 7)}", int(d.rng.integers(1, 9)), bool(d.rng.integers(2))),
+    ),
 }
 SIGNED = {
     "acceleration",

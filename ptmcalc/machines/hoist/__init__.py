@@ -1,13 +1,51 @@
 """Hoist: a load on a tackle, a drum, a gearbox, a motor and a brake."""
 
+from collections.abc import Iterator
 from importlib import resources
 
+from ptmcalc.base import units
 from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.result import Finding
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.checks import CHECKS
+from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.hoist.loads import LOADS
+from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import Hoist
+
+_SPEED_TOLERANCE = 0.05
+_WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
+
+
+def inspect(spec: Hoist) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    motor, gear = spec.motor, spec.gearbox
+    if motor is not None and motor.speed is not None and gear is not None:
+        drum = motor.speed / gear.ratio
+        if abs(drum / drum_speed(spec) - 1) > _SPEED_TOLERANCE:
+            said = units.show(drum_speed(spec), units.ANGULAR_SPEED)
+            yield Finding(
+                "SPC201",
+                f"motor and gearbox turn the drum at {units.show(drum, units.ANGULAR_SPEED)}, the file says {said}",
+                ("speed",),
+                "correct the speed, the ratio or the reeving",
+            )
+    if spec.rope.modulus is not None and spec.rope.modulus > _WIRE:
+        yield Finding(
+            "SPC201",
+            f"{units.show(spec.rope.modulus, units.STRESS)} is the modulus of wire, not of a rope",
+            ("rope", "modulus"),
+            "write that of the rope on its metallic area, 90 to 130 GPa",
+        )
+    if spec.classes.drive in ("HD2", "HD3") and spec.speed.creep is None:
+        yield Finding(
+            "SPC201",
+            f"a drive of class {spec.classes.drive} has a creep speed",
+            ("class", "drive"),
+            "add `creep: 0.02 m/s` to `speed`, or write `drive: HD1`",
+        )
+
 
 KIND = MachineKind(
     name="hoist",
@@ -16,7 +54,8 @@ KIND = MachineKind(
     loads=LOADS,
     effects=(),
     solvers=SOLVERS,
-    checks=CHECKS,
+    checks=(*CHECKS, *CHECKS_OF_DRIVE),
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
+    inspect=inspect,
 )

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
+from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.machines.hoist.spec import Hoist
 
 _MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0  # kg/m^3, mass per length over d^2
@@ -65,6 +66,14 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             lambda spec: 0.94,
             lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.90, 0.97),
             "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+        )
+    if spec.duty is not None and DUTY_TYPES[spec.duty.type].at_rest:
+        yield Assumption(
+            ("duty", "factor"),
+            units.SHARE,
+            lambda spec: 0.4,
+            lambda spec: Interval(0.25, 0.6),
+            "rated duty factors of hoist motors are 25, 40 and 60 %",
         )
     if spec.motor is not None:
         rotor = spec.motor.inertia

@@ -13,6 +13,7 @@ from ptmcalc.spec.fields import (
     Measure,
     PositivePower,
     PositiveTorque,
+    RunningTime,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
@@ -93,6 +94,8 @@ class Classes(Fragment):
     """hoisting class, with `drive` for the standard's factor of lifting a load off the ground"""
     drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
     """how the hoisting speed is controlled; HD1 has no creep speed"""
+    dangerous_load: Literal["yes", "no"] = "no"
+    """molten metal or as dangerous a load: a quarter more rope safety, group M5 at least"""
 
 
 class SpectrumPoint(Fragment):
@@ -109,16 +112,16 @@ class Duty(Fragment):
 
     type: Literal["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"] = "S3"
     """duty type of IEC 60034-1"""
-    factor: DutyFactor = 0.4
-    """share of a cycle in which the motor is on"""
+    factor: DutyFactor | None = None
+    """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
     starts_per_hour: Rate | None = None
     """of the motor"""
-    lift: Annotated[float, Measure(units.SPAN, above=0)] | None = None
-    """way of the hook in an average cycle; half the lifting height when left out"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""
+    hours: RunningTime | None = None
+    """time in motion in the life, which with the spectrum gives the group of the mechanism"""
     cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
-    """hoisting cycles in the life, which with the spectrum give the group of ISO 4301-1"""
+    """hoisting cycles in the life, which with the spectrum give the group of the crane"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -130,5 +133,9 @@ class Duty(Fragment):
             reason = f"the shares add up to {sum(known):.3g}"
             yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
         kind = given.word("type")
-        if kind is not None and not DUTY_TYPES[kind].at_rest and "factor" in given and given.number("factor") != 1:
+        if kind is None:
+            return
+        if not DUTY_TYPES[kind].at_rest and "factor" in given:
             yield Conflict(("factor",), f"{kind} has no rest", "delete `factor`, or write `type: S3`")
+        if DUTY_TYPES[kind].counts_starts and "starts_per_hour" not in given:
+            yield given.missing("starts_per_hour", f"the starts heat the motor in {kind}")

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from ptmcalc.laws import gearing, reeving, rope_drum, wire_rope
+from ptmcalc.laws import gearing, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene
 
 
@@ -181,23 +181,63 @@ def motor_side_inertia(spec: Hoist) -> float:
     return spec.motor.count * (spec.motor.inertia + filled(spec.motor.coupling_inertia))
 
 
-def drum_torque(spec: Hoist, mass: float, hauling: bool) -> float:
-    """Largest torque of all ropes on the drum, whatever the height of the hook [N*m].
+def drum_torque(spec: Hoist, mass: float, hook_height: float | None, hauling: bool) -> float:
+    """Torque of all ropes on the drum with the hook so high, or the largest of all heights [N*m].
 
     The pull falls as the rope shortens, the radius grows with every layer: it is largest where a layer begins.
     """
-    lift, layer, most = 0.0, 1, 0.0
-    while True:
-        most = max(most, pulls(spec, mass, lift, hauling).drum * layer_radius(spec, layer))
-        lift = (_room(spec, layer) - dead_length(spec)) / falls_of_a_rope(spec)
-        layer += 1
-        if lift >= spec.height:
-            return spec.reeving.ropes * most
-        lift = max(lift, 0.0)
+    heights = layer_heights(spec) if hook_height is None else [hook_height]
+    torques = []
+    for layer, height in enumerate(heights, 1):
+        radius = layer_radius(spec, layer) if hook_height is None else wound(spec, height).radius
+        torques.append(hoisting.drum_torque(pulls(spec, mass, height, hauling).drum, spec.reeving.ropes, radius))
+    return max(torques)
 
 
-def _room(spec: Hoist, layers: int) -> float:
-    """Rope that so many layers take [m]."""
-    return rope_drum.drum_capacity(
-        spec.drum.diameter, spec.rope.diameter, layer_turns(spec), layers, layer_step(spec), spec.winding.packing
-    )
+def layer_heights(spec: Hoist) -> list[float]:
+    """Heights of the hook at which the layers of its rope begin, the first one at the bottom [m]."""
+    last, dead, falls = wound(spec, spec.height).layers, dead_length(spec), falls_of_a_rope(spec)
+    full = (capacity(spec, layers, spec.winding.packing) for layers in range(1, last))
+    return [0.0, *(max((length - dead) / falls, 0.0) for length in full)]
+
+
+def capacity(spec: Hoist, layers: int, packing: str) -> float:
+    """Rope that so many layers of the drum take [m]."""
+    step = rope_drum.layer_step(spec.rope.diameter, pitch(spec), packing)
+    return rope_drum.drum_capacity(spec.drum.diameter, spec.rope.diameter, layer_turns(spec), layers, step, packing)
+
+
+def load_inertia(spec: Hoist, mass: float) -> float:
+    """Drum, and a mass on the hook with the rope on the first layer, on the drum shaft [kg*m^2]."""
+    return (spec.drum.inertia or 0.0) + mass * (layer_radius(spec, 1) / falls_of_a_rope(spec)) ** 2
+
+
+def layer_factor(spec: Hoist) -> float | None:
+    """Hoop stress of the shell under all layers over that of one; None where nothing is known of it."""
+    if spec.checks.layer_factor is not None:
+        return spec.checks.layer_factor
+    layers = wound(spec, spec.height).layers
+    return rope_drum.layer_factor(layers) if layers <= MOST_LAYERS_KNOWN else None
+
+
+MOST_LAYERS_KNOWN = 2
+"""Layers for which the hoop stress of a drum shell is known without an input."""
+
+
+def fleet_angle(spec: Hoist) -> float | None:
+    """Largest angle of a rope at the drum; None where the distance of its first sheave is not known [rad].
+
+    A rope that falls straight to the hook block has it near when it is wound up and far when it is not.
+    """
+    given, top = spec.reeving, wound(spec, spec.height)
+    one_layer = top.layers == 1
+    travel = (top.turns - spec.drum.dead_wraps) * pitch(spec) if one_layer else spec.drum.length
+    if given.lead_length > 0:
+        return rope_drum.fleet_angle(travel, given.lead_offset, given.lead_length)
+    if spec.least_fall == 0:
+        return None
+    if not one_layer:
+        return rope_drum.fleet_angle(travel, given.lead_offset, spec.least_fall)
+    highest = rope_drum.fleet_angle(0.0, abs(travel / 2 - given.lead_offset), spec.least_fall)
+    lowest = rope_drum.fleet_angle(travel, given.lead_offset, fall_length(spec, 0.0))
+    return max(highest, lowest)

@@ -67,8 +67,10 @@ class HoistChecks(CheckSettings):
     """sheave diameter over rope diameter (h2), to the middle of the rope; by the group when left out"""
     equaliser_ratio: PositiveRatio | None = None
     """equalising sheave diameter over rope diameter (h3); by the group when left out"""
-    drum_slenderness: PositiveRatio = 4.0
-    """largest length of the wound part over the diameter of the drum"""
+    drum_slenderness: PositiveRatio = 5.0
+    """largest length of the wound parts over the diameter of the drum"""
+    layers: Annotated[int, Field(ge=1, strict=True)] | None = None
+    """most layers of rope; those of the drum, in the groups M7 and M8 one, when left out"""
     dead_wraps: PositiveRatio = 2.0
     """fewest turns that stay on the drum"""
     flange_margin: PositiveRatio = 1.5

@@ -48,7 +48,8 @@ class Reeving(Fragment):
     lead_length: Offset = 0.0
     """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
     lead_offset: Offset = 0.0
-    """of the first sheave from the middle of the wound part, along the drum"""
+    """of the first sheave, or that of the hook block, from the middle of the rope's travel along the drum, towards the
+    turns wound last"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

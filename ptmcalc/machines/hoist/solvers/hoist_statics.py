@@ -1,73 +1,173 @@
-"""Hoisting and lowering at an even speed: rope, drum, torques."""
+"""Hoisting and lowering at an even speed: rope, drum, torques, brake, heat."""
 
+import math
+
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import reeving, rope_drum
-from ptmcalc.machines.hoist import model
+from ptmcalc.laws import hoist_class, reeving, rope_drum, wire_rope
+from ptmcalc.machines.hoist import drive, model
+from ptmcalc.machines.hoist.drive_data import Duty, Motor
 from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
+Numbers = dict[str, float]
+
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
-    """Loads of a hook that moves evenly.
+    """Loads of a hook that moves evenly, at the worst height of the lift where the scene names none.
 
-        S = (Q + G) g/(m eta_r) with the rope's own weight,   M = S R_k of the layer k
+        S = (Q + G) g/(m eta_r) with the rope's own weight,   M = S R_k of the layer k,   M_m = M/(u eta), M eta_r/u
 
-    **Range** vertical falls, a rope that runs freely over its sheaves.
-    **Error** exact for that model: what is not known of it stands among the assumptions.
-    **Source** balance of every sheave (`laws.reeving`), geometry of the drum (`laws.rope_drum`).
+    **Range** vertical falls, a rope that runs freely over its sheaves; steady motion.
+    **Error** exact for that model: what is not known of it stands among the assumptions. The heating torque takes the
+    largest static torque of the lift for all of it: on the safe side by the growth of the radius over the layers.
+    **Source** balance of every sheave (`laws.reeving`), geometry of the drum (`laws.rope_drum`), power balance of the
+    gearbox (`laws.gearing`), IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.hoist_class`).
     """
     loads = _of_the_rope(spec, scene) | _of_the_drum(spec, scene)
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    return Result(found | _of_the_drive(spec, scene) | _of_the_use(spec), work=1)
 
 
-def _of_the_rope(spec: Hoist, scene: HoistScene) -> dict[str, float]:
+def _of_the_rope(spec: Hoist, scene: HoistScene) -> Numbers:
     mass, height = model.hook_mass(spec, scene), model.hook_height(scene)
-    falls = model.falls_of_a_rope(spec)
-    tackle = reeving.tackle_efficiency(falls, filled(spec.reeving.sheave_efficiency))
+    given, d = spec.reeving, spec.rope.diameter
+    tackle = reeving.tackle_efficiency(model.falls_of_a_rope(spec), filled(given.sheave_efficiency))
     stiffness = model.hook_stiffness(spec, height)
-    return {
+    pull = model.pulls(spec, mass, height, hauling=True).drum
+    loads = {
         "reeving_efficiency": tackle * model.deflection_efficiency(spec),
-        "rope_pull_max": model.pulls(spec, mass, height, hauling=True).drum,
+        "rope_pull_max": pull,
         "rope_pull_lowering": model.pulls(spec, mass, height, hauling=False).drum,
+        "rope_pull_empty": model.pulls(spec, spec.hook_block, height, hauling=False).least,
         "rope_length": model.rope_length(spec, height),
         "rope_speed": model.drum_speed(spec) * model.layer_radius(spec, 1),
-        "hook_speed": model.hook_speed(spec),
         "rope_stiffness": stiffness,
         "static_stretch": mass * spec.gravity / stiffness,
+        "drum_ratio": spec.drum.diameter / d + 1,
     }
+    if spec.rope.breaking_force is not None:
+        loads["rope_safety"] = wire_rope.rope_safety(spec.rope.breaking_force, pull)
+    if given.sheave_diameter is not None:
+        loads["sheave_ratio"] = given.sheave_diameter / d + 1
+    if given.equaliser_diameter is not None:
+        loads["equaliser_ratio"] = given.equaliser_diameter / d + 1
+    return loads
 
 
-def _of_the_drum(spec: Hoist, scene: HoistScene) -> dict[str, float]:
-    highest = model.wound(spec, spec.height)
+def _of_the_drum(spec: Hoist, scene: HoistScene) -> Numbers:
+    drum, d, highest = spec.drum, spec.rope.diameter, model.wound(spec, spec.height)
     required = rope_drum.drum_length_required(
         highest.length,
-        spec.drum.diameter,
-        spec.rope.diameter,
+        drum.diameter,
+        d,
         model.pitch(spec),
-        spec.drum.layers,
+        drum.layers,
         model.layer_step(spec),
         spec.winding.packing,
     )
-    return {
+    loads = {
+        "hook_speed": model.hook_speed(spec),
+        "hook_speed_max": model.hook_speed(spec, layer=highest.layers),
+        "drum_speed": model.drum_speed(spec),
         "drum_turns": highest.turns,
         "drum_layers": float(highest.layers),
         "drum_length_required": required,
-        "hook_speed_max": model.hook_speed(spec, layer=highest.layers),
-        "torque_drum": model.drum_torque(spec, model.hook_mass(spec, scene), hauling=True),
+        "drum_capacity_nested": model.capacity(spec, drum.layers, rope_drum.NESTED),
+        "drum_capacity_square": model.capacity(spec, drum.layers, rope_drum.SQUARE),
+        "drum_slenderness": spec.reeving.ropes * drum.length / drum.diameter,
+        "dead_wraps": drum.dead_wraps,
+        "torque_drum": model.drum_torque(spec, model.hook_mass(spec, scene), scene.hook_height, hauling=True),
     }
+    if drum.flange_height is not None:
+        last = highest.radius + d / 2 - drum.diameter / 2
+        loads["flange_margin"] = (drum.flange_height - last) / d
+    angle = model.fleet_angle(spec)
+    if angle is not None:
+        loads["fleet_angle"] = angle
+    factor = model.layer_factor(spec)
+    if drum.shell_thickness is not None and factor is not None:
+        loads["hoop_stress"] = rope_drum.hoop_stress(
+            model.pulls(spec, spec.hook_block + spec.load, 0.0, hauling=True).drum,
+            model.pitch(spec),
+            drum.shell_thickness,
+            factor,
+        )
+    return loads
+
+
+def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
+    mass, height = model.hook_mass(spec, scene), scene.hook_height
+    loads: Numbers = {}
+    notes: dict[str, str] = {}
+    if spec.gearbox is not None:
+        up, speed = drive.torque_up(spec, mass, height), drive.motor_speed(spec)
+        loads |= {
+            "motor_speed": speed,
+            "torque_motor_static_up": up,
+            "torque_motor_static_down": drive.torque_down(spec, mass, height),
+            "power_hoisting": up * speed,
+        }
+        if spec.motor is not None:
+            loads |= _of_the_motor(spec, spec.motor, mass, height, up)
+            if math.isinf(loads["start_time"]):
+                notes["starting_reserve"] = "stall: the motor does not lift the hanging load"
+    held = drive.held(spec, mass, height)
+    if held is not None:
+        loads |= {
+            "brake_torque_static": held.torque,
+            "brake_reserve_static": held.reserve,
+            "drop_distance": held.drop,
+            "drop_speed": held.speed,
+        }
+        if held.drop > 0:
+            way, hits = units.show(held.drop, units.SPAN), units.show(held.speed, units.SPEED)
+            notes["brake_reserve_static"] = f"the load drops {way} to the ground and meets it at {hits}"
+    return {name: Found(Estimate.exact(value), note=notes.get(name, "")) for name, value in loads.items()}
+
+
+def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None, up: float) -> Numbers:
+    loads = {"starting_reserve": drive.starting_torque(motor) / up if up > 0 else math.inf}
+    loads["start_time"] = drive.start_time(spec, motor, mass, height, up=True)
+    if spec.duty is not None:
+        loads["torque_motor_rms"] = drive.rms_torque(spec, motor)
+        allowed = drive.permissible_torque(spec, motor)
+        if allowed is not None:
+            loads["heating_utilisation"] = loads["torque_motor_rms"] / allowed
+    return loads
+
+
+def _of_the_use(spec: Hoist) -> dict[str, Found]:
+    """What the duty of the file asks of the class."""
+    return {name: Found(Estimate.exact(value)) for name, value in _use(spec.duty, drive.spectrum(spec)).items()}
+
+
+def _use(duty: Duty | None, spectrum: list[tuple[float, float]]) -> Numbers:
+    if duty is None:
+        return {}
+    factor = hoist_class.spectrum_factor([share for share, _ in spectrum], [load for _, load in spectrum])
+    loads = {"spectrum_factor": factor}
+    if duty.starts_per_hour is not None:
+        loads["starts_per_hour"] = duty.starts_per_hour
+    load = hoist_class.load_class(factor)
+    if duty.hours is not None:
+        loads["mechanism_group"] = float(hoist_class.group(hoist_class.use_of_hours(duty.hours / 3600), load))
+    if duty.cycles is not None:
+        loads["crane_group"] = float(hoist_class.group(hoist_class.use_of_cycles(duty.cycles), load))
+    return loads
 
 
 HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     name="hoist_statics",
-    title="rope, drum and torques of a hoist that runs evenly",
+    title="rope, drum, torques, brake and heat of a hoist that runs evenly",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
     gives=frozenset(info.name for info in STATIC),
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-4,
-    source="balance of every sheave; geometry of the drum",
+    cost=lambda spec, scene, carried, level: 2e-4,
+    source="balance of every sheave; geometry of the drum; power balance of the gearbox; IEC 60034-1; ISO 4301-1",
 )

@@ -1,0 +1,216 @@
+"""The checks of a hoist's drive in even motion: what lifts, what heats, what holds."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.laws import hoist_class
+from ptmcalc.machines.hoist import drive
+from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded, only
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+
+
+def _driven(spec: Hoist, scene: HoistScene) -> bool:
+    return loaded(spec, scene) and spec.motor is not None
+
+
+def _on_duty(spec: Hoist, scene: HoistScene) -> bool:
+    return _driven(spec, scene) and spec.duty is not None
+
+
+def _torque_key(spec: Hoist, scene: Run) -> KeyPath:
+    """What says how strongly the motor starts."""
+    motor = spec.motor
+    if motor is None or motor.mean_starting_torque is not None:
+        return ("motor", "mean_starting_torque")
+    return ("motor", "largest_starting_torque" if motor.largest_starting_torque is not None else "curve")
+
+
+def _torque_repair(spec: Hoist, scene: Run) -> KeyPath:
+    key = _torque_key(spec, scene)
+    return key if key[-1] != "curve" else ()
+
+
+def _gearbox(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
+    return (("gearbox",),)
+
+
+def _reserve_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Least mean starting torque over that of the load, 1.4 by default.
+
+    **Range** motors that start under the hanging load.
+    **Error** none: an engineering rule; FEM 9.683 asks 1.4 to 1.6 by the kind of motor.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.motor_reserve)
+
+
+WEAK: OneCheck = only(_driven)(
+    Check(
+        code="HST114",
+        title="a motor too weak to lift the load",
+        scenes=RUNNING,
+        loads=("starting_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_reserve_limit,
+        needs=_gearbox,
+        blame=lambda spec, scene, loads: _torque_key(spec, scene),
+        repair=_torque_repair,
+        what="The mean starting torque exceeds the torque of the hanging load, losses against it, by the reserve"
+        " asked.",
+        why="A motor without reserve does not lift what hangs: it stalls, burns, or lets the load sink.",
+        formula="M_mean/(M_d/(u eta)) >= 1.4",
+        source="power balance of the gearbox; handbooks of lifting machines",
+    )
+)
+
+
+def _excess_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Largest mean starting torque over that of the load, 4 by default.
+
+    **Range** any motor.
+    **Error** none: an engineering rule; 1.6 to 2.5 is usual.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.motor_excess)
+
+
+EXCESS: OneCheck = only(_driven)(
+    Check(
+        code="HST115",
+        title="a motor far too strong for the load",
+        scenes=RUNNING,
+        loads=("starting_reserve",),
+        sense=Sense.AT_MOST,
+        limit=_excess_limit,
+        needs=_gearbox,
+        blame=lambda spec, scene, loads: _torque_key(spec, scene),
+        repair=_torque_repair,
+        what="The mean starting torque is no more than four times that of the load.",
+        why="What the motor has to spare is thrown into rope, gearbox and bridge at every start.",
+        formula="M_mean/(M_d/(u eta)) <= 4",
+        source="handbooks of lifting machines",
+    )
+)
+
+
+def _heating_limit(spec: Hoist, scene: Run) -> Estimate:
+    """All that the rating allows at the duty factor of the file.
+
+    **Range** ratings at another duty factor are converted with the motor's cooling at rest.
+    **Error** none: a definition.
+    **Source** IEC 60034-1; `laws.duty.permissible_torque`.
+    """
+    return Estimate.exact(1.0)
+
+
+def _heating_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
+    by_power = spec.motor is not None and spec.motor.power is not None
+    return (("gearbox",),) if by_power else (("gearbox",), ("motor", "rated_torque"))
+
+
+def _rating(spec: Hoist, scene: Run) -> KeyPath:
+    return ("motor", "power" if spec.motor is not None and spec.motor.power is not None else "rated_torque")
+
+
+HEATING: OneCheck = only(_on_duty)(
+    Check(
+        code="HST116",
+        title="a motor that gets too hot",
+        scenes=RUNNING,
+        loads=("heating_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_heating_limit,
+        needs=_heating_needs,
+        blame=lambda spec, scene, loads: _rating(spec, scene),
+        repair=_rating,
+        what="Hoisting and lowering the load spectrum, with its starts where the duty type counts them, heats the motor"
+        " no more than its rated torque at this duty factor.",
+        why="The life of the winding's insulation is halved by every ten degrees.",
+        formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
+        source="IEC 60034-1",
+    )
+)
+
+
+def _starts_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Starts per hour that the maker allows.
+
+    **Range** motors switched on and off; 150, 300 and 600 per hour are usual.
+    **Error** none: a given value.
+    **Source** the maker's data.
+    """
+    allowed = spec.motor.starts_per_hour if spec.motor is not None else None
+    return Estimate.exact(math.inf if allowed is None else allowed)
+
+
+def _starts_wanted(spec: Hoist, scene: HoistScene) -> bool:
+    return _on_duty(spec, scene) and spec.duty is not None and spec.duty.starts_per_hour is not None
+
+
+STARTS: OneCheck = only(_starts_wanted)(
+    Check(
+        code="HST117",
+        title="too many starts of the motor",
+        scenes=RUNNING,
+        loads=("starts_per_hour",),
+        sense=Sense.AT_MOST,
+        limit=_starts_limit,
+        needs=lambda spec, scene: (("motor", "starts_per_hour"),),
+        blame=lambda spec, scene, loads: ("duty", "starts_per_hour"),
+        repair=lambda spec, scene: ("duty", "starts_per_hour"),
+        what="The motor starts no more often than its maker allows.",
+        why="Each start heats the rotor and wears brake and contactor.",
+        formula="Z <= Z_max",
+        source="the maker's data; IEC 60034-1, duty types S4 and S5",
+    )
+)
+
+
+def _brake_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Least brake torque over that of the load: by the group, or of the file; 1.5 without a group.
+
+    **Range** holding brakes of hoists: 1.5 up to M4, 1.75 in M5, 2 in M6, 2.5 in M7 and M8.
+    **Error** none: a table, to be confirmed; national rules differ.
+    **Source** rules for cranes in the east of Europe, quoted from handbooks.
+    """
+    asked, group = spec.checks.brake_reserve, spec.classes.mechanism
+    return Estimate.exact(asked if asked is not None else hoist_class.BRAKE_RESERVE[group or "M1"])
+
+
+def _brake_wanted(spec: Hoist, scene: HoistScene) -> bool:
+    return loaded(spec, scene) and (spec.brake is not None or spec.motor is not None)
+
+
+def _brake_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
+    if spec.brake is None:
+        return (("brake",),)
+    return _gearbox(spec, scene) if spec.brake.shaft == drive.MOTOR_SHAFT else ()
+
+
+def _brake_key(spec: Hoist, scene: Run, loads: Loads) -> KeyPath:
+    return ("brake", "torque")
+
+
+BRAKE: OneCheck = only(_brake_wanted)(
+    Check(
+        code="HST118",
+        title="a brake too weak to hold the load",
+        scenes=RUNNING,
+        loads=("brake_reserve_static",),
+        sense=Sense.AT_LEAST,
+        limit=_brake_limit,
+        needs=_brake_needs,
+        blame=_brake_key,
+        repair=lambda spec, scene: ("brake", "torque"),
+        what="The torque of the closed brake exceeds what the lowering load puts on its shaft, losses helping, by the"
+        " reserve of the group. The load `drop_distance` says how far the load falls through a brake that does not"
+        " hold it.",
+        why="A brake heats, wears and gets wet: one that just holds today drops the load tomorrow.",
+        formula="M_B/(S R n eta_r/u) >= 1.5 to 2.5",
+        source="power balance of the gearbox; rules for cranes, quoted from handbooks",
+    )
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE)
