@@ -98,7 +98,7 @@ def drum_capacity(
         l [m].
 
     **Range** turns side by side; the rise of the helix, (p/(2 pi R))^2/2 of the length, is left out.
-    **Error** below 0.01 % for p = d and D = 15 d; one turn in two layers, see `turns_in_layer`.
+    **Error** below 0.02 % for p = d and D = 15 d; one turn in two layers, see `turns_in_layer`.
     **Source** geometry.
     """
     return math.fsum(
