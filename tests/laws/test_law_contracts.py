@@ -41,6 +41,8 @@ from ptmcalc.laws import (
     hoist_class,
     hoisting,
     inertia,
+    lift_off,
+    lift_off_standard,
     loop_bounds,
     motor,
     polygon,
@@ -48,6 +50,7 @@ from ptmcalc.laws import (
     resistance,
     response,
     rope_drum,
+    rope_rod,
     sag,
     shaft,
     shock,
@@ -530,6 +533,31 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     hoist_class.load_class: [(0.28,), (1.0,)],
     hoist_class.group: [(3, 3)],
     hoist_class.rope_safety_of_group: [("M5", layers, hot) for layers in (1, 3) for hot in (True, False)],
+    lift_off.speed_source_factor: [(0.25, 0.04, 9.81)],
+    lift_off.elasticity_number: [(0.4, 8e4, 5e4, 18e3, 5e3, 1.2e6), (0.0, 8e4, 5e4, 18e3, 5e3, 1.2e6)],
+    lift_off.drive_mass_number: [(8e4, 5e4, 18e3, 5e3, 1.2e6, v) for v in (0.0, 0.25, 9.0)],
+    lift_off.motor_slope_number: [(6e5, 1.2e6, 18e3, 5e3)],
+    lift_off.structure_number: [(1.2e6, 5e6, 9e3, 5e3)],
+    lift_off.held_swing_force: [(4e4, 5e4, -0.2, 1.2e6, 5e3)],
+    lift_off.release_factor: [(0.4, 0.5)],
+    lift_off_standard.stiffness_class: [(x,) for x in (0.9, 0.4, 0.2, 0.1)],
+    lift_off_standard.class_lift_off_speed: [
+        (f"HD{k}", combination, 0.4, 0.1) for k in range(1, 6) for combination in ("regular", "exceptional")
+    ],
+    lift_off_standard.standard_lift_off_factor: [
+        (f"HC{k}", "HD3", 0.25, edition) for k in range(1, 5) for edition in ("by_class", "by_drive")
+    ],
+    rope_rod.rod_root: [(0.06, 1), (9.0, 3), (0.0, 2)],
+    rope_rod.rod_frequency: [(1.4e5, 180.0, 3e3, 1), (1.4e5, 180.0, 3e3, 2), (1.4e5, 0.0, 3e3, 1)],
+    rope_rod.third_mass_frequency: [(1.4e5, 180.0, 3e3)],
+    rope_rod.snatch_wave_force: [(0.4, 1.4e5, 180.0)],
+    rope_rod.hauling_gain: [(120.0, 15.0)],
+    rope_rod.paying_out_gain: [(15.0, 120.0)],
+    rope_rod.hauled_strain: [
+        (1.7e7, 3e3, 1.5, 120.0, 15.0, 2e-4, 1e-3),
+        (1e3, 3e3, 1.5, 120.0, 0.2, 2e-4, 0.0),
+        (1.7e7, 3e3, 1.5, 120.0, 120.0, 2e-4, 1e-3),
+    ],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -549,6 +577,8 @@ IN_PRINTED_UNITS = {
     chain_resonance.textbook_resonance_factor,
     chain_resonance.textbook_resonance_modulus,
     chain_selection.lubrication,
+    lift_off_standard.stiffness_class,
+    lift_off_standard.standard_lift_off_factor,
 }
 """Laws whose numbers belong to units that are mixed in print: their factors are told in SI."""
 
@@ -594,6 +624,15 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     rope_drum.turns_for_length: [(ValueError, (9.0, 0.3, 0.0175, 1.5, 0.0152, "nested"))],
     rope_drum.layer_factor: [(ValueError, (3,))],
     hoist_class.rope_safety_of_group: [(ValueError, ("M7", 2))],
+    lift_off_standard.class_lift_off_speed: [
+        (ValueError, ("HD6", "regular", 0.4, 0.1)),
+        (ValueError, ("HD1", "A1", 0.4, 0.1)),
+    ],
+    lift_off_standard.standard_lift_off_factor: [
+        (ValueError, ("HC5", "HD1", 0.4, "by_class")),
+        (ValueError, ("HC1", "HD6", 0.4, "by_class")),
+        (ValueError, ("HC1", "HD1", 0.4, "2004")),
+    ],
 }
 
 

@@ -37,6 +37,8 @@ from ptmcalc.laws import (
     hoist_class,
     hoisting,
     inertia,
+    lift_off,
+    lift_off_standard,
     loop_bounds,
     motor,
     polygon,
@@ -44,6 +46,7 @@ from ptmcalc.laws import (
     resistance,
     response,
     rope_drum,
+    rope_rod,
     sag,
     shaft,
     shock,
@@ -817,6 +820,31 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         hoist_class.rope_safety_of_group,
         lambda d: (f"M{d.rng.integers(1, 7)}", int(d.rng.integers(1, 9)), bool(d.rng.integers(2))),
     ),
+    "speed_source_factor": (lift_off.speed_source_factor, lambda d: tuple(d.positive(3))),
+    "elasticity_number": (lift_off.elasticity_number, lambda d: tuple(d.positive(6))),
+    "drive_mass_number": (lift_off.drive_mass_number, lambda d: tuple(d.positive(6))),
+    "motor_slope_number": (lift_off.motor_slope_number, lambda d: tuple(d.positive(4))),
+    "structure_number": (lift_off.structure_number, lambda d: tuple(d.positive(4))),
+    "held_swing_force": (lift_off.held_swing_force, lambda d: tuple(d.positive(5))),
+    "release_factor": (lift_off.release_factor, lambda d: (d.share(), d.share())),
+    "class_lift_off_speed": (
+        lift_off_standard.class_lift_off_speed,
+        lambda d: (str(d.rng.choice(lift_off_standard.DRIVES)), "regular", *d.positive(2)),
+    ),
+    "standard_lift_off_factor": (
+        lift_off_standard.standard_lift_off_factor,
+        lambda d: (str(d.rng.choice(list(lift_off_standard.BETA))), "HD5", *d.positive(1), "by_drive"),
+    ),
+    "rod_root": (rope_rod.rod_root, lambda d: (*d.positive(1), int(d.rng.integers(1, 9)))),
+    "rod_frequency": (rope_rod.rod_frequency, lambda d: (*d.positive(3), int(d.rng.integers(1, 9)))),
+    "third_mass_frequency": (rope_rod.third_mass_frequency, lambda d: tuple(d.positive(3))),
+    "snatch_wave_force": (rope_rod.snatch_wave_force, lambda d: tuple(d.positive(3))),
+    "hauling_gain": (rope_rod.hauling_gain, lambda d: tuple(d.positive(2))),
+    "paying_out_gain": (rope_rod.paying_out_gain, lambda d: tuple(d.positive(2))),
+    "hauled_strain": (
+        rope_rod.hauled_strain,
+        lambda d: (*d.positive(3), *sorted(d.positive(2), reverse=True), *d.positive(2)),
+    ),
 }
 SIGNED = {
     "acceleration",
@@ -871,6 +899,8 @@ SIGNED = {
     "start_acceleration",
     "rigid_acceleration",
     "fall_pulls",
+    "release_factor",
+    "hauled_strain",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}

@@ -1,0 +1,96 @@
+"""Dynamic factor of a load lifted off the ground as the crane standards put it: by class, without the machine.
+
+EN 13001-2 and ISO 8686-1 agree on the classes HC1 to HC4; for the drive classes HD3 and HD5 editions differ in the
+smallest factor, which is why the edition is an argument.
+"""
+
+BETA = {"HC1": 0.17, "HC2": 0.34, "HC3": 0.51, "HC4": 0.68}
+"""beta_2 [s/m] by stiffness class."""
+LEAST = {"HC1": 1.05, "HC2": 1.10, "HC3": 1.15, "HC4": 1.20}
+"""Smallest phi_2 by stiffness class."""
+LEAST_CONTROLLED = 1.05
+"""Smallest phi_2 of the drive classes HD3 and HD5 in the newer edition, for every stiffness class."""
+BY_CLASS, BY_DRIVE = "by_class", "by_drive"
+"""Editions: the smallest factor by stiffness class alone, or lower for the drives HD3 and HD5."""
+DRIVES = ("HD1", "HD2", "HD3", "HD4", "HD5")
+REGULAR, EXCEPTIONAL = "regular", "exceptional"
+"""Load combinations A1 and B1, and C1."""
+STIFFNESS_LIMITS = ((0.8, "HC1"), (0.3, "HC2"), (0.15, "HC3"))
+"""Least static deflection of the load under its weight [m] of each class but the stiffest."""
+
+
+def stiffness_class(deflection: float) -> str:
+    """Stiffness class of a hoist from how far the load hangs lower under its weight.
+
+        HC1: delta >= 0.8 m,  HC2: >= 0.3 m,  HC3: >= 0.15 m,  HC4 below
+
+    Args:
+        deflection: delta, of the load on rope and structure [m].
+
+    Returns:
+        class: HC1 to HC4.
+
+    **Range** delta >= 0.
+    **Error** none: a definition.
+    **Source** EN 13001-2, table of stiffness classes (limits as quoted in open design codes).
+    """
+    return next((name for least, name in STIFFNESS_LIMITS if deflection >= least), "HC4")
+
+
+def class_lift_off_speed(drive_class: str, combination: str, main_speed: float, creep_speed: float) -> float:
+    """Hoisting speed that the standard takes at lift-off.
+
+        A1, B1:  HD1 v_max,  HD2 and HD3 v_creep,  HD4 0.5 v_max,  HD5 0
+        C1:      HD1, HD2, HD4 v_max,  HD3, HD5 0.5 v_max
+
+    Args:
+        drive_class: HD1 (no creep speed), HD2 (creep at the operator's choice), HD3 (creep until the load is off the
+            ground), HD4 (stepless, by the operator), HD5 (stepless, automatic).
+        combination: `regular` (A1, B1) or `exceptional` (C1).
+        main_speed: v_max, of the hook [m/s].
+        creep_speed: v_creep, of the hook [m/s].
+
+    Returns:
+        v_h [m/s].
+
+    **Range** those classes.
+    **Error** none: a definition; where EN 13001-2 prints a dash for C1 (HD1, HD3) an open design code is followed.
+    **Source** EN 13001-2 and ISO 8686-1, table of lift-off speeds.
+
+    Raises:
+        ValueError: for another class or combination.
+    """
+    if drive_class not in DRIVES or combination not in (REGULAR, EXCEPTIONAL):
+        raise ValueError(f"a drive class is one of {DRIVES}, a combination {REGULAR} or {EXCEPTIONAL}")
+    if combination == EXCEPTIONAL:
+        return main_speed if drive_class in ("HD1", "HD2", "HD4") else main_speed / 2
+    speeds = {"HD1": main_speed, "HD2": creep_speed, "HD3": creep_speed, "HD4": main_speed / 2}
+    return speeds.get(drive_class, 0.0)
+
+
+def standard_lift_off_factor(stiffness: str, drive_class: str, speed: float, edition: str) -> float:
+    """Dynamic factor of lifting a load off the ground by the standard.
+
+        phi_2 = phi_2,min + beta_2 v_h
+
+    Args:
+        stiffness: class HC1 to HC4.
+        drive_class: HD1 to HD5.
+        speed: v_h, of `class_lift_off_speed` [m/s].
+        edition: `by_class` (ISO 8686-1, older EN 13001-2), or `by_drive` (newer: 1.05 at least for HD3 and HD5).
+
+    Returns:
+        phi_2, largest force over the weight [1].
+
+    **Range** those classes.
+    **Error** none bound: it knows neither mass nor stiffness; beside the speed source theory it gives 0.5 to 0.95 of
+    the dynamic part.
+    **Source** EN 13001-2 and ISO 8686-1; numbers as four open design codes quote them.
+
+    Raises:
+        ValueError: for another class or edition.
+    """
+    if stiffness not in BETA or drive_class not in DRIVES or edition not in (BY_CLASS, BY_DRIVE):
+        raise ValueError(f"no factor for {stiffness}, {drive_class} in the edition {edition}")
+    controlled = edition == BY_DRIVE and drive_class in ("HD3", "HD5")
+    return (LEAST_CONTROLLED if controlled else LEAST[stiffness]) + BETA[stiffness] * speed
