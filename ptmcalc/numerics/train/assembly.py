@@ -9,7 +9,7 @@ from ptmcalc.numerics.motion import Motion
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.balance import Balances, Hold, Solved
 from ptmcalc.numerics.train.held import Part
-from ptmcalc.numerics.train.signals import FloatArray
+from ptmcalc.numerics.train.signals import FloatArray, Trigger
 from ptmcalc.numerics.train.state import NO_FRICTION, Change, State
 
 if TYPE_CHECKING:
@@ -81,9 +81,15 @@ class Assembly:
         for index, (signal, now) in enumerate(zip(self.system.signals, self.state.signals, strict=True)):
             trigger = signal.trigger
             if trigger is not None and now.piece < 0:
-                of = self.system.body_speed if trigger.on == "speed" else self.system.body_position
-                gap = trigger.level * self.system.one - of[trigger.body]
-                yield self.balances.wide(gap if trigger.rising else -gap), Change("signal", index, None)
+                gap = self.balances.wide(trigger.level * self.system.one) - self._seen(trigger)
+                yield gap if trigger.rising else -gap, Change("signal", index, None)
+
+    def _seen(self, trigger: Trigger) -> FloatArray:
+        """What a trigger watches."""
+        if trigger.on == "force":
+            return self.balances.link_force[trigger.body]
+        of = self.system.body_speed if trigger.on == "speed" else self.system.body_position
+        return self.balances.wide(of[trigger.body])
 
     def _turning(self, solved: Solved) -> Iterator[tuple[FloatArray, Change]]:
         """Friction: what moves or slips keeps its direction, torques of its meshes their sign."""

@@ -86,6 +86,8 @@ class Balances:
             force[spring.first] -= link
             if spring.second is not None:
                 force[spring.second] += link
+            if spring.over is not None:
+                force[spring.over] += link
         for drive, torque in zip(self.train.drives, self.drive_torque, strict=True):
             force[drive.body] += torque
         for index, grip in enumerate(self.train.grips):

@@ -38,7 +38,7 @@ class SignalRows:
     def level(self, signal: Signal) -> float:
         """The value of a signal of steps."""
         now = self.pieces[signal]
-        return signal.values[now.piece] if now.piece >= 0 else 0.0
+        return signal.values[now.piece] if now.piece >= 0 else signal.before
 
 
 def signals_of(drive: Drive) -> Iterator[Signal]:

@@ -25,7 +25,7 @@ def frequencies(train: Train) -> FloatArray:
     free = [group for group in range(groups.count) if group not in fixed]
     if not springs or not free:
         return np.empty(0)
-    rows = np.array([groups.row(spring.first, spring.second) for spring in springs])[:, free]
+    rows = np.array([groups.link(spring) for spring in springs])[:, free]
     stiffness = np.sqrt([spring.stiffness for spring in springs])
     values = np.linalg.svd(rows / np.sqrt(inertia[free]) * stiffness[:, None], compute_uv=False)
     travels = 0 if fixed else Coordinates.of(Train(train.bodies, train.meshes, tuple(springs)), groups).travels

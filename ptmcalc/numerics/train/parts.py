@@ -50,9 +50,10 @@ LINEAR, KELVIN, NO_PULL, CLAMPED, HUNT_CROSSLEY, RIGID = (
 class Spring:
     """An elastic link between two bodies, or from a body to the ground.
 
-    Its extension is x = position_first - position_second - rest. `play` is the whole free travel, half of it to
-    either side of x = 0; with `side` 1 it acts only beyond the play at x > 0 (a rope), with -1 only at x < 0. Laws of
-    contact, d the overlap beyond the play:
+    Its extension is x = position_first - position_second - rest. For a rope that runs `over` a body which gives way, a
+    drum's structure, position_over is taken off too; a link named before this one must hold that body to the ground.
+    `play` is the whole free travel, half of it to either side of x = 0; with `side` 1 it acts only beyond the play at
+    x > 0 (a rope), with -1 only at x < 0. Laws of contact, d the overlap beyond the play:
 
         linear           C x + b v, no play
         kelvin           C d + b d'  as long as d > 0 (may pull at the end)
@@ -74,6 +75,7 @@ class Spring:
     restitution: float = 0.0
     dissipation: float = 0.0
     exponent: float = 1.0
+    over: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

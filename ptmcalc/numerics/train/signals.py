@@ -12,7 +12,10 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Trigger:
-    """When a signal starts: as a body's speed or position rises (or falls) through a level."""
+    """When a signal starts: as a body's speed or position, or a link's force, rises (or falls) through a level.
+
+    `body` is the index of that body or link, `on` is "speed", "position" or "force".
+    """
 
     body: int
     on: str
@@ -35,7 +38,7 @@ class Signal:
 
         s(t) = values_k + slopes_k (t - times_k) + sum size sin(w t + phase) + decay exp(-(t - start)/constant)
 
-    `times` starts with 0 and increases; before a `trigger` has fired the signal is 0.
+    `times` starts with 0 and increases; before a `trigger` has fired the signal is `before`.
     """
 
     times: tuple[float, ...] = (0.0,)
@@ -46,6 +49,7 @@ class Signal:
     decay_time: float = 1.0
     decay_start: float = 0.0
     trigger: Trigger | None = None
+    before: float = 0.0
 
     @classmethod
     def constant(cls, value: float) -> "Signal":
@@ -126,6 +130,7 @@ class Inputs:
         """The signal as a functional of the inputs."""
         row = np.zeros(self.size)
         if now.piece < 0:
+            row[0] = signal.before
             return row
         since = now.start + signal.times[now.piece]
         row[0] = signal.values[now.piece] - signal.slopes[now.piece] * since

@@ -86,13 +86,14 @@ class TrainSystem:
         """Extension of a link at the start. It is a state itself, so that contact without play is at 0 exactly."""
         bodies = self.train.bodies
         second = bodies[spring.second].position if spring.second is not None else 0.0
-        return bodies[spring.first].position - second - spring.rest
+        over = bodies[spring.over].position if spring.over is not None else 0.0
+        return bodies[spring.first].position - second - over - spring.rest
 
     def _stretch(self, index: int) -> Stretch:
         spring, place, count = self.train.springs[index], self.coordinates.places[index], self.groups.count
         x, rate = np.zeros(self.size), np.zeros(self.size)
         if place is None:
-            row = self.groups.row(spring.first, spring.second)
+            row = self.groups.link(spring)
             x[:count] = self.apart(row)[count : self.own]
             rate[count : self.own] = x[:count]
             x += (self._at_start(spring) - float(x[:count] @ self.extended)) * self.one

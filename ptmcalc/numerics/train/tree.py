@@ -43,6 +43,13 @@ class Groups:
             row[self.of[second]] -= self.ratio[second]
         return row
 
+    def link(self, spring: Spring) -> FloatArray:
+        """Rate of a link's extension over the speeds of the groups."""
+        row = self.row(spring.first, spring.second)
+        if spring.over is not None:
+            row[self.of[spring.over]] -= self.ratio[spring.over]
+        return row
+
     def inertias(self, train: Train) -> FloatArray:
         """Inertia of each group at its own speed, without losses."""
         weights = np.array([body.inertia for body in train.bodies]) * self.ratio**2
@@ -79,7 +86,7 @@ class Coordinates:
             place = _spans(spring, groups, part, shape, grounded)
             places.append(len(rows) if place else None)
             if place:
-                rows.append(groups.row(spring.first, spring.second))
+                rows.append(groups.link(spring))
         free = [one for one in dict.fromkeys(part) if not grounded[one]]
         for one in free:
             inside = np.array([member == one for member in part])
@@ -90,7 +97,13 @@ class Coordinates:
 
 
 def _spans(spring: Spring, groups: Groups, part: list[int], shape: FloatArray, grounded: list[bool]) -> bool:
-    """Whether a spring joins what was apart; then its parts are made one. `shape` is the travel of each group in it."""
+    """Whether a spring joins what was apart; then its parts are made one. `shape` is the travel of each group in it.
+
+    Raises:
+        ValueError: what a link runs over can travel.
+    """
+    if spring.over is not None and not grounded[part[groups.of[spring.over]]]:
+        raise ValueError(f"what {spring.name} runs over is not held by a link before it")
     row = groups.row(spring.first, spring.second)
     first = groups.of[spring.first]
     second = first if spring.second is None else groups.of[spring.second]
