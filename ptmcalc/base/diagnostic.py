@@ -235,6 +235,12 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "A textbook's table jumps near this value: its formula is off by a sixth to a seventh on either side.",
             "Design by the computed load; the formula is shown for comparison only.",
         ),
+        "NUM110": CodeText(
+            "a motion that does not come about",
+            "The drive stalls, the brake does not hold, or a limiter ends the motion: what the scene is about does not"
+            " happen; the loads are those of what happens instead.",
+            "See the message for the phase it ends in.",
+        ),
         "NUM109": CodeText(
             "a speed that meets a resonance",
             "A harmonic of the excitation lies so near a natural frequency that the answer is many times the static"

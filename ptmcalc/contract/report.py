@@ -42,9 +42,14 @@ class LoadReport:
     source: str
     at: Mapping[str, float] = field(default_factory=dict)
     window: tuple[float, float] | None = None
-    formula: FormulaValue | None = None
+    formulas: tuple[FormulaValue, ...] = ()
     history: History | None = None
     note: str = ""
+
+    @property
+    def formula(self) -> FormulaValue | None:
+        """The textbook value to hold the load against: the last of several."""
+        return self.formulas[-1] if self.formulas else None
 
 
 @dataclass(frozen=True, slots=True)

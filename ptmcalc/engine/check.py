@@ -262,7 +262,7 @@ class _Assembly:
                 source=best.rung.solver.source,
                 at=best.found.at,
                 window=best.result.window,
-                formula=self._formula(info.name, best.estimate.value),
+                formulas=self._formulas(info.name, best.estimate.value),
                 history=histories.get(info.name),
                 note=best.found.note,
             )
@@ -274,11 +274,11 @@ class _Assembly:
             found |= run.result.histories()
         return found
 
-    def _formula(self, load: str, value: float) -> FormulaValue | None:
-        if load not in self.settled.formulas:
-            return None
-        name, textbook = self.settled.formulas[load]
-        return FormulaValue(name, textbook, value / textbook if textbook and math.isfinite(textbook) else None)
+    def _formulas(self, load: str, value: float) -> tuple[FormulaValue, ...]:
+        return tuple(
+            FormulaValue(name, textbook, value / textbook if textbook and math.isfinite(textbook) else None)
+            for name, textbook in self.settled.formulas.get(load, {}).items()
+        )
 
     def _judgement(self, ruling: Ruling) -> Judgement:
         check, scene = ruling.check, self.settled.plan.scene

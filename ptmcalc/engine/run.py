@@ -49,7 +49,7 @@ class Settled:
 
     plan: ScenePlan
     loads: dict[str, Best] = field(default_factory=dict)
-    formulas: dict[str, tuple[str, float]] = field(default_factory=dict)
+    formulas: dict[str, dict[str, float]] = field(default_factory=dict)
     runs: list[Run] = field(default_factory=list)
     shown: list[Run] = field(default_factory=list)
     rulings: tuple[Ruling, ...] = ()
@@ -96,7 +96,8 @@ def settle(
         shown = _made(settled, spec, rung)
         if shown is not None:
             settled.shown.append(Run(rung, shown))
-            settled.formulas |= {name: (solver.name, found.estimate.value) for name, found in shown.loads.items()}
+            for name, found in shown.loads.items():
+                settled.formulas.setdefault(name, {})[solver.name] = found.estimate.value
     waiting = list(scene.rungs)
     spent = 0.0
     while True:

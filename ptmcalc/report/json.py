@@ -163,7 +163,6 @@ def _history(history: History) -> dict[str, Any]:
 
 
 def _load(load: LoadReport) -> dict[str, Any]:
-    formula = load.formula
     entry = {
         "name": load.info.name,
         **_estimate(load.estimate),
@@ -180,12 +179,11 @@ def _load(load: LoadReport) -> dict[str, Any]:
         entry["history"] = _history(load.history)
     if load.note:
         entry["note"] = load.note
-    if formula:
-        entry["formula"] = {
-            "name": formula.name,
-            "value": finite(formula.value),
-            "ratio": finite(formula.ratio),
-        }
+    if load.formulas:
+        formulas = [{"name": one.name, "value": finite(one.value), "ratio": finite(one.ratio)} for one in load.formulas]
+        entry["formula"] = formulas[-1]
+        if len(formulas) > 1:
+            entry["formulas"] = formulas
     return entry
 
 

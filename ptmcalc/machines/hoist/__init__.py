@@ -9,6 +9,8 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.checks import CHECKS
 from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
+from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
+from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
 from ptmcalc.machines.hoist.loads import LOADS
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
@@ -52,9 +54,9 @@ KIND = MachineKind(
     title="hoist: rope, drum, motor, brake",
     spec=Hoist,
     loads=LOADS,
-    effects=(),
+    effects=EFFECTS_OF_MOTION,
     solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_DRIVE),
+    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION),
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
     inspect=inspect,

@@ -2,6 +2,7 @@
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
+from ptmcalc.machines.hoist.loads_motion import MOTION
 
 OF_THE_ROPE = (
     LoadInfo("reeving_efficiency", "efficiency of tackle and deflection sheaves", units.RATIO),
@@ -55,4 +56,4 @@ OF_THE_CLASS = (
 )
 STATIC = (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS)
 
-LOADS = STATIC
+LOADS = (*STATIC, *MOTION)

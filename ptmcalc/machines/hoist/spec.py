@@ -85,6 +85,16 @@ class HoistChecks(CheckSettings):
     """least mean starting torque over the static torque of hoisting"""
     motor_excess: PositiveRatio = 4.0
     """largest mean starting torque over the static torque of hoisting"""
+    lift_off_factor: PositiveRatio | None = None
+    """largest rope force over the weight as the load is lifted off; phi2 of the hoisting class when left out"""
+    lowering_factor: PositiveRatio | None = None
+    """largest rope force over the weight in a stop or a start; needed to check it"""
+    stop_distance: PositiveSpan | None = None
+    """longest way of a lowered load to its stop; a stop at all is asked for when left out"""
+    rope_share: Fraction = 0.05
+    """least rope force over the weight while it hangs: what keeps the rope in its grooves"""
+    gear_impact: PositiveRatio = 3.0
+    """largest torque of the gear over that of the even motion"""
     brake_reserve: PositiveRatio | None = None
     """least brake torque over that of the lowering load; by the group when left out"""
 

@@ -1,0 +1,245 @@
+"""Checks of a hoist in motion: lift-off, stall, ways of lowering, slack rope, blow of the backlash."""
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.laws import lift_off_standard
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.moving import Moving
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+_LIFT: frozenset[type[Scene]] = frozenset({Lift})
+_BRAKED: frozenset[type[Scene]] = frozenset({LowerBrake, Stop})
+_HANGING: frozenset[type[Scene]] = frozenset({Start, Stop, LowerBrake})
+_HOUR = 3600.0
+
+# -- lift-off -------------------------------------------------------------------------------------------------------
+
+
+def class_factor(spec: Hoist) -> float | None:
+    """phi_2 of the hoisting class for normal work, where the file gives the class."""
+    classes = spec.classes
+    if classes.hoisting is None:
+        return None
+    main = model.hook_speed(spec)
+    creep = model.hook_speed(spec, "creep") if spec.speed.creep is not None else main
+    speed = lift_off_standard.class_lift_off_speed(classes.drive, lift_off_standard.REGULAR, main, creep)
+    return lift_off_standard.standard_lift_off_factor(
+        classes.hoisting, classes.drive, speed, lift_off_standard.BY_CLASS
+    )
+
+
+def _factor_limit(spec: Hoist, scene: Lift) -> Estimate:
+    """Factor of the file, else phi_2 of the hoisting class for regular loads.
+
+        phi_2 = phi_2,min + beta_2 v_h
+
+    **Range** a file that gives one of them.
+    **Error** none: a chosen limit.
+    **Source** EN 13001-2 and ISO 8686-1, smallest factor by stiffness class.
+    """
+    given = spec.checks.lift_off_factor
+    return Estimate.exact(given if given is not None else class_factor(spec) or math.inf)
+
+
+def _factor_needs(spec: Hoist, scene: Lift) -> tuple[KeyPath, ...]:
+    known = spec.checks.lift_off_factor is not None or spec.classes.hoisting is not None
+    return () if known else (("class", "hoisting"),)
+
+
+def _factor_blame(spec: Hoist, scene: Lift, loads: Loads) -> KeyPath:
+    """The speed at lift-off."""
+    if scene.speed == "creep":
+        return ("speed", "creep")
+    return ("speed", "main") if spec.speed.main is not None else ("speed", "drum")
+
+
+LIFT_OFF: Check[Hoist, Lift] = Check(
+    code="HST120",
+    title="too hard a lift-off",
+    scenes=_LIFT,
+    loads=("lift_off_factor",),
+    sense=Sense.AT_MOST,
+    limit=_factor_limit,
+    needs=_factor_needs,
+    blame=_factor_blame,
+    repair=lambda spec, scene: _factor_blame(spec, scene, {}),
+    what="The largest rope force of a load lifted off the ground stays below the factor of its class or the file.",
+    why="Structure and rope are designed with that factor; a stiff hoist at full speed exceeds it.",
+    formula="max F/Q <= phi_2",
+    source="EN 13001-2, ISO 8686-1; the force derived in ptmcalc.numerics.train",
+)
+
+
+def _lift_limit(spec: Hoist, scene: Lift) -> Estimate:
+    """An hour: a load that is not lifted by then never is.
+
+    **Range** any lift.
+    **Error** none.
+    **Source** a stalled motor burns within minutes.
+    """
+    return Estimate.exact(_HOUR)
+
+
+STALL: Check[Hoist, Lift] = Check(
+    code="HST121",
+    title="a motor that cannot lift the load",
+    scenes=_LIFT,
+    loads=("lift_off_time",),
+    sense=Sense.AT_MOST,
+    limit=_lift_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("motor",),
+    repair=no_repair,
+    what="The drive brings the rope force up to the weight, so that the load leaves the ground.",
+    why="A motor that stalls with the rope tightened burns, and the load stands.",
+    formula="t(F = Q) finite",
+    source="motion of drive and load; the phase of a stall stands in the findings",
+)
+
+# -- stops ----------------------------------------------------------------------------------------------------------
+
+
+def _brake_key(spec: Hoist, scene: Moving) -> KeyPath:
+    return ("brake", "torque")
+
+
+def _lowers(scene: Moving) -> bool:
+    return isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down")
+
+
+def _way_limit(spec: Hoist, scene: Stop) -> Estimate:
+    """Way of the file, else what is left below the hook, or the whole lifting height.
+
+    **Range** a load that is lowered.
+    **Error** none: a chosen limit.
+    **Source** the plant's rules; the ground.
+    """
+    if spec.checks.stop_distance is not None:
+        return Estimate.exact(spec.checks.stop_distance)
+    return Estimate.exact(scene.hook_height or spec.height)
+
+
+def _where_lowering(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
+    return (replace(WAY, each=None),) if _lowers(scene) else ()
+
+
+WAY: Check[Hoist, Stop] = Check(
+    code="HST122",
+    title="too long a way of a lowered load to its stop",
+    scenes=_BRAKED,
+    loads=("stop_distance_lowering",),
+    sense=Sense.AT_MOST,
+    limit=_way_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("brake", "torque"),
+    repair=_brake_key,
+    each=_where_lowering,
+    what="The brake stops the lowered load within the way the file allows, above the ground, or at all.",
+    why="In the delay of the brake the load falls with the drive; a brake weaker than the load never stops it.",
+    formula="s = max drop of the load until it rests <= limit",
+    source="motion of drive and load with delay and rise of the brake",
+)
+
+
+def _hard_limit(spec: Hoist, scene: Moving) -> Estimate:
+    """Factor of the file.
+
+    **Range** a file that gives it.
+    **Error** none: a chosen limit.
+    **Source** design of the structure.
+    """
+    return Estimate.exact(spec.checks.lowering_factor or math.inf)
+
+
+def _where_hard(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
+    if spec.checks.lowering_factor is None:
+        return ()
+    name = "start_factor" if isinstance(scene, Start) else "lowering_brake_factor" if _lowers(scene) else "stop_factor"
+    return (replace(HARD, each=None, loads=(name,)),)
+
+
+HARD: Check[Hoist, Moving] = Check(
+    code="HST123",
+    title="too hard a start or stop of the hanging load",
+    scenes=_HANGING,
+    loads=("lowering_brake_factor",),
+    sense=Sense.AT_MOST,
+    limit=_hard_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
+    repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
+    each=_where_hard,
+    what="The largest rope force of a start or a stop stays below the factor of the file.",
+    why="A brake with a delay meets a swinging load: the force can come to that of an instantaneous stop.",
+    formula="max F/Q <= limit",
+    source="motion of drive and load; phase plane of two masses",
+)
+
+
+def _slack_limit(spec: Hoist, scene: Moving) -> Estimate:
+    """Least rope force over the weight, of the file or a twentieth.
+
+    **Range** a load that hangs all the time.
+    **Error** none: a chosen limit.
+    **Source** practice: a rope without force leaves its groove and snatches.
+    """
+    return Estimate.exact(spec.checks.rope_share)
+
+
+SLACK: Check[Hoist, Moving] = Check(
+    code="HST124",
+    title="a slack rope",
+    scenes=_HANGING,
+    loads=("rope_force_share",),
+    sense=Sense.AT_LEAST,
+    limit=_slack_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
+    repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
+    what="The rope keeps some force while the hanging load starts or stops.",
+    why="A rope that goes slack jumps out of its groove, and the load falls back into it.",
+    formula="min F/Q >= limit",
+    source="a rope never pushes",
+)
+
+
+def _impact_limit(spec: Hoist, scene: Moving) -> Estimate:
+    """Torque of the gear over that of the even motion, of the file or 3.
+
+    **Range** gears with or without play.
+    **Error** none: a chosen limit.
+    **Source** factor phi_5 of EN 13001-2 for drives with considerable backlash: 3.
+    """
+    return Estimate.exact(spec.checks.gear_impact)
+
+
+def _where_play(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
+    gear = spec.gearbox
+    return (replace(IMPACT, each=None),) if gear is not None and gear.stiffness is not None else ()
+
+
+IMPACT: Check[Hoist, Moving] = Check(
+    code="HST125",
+    title="too hard a blow through the gear's play",
+    scenes=_LIFT | _HANGING,
+    loads=("gear_impact_factor",),
+    sense=Sense.AT_MOST,
+    limit=_impact_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("gearbox", "backlash") if spec.gearbox and spec.gearbox.backlash else ("motor",),
+    repair=no_repair,
+    each=_where_play,
+    what="The largest torque of the gear, blows through its play among them, stays below a few times the even torque.",
+    why="A motor that runs through the play strikes the teeth with the energy it has gained there.",
+    formula="max |M_gear|/M_even <= limit",
+    source="EN 13001-2, factor of drive forces; motion of the train with backlash",
+)
+
+CHECKS_OF_MOTION: tuple[AnyCheck, ...] = (LIFT_OFF, STALL, WAY, HARD, SLACK, IMPACT)

@@ -1,0 +1,369 @@
+"""The effects a hoist in motion may call for."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import backlash, lift_off, two_mass
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
+from ptmcalc.machines.hoist.moving import (
+    Moving,
+    case_of,
+    hook_speed,
+    motor_torque,
+    ratio,
+    reduced,
+    rope_mass,
+    start_hook_speed,
+    travel,
+)
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+SCENES: frozenset[type[Scene]] = frozenset({Lift, Start, Stop, LowerBrake, Release})
+ALWAYS = frozenset({"rope_elasticity", "drive_motion"})
+
+ELASTIC_THRESHOLD = 0.05
+DRIVE_THRESHOLD = 0.05
+STRUCTURE_THRESHOLD = 0.1
+GEAR_THRESHOLD = 0.1
+BACKLASH_THRESHOLD = 0.1
+ROPE_MASS_THRESHOLD = 0.05
+SHORTENING_THRESHOLD = 0.02
+_WAVE, _SNATCHED = 3.0, 8.0
+"""Largest change of a force by the rope's mass over its dynamic part times (m_r/M)^(1/2): with a rope that stays taut,
+and with one that goes slack and snatches again. On the seeded sample of the test the ratios were 1.8 and 4.0."""
+
+
+def _anything(loads: Loads) -> Offsets:
+    return {name: ANYTHING for name in loads if name in MOVING}
+
+
+# -- rope and drive: in every run -----------------------------------------------------------------------------------
+
+
+def rope_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """How much the elastic rope adds to the weight.
+
+        max( v_1 (K M)^(1/2)/Q,  2 |P/Q - 1| M/(m_1 + M) )
+
+    v_1 is the drive's speed at lift-off (`two_mass.takeup`), in a stop or start the speed of the hook.
+
+    **Range** every scene of motion; it is in every run.
+    **Error** an engineering measure.
+    **Source** `laws.lift_off.elasticity_number`.
+    """
+    one = reduced(spec, scene)
+    if isinstance(scene, Lift):
+        start = start_hook_speed(spec, scene)
+        speed = two_mass.takeup(
+            one.drive_mass, one.load_mass, one.stiffness, one.drive_force, one.weight, start
+        ).lift_off_speed
+    else:
+        speed = one.speed
+    if isinstance(scene, Release):
+        value = 2 * scene.share
+    else:
+        value = lift_off.elasticity_number(
+            speed, one.drive_force, one.weight, one.drive_mass, one.load_mass, one.stiffness
+        )
+    return Criterion(
+        "Π_e", value, ELASTIC_THRESHOLD, "dynamic part of the rope force, over the weight", "laws.lift_off"
+    )
+
+
+def anything_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing is known of a hoist without this.
+
+    **Range** every load of motion.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+def drive_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """How far the drive departs from one that keeps its speed.
+
+        M/m_1 max(1, (2 P/Q - 1)/Pi^2),   Pi = v_0 (K M)^(1/2)/Q
+
+    **Range** every scene of motion; it is in every run.
+    **Error** an engineering measure.
+    **Source** `laws.lift_off.drive_mass_number`.
+    """
+    one = reduced(spec, scene)
+    force = one.drive_force or one.weight
+    value = (
+        lift_off.drive_mass_number(force, one.weight, one.drive_mass, one.load_mass, one.stiffness, one.speed)
+        if one.drive_mass
+        else 0.0
+    )
+    return Criterion("Π_m", value, DRIVE_THRESHOLD, "what the drive gains or loses in speed", "laws.lift_off")
+
+
+ROPE_ELASTICITY: Effect[Hoist, Moving] = Effect(
+    "rope_elasticity", "elastic rope", SCENES, rope_criterion, anything_bound
+)
+DRIVE_MOTION: Effect[Hoist, Moving] = Effect(
+    "drive_motion", "mass and torque of the drive", SCENES, drive_criterion, anything_bound
+)
+
+# -- structure ------------------------------------------------------------------------------------------------------
+
+
+def structure_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """How far the structure takes part, by compliance and by mass.
+
+        max( K/K_b, m_b/M )
+
+    **Range** a structure of one mode; 0 for a rigid one.
+    **Error** an engineering measure: K/K_b alone misses forces on the structure.
+    **Source** `laws.lift_off.structure_number`.
+    """
+    given, value = spec.structure, 0.0
+    if given is not None:
+        one = reduced(spec, scene)
+        value = max(lift_off.structure_number(one.stiffness, given.stiffness, given.mass, one.load_mass))
+    return Criterion(
+        "K/K_b, m_b/M", value, STRUCTURE_THRESHOLD, "rope stiffness and load over the structure's", "laws.lift_off"
+    )
+
+
+def structure_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where the structure is rigid; of one that gives, with or without mass, nothing is known without it.
+
+    **Range** every load of motion.
+    **Error** exact for a rigid structure; else unbounded, as springs in series can be too low.
+    **Source** case of a bridge with mass: 1.46 on the bridge, 1.33 in the rope, 1.29 by springs in series.
+    """
+    return _anything(loads) if spec.structure is not None else {}
+
+
+STRUCTURE: Effect[Hoist, Moving] = Effect(
+    "structure", "structure that gives and has mass", SCENES, structure_criterion, structure_bound
+)
+
+# -- gear -----------------------------------------------------------------------------------------------------------
+
+
+def gear_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """Stiffness of the rope over that of the gear, both on the drum shaft.
+
+        K R^2/C
+
+    **Range** 0 for a rigid gear.
+    **Error** an engineering measure.
+    **Source** springs in series; the threshold of 10 % changes the frequency by 5 %.
+    """
+    gear = spec.gearbox
+    stiff = math.inf if gear is None or gear.stiffness is None else gear.stiffness
+    value = reduced(spec, scene).stiffness * travel(spec, scene) ** 2 / stiff
+    return Criterion("K R²/C", value, GEAR_THRESHOLD, "rope stiffness over the gear's", "springs in series")
+
+
+def gear_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where the file gives no stiffness of the gear; else nothing is known without it.
+
+    **Range** every load of motion.
+    **Error** exact for a rigid gear; else unbounded: its own vibration is as large as the step of torque.
+    **Source** two-mass train behind a step of torque.
+    """
+    elastic = spec.gearbox is not None and spec.gearbox.stiffness is not None
+    return _anything(loads) if elastic else {}
+
+
+GEAR_ELASTICITY: Effect[Hoist, Moving] = Effect("gear_elasticity", "elastic gear", SCENES, gear_criterion, gear_bound)
+
+
+def backlash_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """What the run through the play adds to the torque of the gear.
+
+        Pi_b = (2 C D/M) (J1 + J2)/J2,   all on the drum shaft
+
+    **Range** a play that the drive closes under its mean torque; 0 without play.
+    **Error** exact for two inertias under a constant torque.
+    **Source** `laws.backlash.backlash_number`; the threshold of 0.1 adds 2.4 %.
+    """
+    gear, value = spec.gearbox, 0.0
+    if gear is not None and gear.stiffness is not None and gear.backlash > 0:
+        behind = (spec.drum.inertia or 0.0) + model.hook_mass(spec, scene) * travel(spec, scene) ** 2
+        motor = model.motor_side_inertia(spec) * ratio(spec) ** 2
+        torque = motor_torque(spec) * ratio(spec)
+        value = backlash.backlash_number(torque, gear.backlash, gear.stiffness, motor, behind) if torque else math.inf
+    return Criterion(
+        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the play, over that of the gear", "laws.backlash"
+    )
+
+
+def backlash_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where there is no play; else nothing is known without it.
+
+    **Range** every load of motion.
+    **Error** exact without play; else unbounded, as torques that change sign open it again.
+    **Source** `laws.backlash`.
+    """
+    gear = spec.gearbox
+    return _anything(loads) if gear is not None and gear.backlash > 0 else {}
+
+
+BACKLASH: Effect[Hoist, Moving] = Effect(
+    "gear_backlash", "play of the gear", SCENES, backlash_criterion, backlash_bound, part_of="gear_elasticity"
+)
+
+# -- rope mass ------------------------------------------------------------------------------------------------------
+
+
+def rope_mass_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """Mass of the hanging rope over the load.
+
+        m_r/M
+
+    **Range** every scene of motion.
+    **Error** an engineering measure.
+    **Source** `laws.rope_rod`: a rope without mass is 0.8 % too fast at 0.05.
+    """
+    value = rope_mass(spec, scene) / reduced(spec, scene).load_mass
+    return Criterion("m_r/M", value, ROPE_MASS_THRESHOLD, "mass of the hanging rope over the load", "laws.rope_rod")
+
+
+def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """What waves along the rope can add.
+
+        |dF| <= c D (m_r/M)^(1/2),   D dynamic part of the force;   c = 3, or 8 where the rope goes slack in between
+        w lower by at most the share 1 - (1 + m_r/(3 M))^(-1/2)
+
+    The first wave of a snatch, v (K m_r)^(1/2), is the dynamic part of a speed source times (m_r/M)^(1/2).
+
+    **Range** ropes up to the mass of their load.
+    **Error** calibrated: on a seeded sample of chains of forty masses the ratio was at most 1.8 with a taut rope and
+    4.0 with one that snatches; the frequency by Rayleigh's quotient.
+    **Source** `laws.rope_rod.snatch_wave_force`; numbers of the sample.
+    """
+    one = reduced(spec, scene)
+    share = rope_mass(spec, scene) / one.load_mass
+    dynamic = _dynamic_share(loads, one.weight)
+    rise = (_SNATCHED if dynamic >= 1 else _WAVE) * dynamic * math.sqrt(share)
+    found = _around_forces(loads, one.weight, rise)
+    frequency = loads.get("natural_frequency")
+    if frequency is not None and math.isfinite(frequency.value):
+        found["natural_frequency"] = Interval(frequency.value * (1 / math.sqrt(1 + share / 3) - 1), 0.0)
+    way, wave = rise * one.weight / one.stiffness, 2 * math.sqrt(share * one.load_mass / one.stiffness)
+    for name in ("stop_distance", "stop_distance_lowering"):
+        found[name] = Interval(-way, way)
+    for name in ("stop_time", "lift_off_time", "tension_time"):
+        found[name] = Interval(-wave, wave)
+    if "lift_off_speed" in loads:
+        found["lift_off_speed"] = _relative(loads["lift_off_speed"], _WAVE * math.sqrt(share))
+    return {name: offset for name, offset in found.items() if name in loads and math.isfinite(loads[name].value)}
+
+
+def _dynamic_share(loads: Loads, weight: float) -> float:
+    """Dynamic part of the rope force over the weight."""
+    parts = [0.0]
+    if "rope_force_max" in loads:
+        parts.append(loads["rope_force_max"].value / weight - 1)
+    if "rope_force_min" in loads:
+        parts.append(1 - loads["rope_force_min"].value / weight)
+    return max(parts)
+
+
+def _around_forces(loads: Loads, weight: float, rise: float) -> dict[str, Interval]:
+    """Offsets of all forces for a change of the rope force by a share of the weight; a rope does not push."""
+    found = {}
+    for name, one in loads.items():
+        if name not in FORCES:
+            continue
+        size = rise * weight if "_force_m" in name else rise
+        if name in ("backlash_torque_peak", "gear_impact_factor"):
+            most = loads["rope_force_max"].value / weight if "rope_force_max" in loads else 1.0
+            size = abs(one.value) * rise / max(most, 1.0)
+        least = -min(size, one.low) if name in _NEVER_PUSH and one.low >= 0 else -size
+        found[name] = Interval(least, size)
+    return found
+
+
+_NEVER_PUSH = FORCES - {"bridge_force_min"}
+
+
+def _relative(one: Estimate, share: float) -> Interval:
+    return Interval(-share * abs(one.value), share * abs(one.value))
+
+
+ROPE_MASS: Effect[Hoist, Moving] = Effect(
+    "rope_mass", "mass of the hanging rope", SCENES, rope_mass_criterion, rope_mass_bound, calibrated=True
+)
+
+# -- rope that gets shorter -----------------------------------------------------------------------------------------
+
+
+def _shortening(spec: Hoist, scene: Moving) -> float:
+    """Part of the rope's length that runs onto the drum or off it while the scene is looked at."""
+    if isinstance(scene, Release):
+        return 0.0
+    length = model.rope_length(spec, model.hook_height(scene)) / model.falls_of_a_rope(spec)
+    return hook_speed(spec, scene) * case_of(spec, scene, ALWAYS).window / length
+
+
+def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
+    """Part of the rope's length that the drum takes up or gives while the scene is looked at.
+
+        v T/l
+
+    **Range** every scene of motion.
+    **Error** an upper bound: the drive is not faster than its set speed but for moments.
+    **Source** `laws.rope_rod.hauling_gain`.
+    """
+    return Criterion(
+        "v T/l", _shortening(spec, scene), SHORTENING_THRESHOLD, "rope taken up in the scene, over all", "laws.rope_rod"
+    )
+
+
+def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
+    """What the change of the rope's length can do to its dynamic force.
+
+        d/dt A^2 = (V/l) (e'/w)^2 <= (V/l) A^2,   so that A grows by at most (l_0/l_1)^(1/2)
+
+    A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V; paid out it falls as much.
+
+    **Range** a drive of constant speed; twice the change of length is allowed for one that swings.
+    **Error** an upper bound for a constant speed; (l_0/l_1)^(1/4) in the mean.
+    **Source** derived from the equation of `laws.rope_rod.hauling_gain`.
+    """
+    part = 2 * _shortening(spec, scene)
+    gain = 1 / math.sqrt(1 - part) - 1 if part < 1 else math.inf
+    one = reduced(spec, scene)
+    rise = gain * max(_dynamic_share(loads, one.weight), 0.0)
+    if rise == 0:
+        return {}
+    if math.isinf(rise):
+        return {name: ANYTHING for name in loads if name in FORCES}
+    found = _around_forces(loads, one.weight, rise)
+    if "natural_frequency" in loads and math.isfinite(loads["natural_frequency"].value):
+        found["natural_frequency"] = _relative(loads["natural_frequency"], gain)
+    for name in ("lift_off_time", "tension_time"):
+        if name in loads and math.isfinite(loads[name].value):
+            found[name] = _relative(loads[name], gain)
+    for name in ("stop_distance", "stop_distance_lowering"):
+        if name in loads and math.isfinite(loads[name].value):
+            size = rise * one.weight / one.stiffness
+            found[name] = Interval(-size, size)
+    return found
+
+
+ROPE_SHORTENING: Effect[Hoist, Moving] = Effect(
+    "rope_shortening", "rope that gets shorter or longer", SCENES, shortening_criterion, shortening_bound
+)
+
+EFFECTS_OF_MOTION: tuple[AnyEffect, ...] = (
+    ROPE_ELASTICITY,
+    DRIVE_MOTION,
+    STRUCTURE,
+    GEAR_ELASTICITY,
+    BACKLASH,
+    ROPE_MASS,
+    ROPE_SHORTENING,
+)

@@ -1,0 +1,364 @@
+"""A scene of a hoist played through, and the loads read from it with their bars."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Event, Finding, Found, History, Result
+from ptmcalc.machines.hoist.moving import (
+    DRIVE,
+    GEARBOX,
+    GROUND,
+    HOOK,
+    LOAD,
+    MOTOR,
+    ROPE,
+    SHAFT,
+    STRUCTURE,
+    Case,
+    Moving,
+)
+from ptmcalc.machines.hoist.spec import Lift, Release, Start
+from ptmcalc.numerics.flow import FADED
+from ptmcalc.numerics.piecewise import JAMMED, march
+from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.train.ledger import Ledger, ledger
+from ptmcalc.numerics.train.modes import frequencies
+from ptmcalc.numerics.train.system import TrainSystem
+
+TOLERANCES = (1e-6, 1e-8, 1e-10)
+"""Largest tail of a motor's smooth curve at each refinement, as a share of its size."""
+_COMPARED = (0.7, 0.85)
+"""How the runs beside the one that counts divide time, over its own stretches and panels."""
+_MARGIN = 3.0
+_UNSEEN = FADED + 3e-12
+"""What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
+_CLOSES = 1e-9
+_FADES = 25.0
+_FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
+_LENGTHS = frozenset({"stop_distance", "stop_distance_lowering"})
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """One run of a case."""
+
+    case: Case
+    system: TrainSystem
+    record: Record
+    ledger: Ledger
+
+    def top(self, what: str, index: int) -> tuple[float, float]:
+        """Largest value of a watched signal and its time."""
+        place = self.system.watched[what, index]
+        return float(self.record.top.values[place]), float(self.record.top.at[place])
+
+    def bottom(self, what: str, index: int) -> tuple[float, float]:
+        """Smallest value of a watched signal and its time."""
+        place = self.system.watched[what, index]
+        return float(self.record.bottom.values[place]), float(self.record.bottom.at[place])
+
+    def largest(self, what: str, index: int) -> tuple[float, float]:
+        """Largest magnitude of a watched signal and its time."""
+        high, low = self.top(what, index), self.bottom(what, index)
+        return high if high[0] >= -low[0] else (-low[0], low[1])
+
+
+def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0, keep: bool = False) -> Course:
+    """One run of a case, over its window or to another end."""
+    system = TrainSystem(case.train)
+    start = system.start()
+    record = march(system, *start, end or case.window, tolerance=tolerance, refined=refined, keep=keep)
+    return Course(case, system, record, ledger(system, start, record))
+
+
+# -- what is read ---------------------------------------------------------------------------------------------------
+
+Readings = dict[str, tuple[float, float | None]]
+"""Value of each load, and the time at which it occurs where there is one."""
+
+
+def readings(scene: Moving, course: Course) -> Readings:
+    """The loads of a run."""
+    case = course.case
+    rope = case.named("link", ROPE)
+    assert rope is not None
+    found: Readings = {"rope_force_max": course.top("link", rope)}
+    structure = case.named("link", STRUCTURE)
+    found["bridge_force_max"] = course.top("link", structure) if structure is not None else found["rope_force_max"]
+    if isinstance(scene, Lift):
+        found |= _of_the_lift(course)
+    else:
+        found["rope_force_min"] = course.bottom("link", rope)
+        found["bridge_force_min"] = (
+            course.bottom("link", structure) if structure is not None else found["rope_force_min"]
+        )
+    if not isinstance(scene, Release):
+        peak, time = _gear_torque(course)
+        found |= {"backlash_torque_peak": (peak, time), "gear_impact_factor": (peak / case.even_torque, time)}
+    if case.stops:
+        found |= _of_the_stop(course)
+    return found
+
+
+def _gear_torque(course: Course) -> tuple[float, float]:
+    """Largest torque of the gear on the drum shaft."""
+    shaft = course.case.named("link", SHAFT)
+    if shaft is not None:
+        return course.largest("link", shaft)
+    mesh = course.case.named("mesh", GEARBOX)
+    assert mesh is not None
+    return course.largest("mesh", mesh)
+
+
+def first_event(course: Course, element: str, after: str) -> float:
+    """When an element first came to a state; infinite where it never did [s]."""
+    times = (event.time for event in course.record.events if event.element == element and event.after == after)
+    return float(next(times, math.inf))
+
+
+def lift_off_time(course: Course) -> float:
+    """When the load left the ground; infinite where it never did [s]."""
+    return first_event(course, GROUND, "open")
+
+
+def _of_the_lift(course: Course) -> Readings:
+    lifted = lift_off_time(course)
+    if not math.isfinite(lifted):
+        return {"lift_off_speed": (0.0, None), "lift_off_time": (math.inf, None), "tension_time": (math.inf, None)}
+    taut = first_event(course, ROPE, "closed")
+    hook = course.case.named("body", HOOK)
+    assert hook is not None
+    until = play(course.case, TOLERANCES[1], end=lifted) if lifted > 0 else course
+    speed = float(until.record.last[until.system.watched["speed", hook]])
+    return {
+        "lift_off_speed": (speed, lifted),
+        "lift_off_time": (lifted, None),
+        "tension_time": (lifted - (taut if taut <= lifted else 0.0), None),
+    }
+
+
+def stopped(course: Course) -> float:
+    """When the motor came to rest for good; infinite where it still turns [s]."""
+    group = course.system.groups.of[0]
+    if course.record.mode.turning[group] != 0:
+        return math.inf
+    name = course.system.friction_name(group)
+    times = [event.time for event in course.record.events if event.element == name and event.after == "at rest"]
+    return float(times[-1]) if times else 0.0
+
+
+def _of_the_stop(course: Course) -> Readings:
+    load = course.case.named("body", LOAD)
+    assert load is not None
+    time = stopped(course)
+    edge = course.bottom("position", load) if course.case.lowers else course.top("position", load)
+    way = (abs(edge[0]), edge[1]) if math.isfinite(time) else (math.inf, None)
+    return {"stop_time": (time, None), "stop_distance_lowering" if course.case.lowers else "stop_distance": way}
+
+
+# -- bars -----------------------------------------------------------------------------------------------------------
+
+
+def loads(scene: Moving, course: Course, others: tuple[Course, ...]) -> dict[str, Found]:
+    """The loads of a run, with bars from others that divide time otherwise.
+
+        bar = 3 max |x - x'| over the other runs, and over the loads of one kind as shares of the largest of them
+
+    Without a nonlinear torque all runs are exact and what differs is rounding; with one, stretches 0.7 and 0.85 times
+    as long have errors 25 and 4 times as small or as large (the ninth power), so two runs differ by nearly the larger
+    error. Added is what reading a signal may miss.
+    """
+    own, compared = readings(scene, course), [readings(scene, other) for other in others]
+    apart: dict[str, float] = {}
+    for name, (value, _) in own.items():
+        differences = [abs(value - other[name][0]) for other in compared if math.isfinite(other[name][0])]
+        if math.isfinite(value) and len(differences) == len(compared):
+            apart[name] = max(differences, default=0.0)
+    shares = {kind: _share(own, apart, kind) for kind in (_FORCES, _LENGTHS)}
+    found = {}
+    for name, (value, time) in own.items():
+        at = {"time": time} if time is not None else {}
+        if name not in apart:
+            same = all(other[name][0] == value for other in compared)
+            found[name] = Found(Estimate.exact(value) if same else Estimate.unknown(value), at)
+            continue
+        kind = next((kind for kind in shares if name in kind), None)
+        size = max(abs(own[other][0]) for other in kind if other in apart) if kind is not None else abs(value)
+        bar = _MARGIN * max(apart[name], shares[kind] * size if kind is not None else 0.0) + _UNSEEN * size
+        found[name] = Found(Estimate.within(value, bar if bar > 0 or not value else _UNSEEN * abs(value)), at)
+    weight = course.case.weight
+    for factor, force in (("lift_off_factor", "rope_force_max"), ("bridge_factor", "bridge_force_max")):
+        found[factor] = _over(found[force], weight)
+    if not isinstance(scene, Lift):
+        found["rope_force_share"] = _over(found["rope_force_min"], weight)
+    return _named_by_scene(scene, found)
+
+
+def _named_by_scene(scene: Moving, found: dict[str, Found]) -> dict[str, Found]:
+    """The factor on the weight goes by the name of what happens."""
+    factor = found.pop("lift_off_factor")
+    if isinstance(scene, Lift):
+        found["lift_off_factor"] = factor
+    elif isinstance(scene, Release):
+        found["release_factor"] = _over_itself(found)
+    elif isinstance(scene, Start):
+        found["start_factor"] = factor
+    elif scene.type == "lower_brake" or scene.direction == "down":
+        found["lowering_brake_factor"] = factor
+    else:
+        found["stop_factor"] = factor
+    return found
+
+
+def _over_itself(found: dict[str, Found]) -> Found:
+    """The smallest force in the rope over the weight before."""
+    return found["rope_force_share"]
+
+
+def _over(force: Found, weight: float) -> Found:
+    one = force.estimate
+    return Found(
+        Estimate(one.value / weight, one.low / weight, one.high / weight, one.numerical / weight, one.model / weight),
+        force.at,
+    )
+
+
+def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> float:
+    """Largest difference of loads of one kind, over the largest of them."""
+    size = max((abs(own[name][0]) for name in kind if name in apart), default=0.0)
+    return max((apart[name] for name in kind if name in apart), default=0.0) / size if size else 0.0
+
+
+def cost(case: Case, level: int) -> float:
+    """Seconds predicted: panels of the fastest component over the window or until it has faded, a few events."""
+    values = frequencies(case.train)
+    if not len(values):
+        return 4e-3
+    damped = min((one.damping / one.stiffness for one in case.train.springs if one.stiffness), default=0.0)
+    radians = values * np.minimum(case.window, _FADES / (values**2 * damped / 2) if damped else case.window)
+    return 4e-3 + 2 * (2e-5 * float(radians.max()) + 5e-3) * (1 + level / 2)
+
+
+# -- a whole solver run ---------------------------------------------------------------------------------------------
+
+
+def result(scene: Moving, case: Case, level: int) -> Result:
+    """Loads, findings and histories of a case at a refinement."""
+    tolerance = TOLERANCES[level]
+    course = play(case, tolerance)
+    others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
+    found = loads(scene, course, others)
+    found["natural_frequency"] = Found(Estimate.exact(float(frequencies(case.train).min(initial=math.inf))))
+    findings = list(_remarks(scene, course))
+    closes = 10 * tolerance if case.smooth else _CLOSES
+    residual = course.ledger.residual
+    if residual > closes:
+        findings.append(
+            Finding(
+                "NUM101",
+                f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over, more than {closes:.0e}; the"
+                " numbers are not trusted",
+            )
+        )
+        found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
+    found["energy_residual"] = Found(Estimate.exact(residual))
+    return Result(
+        found,
+        work=course.record.steps + sum(other.record.steps for other in others),
+        window=(0.0, course.record.time),
+        health={"energy_residual": residual, "steps": float(course.record.steps)},
+        findings=tuple(findings),
+        events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
+        histories=lambda: histories(scene, case, tolerance),
+    )
+
+
+def _remarks(scene: Moving, course: Course) -> list[Finding]:
+    """What happened on the way that a reader must know."""
+    said = []
+    label, case = scene.label, course.case
+    if isinstance(scene, Lift) and not math.isfinite(lift_off_time(course)):
+        rope = case.named("link", ROPE)
+        assert rope is not None
+        force, time = course.top("link", rope)
+        phase = "taking up the slack" if force <= 0 else "tensioning the rope"
+        reached = units.show(force, units.FORCE)
+        said.append(
+            Finding(
+                "NUM110",
+                f"scene `{label}`: the motor stalls while {phase}: the rope force comes to {reached} at {time:.3g} s,"
+                f" the load weighs {units.show(case.weight, units.FORCE)}",
+                ("motor",),
+                "a stronger motor, a larger gear ratio, or less load",
+            )
+        )
+    if isinstance(scene, Start) and not case.lowers and _sinks(course):
+        said.append(
+            Finding(
+                "NUM110",
+                f"scene `{label}`: the motor stalls with the load hanging: it sinks, pulled through the drive",
+                ("motor",),
+                "a stronger motor, a larger gear ratio, or less load",
+            )
+        )
+    if case.stops and math.isinf(stopped(course)):
+        said.append(
+            Finding(
+                "NUM110",
+                f"scene `{label}`: the brake does not hold the load: it goes down to the ground, or to the end of the"
+                " rope",
+                ("brake", "torque"),
+                "a stronger brake",
+            )
+        )
+    tripped = first_event(course, DRIVE, "started")
+    if math.isfinite(tripped):
+        said.append(
+            Finding(
+                "NUM110",
+                f"scene `{label}`: the limiter trips at {tripped:.3g} s and stops the hoist",
+                ("limiter", "factor"),
+                "raise its factor or its delay where a normal lift trips it",
+            )
+        )
+    said += [
+        Finding(
+            "NUM104",
+            f"scene `{label}`: {event.element} jams at {event.time:.4g} s: a self-locking gear cannot be braked from"
+            " its motor's side against so much inertia; it is taken to stop at once",
+            ("gearbox",),
+        )
+        for event in course.record.events
+        if event.after == JAMMED
+    ]
+    return said
+
+
+def _sinks(course: Course) -> bool:
+    """Whether the drum of a start upward turns down in the end."""
+    motor = course.case.named("body", MOTOR)
+    assert motor is not None
+    return float(course.record.last[course.system.watched["speed", motor]]) < 0
+
+
+def histories(scene: Moving, case: Case, tolerance: float) -> Mapping[str, History]:
+    """Forces, torque and ways over time, from a run that keeps them."""
+    course = play(case, tolerance, keep=True)
+    samples = course.record.samples
+    assert samples is not None
+    times = np.maximum.accumulate(np.concatenate(samples.times)).tolist()  # an event may move by a rounding
+    values = np.concatenate(samples.values)
+    signals = {"rope_force_max": (units.FORCE, "link", case.named("link", ROPE))}
+    signals["bridge_force_max"] = (units.FORCE, "link", case.named("link", STRUCTURE))
+    signals["lift_off_speed"] = (units.SPEED, "speed", case.named("body", HOOK))
+    signals["backlash_torque_peak"] = (units.TORQUE, "link", case.named("link", SHAFT))
+    return {
+        name: History(quantity, times, values[:, course.system.watched[what, index]].tolist())
+        for name, (quantity, what, index) in signals.items()
+        if index is not None
+    }

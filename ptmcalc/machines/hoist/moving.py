@@ -1,0 +1,595 @@
+"""A hoist in motion as a train of bodies: motor, gear, drum, rope, load, and the structure the drum stands on.
+
+Motor and drum turn, positive while they haul; load and hook travel, positive up; the structure sinks, positive down.
+The hook end of the rope belongs to the drum, its travel reduced by drum radius and falls. Losses of gear and tackle go
+by the direction of the power through them; the rope only pulls, the load stands on the ground until the rope bears it.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from ptmcalc.components.motor import AnyMotor, ConverterMotor
+from ptmcalc.components.motor import Stage as MotorStage
+from ptmcalc.components.start import Profile
+from ptmcalc.laws import bodies, reeving, start_profile, two_mass
+from ptmcalc.laws import brake as braking
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.model import filled
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
+from ptmcalc.numerics.train.modes import frequencies
+from ptmcalc.numerics.train.parts import (
+    CLAMPED,
+    LINEAR,
+    NO_PULL,
+    RIGID,
+    Body,
+    Drive,
+    Governed,
+    Grip,
+    Guide,
+    Law,
+    Mesh,
+    Smooth,
+    Spring,
+    Stage,
+    Straight,
+    Train,
+)
+from ptmcalc.numerics.train.signals import ONE, Signal, Trigger
+
+STRUCTURE, GEAR = "structure", "gear_elasticity"
+"""Effects that a case carries or leaves out."""
+BACKLASH = "gear_backlash"
+MOTOR, NODE, DRUM, HOOK, LOAD, BRIDGE, MAINS = "motor", "gear", "drum", "hook", "load", "structure", "set speed"
+ROPE, GROUND, SHAFT, GEARBOX, TACKLE = "rope", "ground", "gear shaft", "gearbox", "tackle"
+BRAKE, DRIVE = "brake", "drive"
+_STEEL = 7850.0
+_PERIODS = 6
+_LONGEST = 600.0
+_PIECES = 64
+_SLOPES = 2.5
+"""Steps in which the slope of a smooth torque curve is used, over its steepest."""
+Moving = Lift | Start | Stop | LowerBrake | Release
+
+
+@dataclass(frozen=True, slots=True)
+class Reduced:
+    """A hoist as two masses at the hook: what the closed forms work with.
+
+    `drive_mass` is m_1 with the power flowing to the load, `drive_force` P of the mean starting torque, `weight` Q.
+    """
+
+    drive_mass: float
+    load_mass: float
+    stiffness: float
+    drive_force: float
+    weight: float
+    speed: float
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A scene in numbers: the train, how long it is looked at, the weight and the rope at the hook, and the torque on
+    the drum while the load moves evenly in the scene's direction."""
+
+    train: Train
+    window: float
+    weight: float
+    stiffness: float
+    even_torque: float
+    lowers: bool
+    stops: bool
+
+    def named(self, what: str, name: str) -> int | None:
+        """Index of a body, link, mesh, grip or drive of this name."""
+        train = self.train
+        names = {
+            "body": [part.name for part in train.bodies],
+            "link": [part.name for part in train.springs],
+            "mesh": [part.name for part in train.meshes],
+            "grip": [part.name for part in train.grips],
+            "drive": [part.name for part in train.drives],
+        }[what]
+        return names.index(name) if name in names else None
+
+    @property
+    def smooth(self) -> bool:
+        """Whether a nonlinear torque takes part."""
+        return any(isinstance(stage.law, Smooth) for drive in self.train.drives for stage in drive.stages)
+
+
+# -- numbers of the machine -----------------------------------------------------------------------------------------
+
+
+def travel(spec: Hoist, scene: HoistScene) -> float:
+    """Of the hook for a radian of the drum [m]."""
+    return model.wound(spec, model.hook_height(scene)).radius / model.falls_of_a_rope(spec)
+
+
+def hauling_efficiency(spec: Hoist) -> float:
+    """Of tackle and deflection sheaves while the drum hauls [1]."""
+    tackle = reeving.tackle_efficiency(model.falls_of_a_rope(spec), filled(spec.reeving.sheave_efficiency))
+    return tackle * model.deflection_efficiency(spec)
+
+
+def lowering_efficiency(spec: Hoist) -> float:
+    """Of tackle and deflection sheaves while the load turns the drum [1]."""
+    tackle = reeving.lowering_tackle_efficiency(model.falls_of_a_rope(spec), filled(spec.reeving.sheave_efficiency))
+    return tackle * model.deflection_efficiency(spec)
+
+
+def ratio(spec: Hoist) -> float:
+    """Motor speed over drum speed [1]."""
+    return spec.gearbox.ratio if spec.gearbox is not None else 1.0
+
+
+def motor_torque(spec: Hoist) -> float:
+    """Mean starting torque of all motors [N*m]."""
+    return spec.motor.count * spec.motor.mean_torque if spec.motor is not None else 0.0
+
+
+def hook_speed(spec: Hoist, scene: HoistScene) -> float:
+    """Of the hook in a scene, the rope on the layer it is on there [m/s]; 0 where the load hangs still."""
+    which = getattr(scene, "speed", "main")
+    return model.drum_speed(spec, which) * travel(spec, scene)
+
+
+def rope_mass(spec: Hoist, scene: HoistScene) -> float:
+    """Of the falls that hang [kg]."""
+    falls = model.fall_length(spec, model.hook_height(scene)) * spec.reeving.falls
+    return filled(spec.rope.mass) * falls
+
+
+def reduced(spec: Hoist, scene: HoistScene) -> Reduced:
+    """The hoist as two masses at the hook while it hauls."""
+    arm, gear, tackle = travel(spec, scene), model.efficiency(spec), hauling_efficiency(spec)
+    mass = model.hook_mass(spec, scene)
+    rotor = model.motor_side_inertia(spec) * (ratio(spec) / arm) ** 2 * gear * tackle
+    drum = (spec.drum.inertia or 0.0) / arm**2 * tackle
+    return Reduced(
+        rotor + drum,
+        mass,
+        model.hook_stiffness(spec, model.hook_height(scene)),
+        motor_torque(spec) * ratio(spec) * gear * tackle / arm,
+        mass * spec.gravity,
+        hook_speed(spec, scene),
+    )
+
+
+def start_hook_speed(spec: Hoist, scene: Lift) -> float:
+    """Of the drive as the rope comes taut, at the hook [m/s]: its set speed, or what its mean torque brings it to."""
+    if scene.rope == "taut":
+        return 0.0
+    if scene.slack is None:
+        return hook_speed(spec, scene)
+    one = reduced(spec, scene)
+    return min(hook_speed(spec, scene), math.sqrt(2 * scene.slack * one.drive_force / one.drive_mass))
+
+
+def brake_torque(spec: Hoist) -> float:
+    """Of the closed brake, on the motor shaft [N*m]; 0 without one."""
+    given = spec.brake
+    if given is None:
+        return 0.0
+    return given.torque if given.shaft == "motor" else given.torque / ratio(spec)
+
+
+def hook_brake_force(spec: Hoist, scene: HoistScene) -> float:
+    """Force at the hook against which the closed brake slips while the load drives it [N]."""
+    losses = model.reverse_efficiency(spec) * lowering_efficiency(spec)
+    return brake_torque(spec) * ratio(spec) / (travel(spec, scene) * losses) if losses > 0 else math.inf
+
+
+def moving_inertia(spec: Hoist, scene: HoistScene) -> float:
+    """All that moves, on the motor shaft [kg*m^2]."""
+    drum = (spec.drum.inertia or 0.0) + model.hook_mass(spec, scene) * travel(spec, scene) ** 2
+    return model.motor_side_inertia(spec) + drum / ratio(spec) ** 2
+
+
+def braked_way(spec: Hoist, scene: LowerBrake | Stop) -> tuple[float, float]:
+    """Time [s] and way of the hook [m] of the rigid hoist until the brake has stopped it, losses of gear and tackle
+    helping while it is lowered; infinite where the brake is the weaker."""
+    arm, speed = travel(spec, scene), model.drum_speed(spec, scene.speed) * ratio(spec)
+    load = model.hook_mass(spec, scene) * spec.gravity * arm / ratio(spec)
+    lowers = scene.type == "lower_brake" or scene.direction == "down"
+    losses = max(model.reverse_efficiency(spec), 0.0) * lowering_efficiency(spec)
+    given = spec.brake
+    assert given is not None
+    time, angle = braking.brake_stop(
+        moving_inertia(spec, scene),
+        speed,
+        brake_torque(spec),
+        load * losses if lowers else -load,
+        given.delay,
+        given.rise_time,
+        given.rise,
+    )
+    return time, angle / ratio(spec) * arm
+
+
+# -- the train ------------------------------------------------------------------------------------------------------
+
+
+def case_of(spec: Hoist, scene: Moving, carried: frozenset[str]) -> Case:
+    """The case of a scene with the effects it carries; without `structure` the drum stands fast, without
+    `gear_elasticity` the gear is rigid, without `gear_backlash` it has no play."""
+    return _case(_Key(spec, scene, carried))
+
+
+@dataclass(frozen=True, slots=True)
+class _Key:
+    """What a case depends on; models are compared by identity, as they never change."""
+
+    spec: Hoist
+    scene: Moving
+    carried: frozenset[str]
+
+    def __hash__(self) -> int:
+        return hash((id(self.spec), id(self.scene), self.carried))
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, _Key)
+            and self.spec is other.spec
+            and self.scene is other.scene
+            and self.carried == other.carried
+        )
+
+
+@lru_cache(maxsize=128)
+def _case(key: _Key) -> Case:
+    return _Builder(key.spec, key.scene, key.carried).case()
+
+
+class _Builder:
+    def __init__(self, spec: Hoist, scene: Moving, carried: frozenset[str]) -> None:
+        self.spec, self.scene = spec, scene
+        self.arm, self.ratio = travel(spec, scene), ratio(spec)
+        self.stiffness = model.hook_stiffness(spec, model.hook_height(scene))
+        self.before = model.hook_mass(spec, scene)
+        self.mass = self._mass_after()
+        self.weight = self.mass * spec.gravity
+        self.held_weight = self.before * spec.gravity
+        self.lifts, self.released = isinstance(scene, Lift), isinstance(scene, Release)
+        self.stops = isinstance(scene, Stop | LowerBrake)
+        self.way = self._direction()
+        given = spec.structure
+        self.bridge = given if STRUCTURE in carried and given is not None and given.mass > 0 else None
+        self.soft = given if STRUCTURE in carried and given is not None and given.mass == 0 else None
+        gear = spec.gearbox
+        elastic = GEAR in carried and gear is not None and gear.stiffness is not None
+        self.torsion = gear.stiffness if elastic and gear is not None else None
+        self.play = gear.backlash if elastic and gear is not None and BACKLASH in carried else 0.0
+        self.names = self._names()
+        self.set_speed = model.drum_speed(spec, getattr(scene, "speed", "main")) * self.ratio
+
+    def _mass_after(self) -> float:
+        """What hangs on the rope in the scene; of a load that is gone a third of the rope is left [kg]."""
+        if not isinstance(self.scene, Release):
+            return self.before
+        left = self.before - self.scene.share * (self.before - self.spec.hook_block)
+        return max(left, rope_mass(self.spec, self.scene) / 3)
+
+    def _direction(self) -> int:
+        """1 where the hoist moves up, -1 down, 0 where it stands."""
+        scene = self.scene
+        if isinstance(scene, Release):
+            return 0
+        if isinstance(scene, LowerBrake):
+            return -1
+        return -1 if isinstance(scene, Start | Stop) and scene.direction == "down" else 1
+
+    def _names(self) -> list[str]:
+        names = [MOTOR, *([NODE] if self.torsion is not None else []), DRUM, HOOK, LOAD]
+        names += [BRIDGE] if self.bridge is not None else []
+        return names + ([MAINS] if self._follows_speed else [])
+
+    @property
+    def _follows_speed(self) -> bool:
+        """Whether the drive is a set speed with a limit of torque; else it is the motor's own curve, or off."""
+        return isinstance(self.scene, Lift | Start) and self._profile.shape != "curve"
+
+    @property
+    def _profile(self) -> Profile:
+        assert isinstance(self.scene, Lift | Start)
+        return self.scene.profile
+
+    def at(self, name: str) -> int:
+        return self.names.index(name)
+
+    def case(self) -> Case:
+        springs = tuple(self._springs())
+        train = Train(
+            bodies=tuple(self._bodies()),
+            meshes=tuple(self._meshes()),
+            springs=springs,
+            grips=tuple(self._grips()),
+            drives=tuple(self._drives()),
+            guides=tuple(self._guides()),
+        )
+        window = self._window(train)
+        losses = lowering_efficiency(self.spec) if self.way < 0 else 1 / hauling_efficiency(self.spec)
+        even = self.held_weight * self.arm * losses
+        return Case(train, window, self.held_weight, self._hook_stiffness, even, self.way < 0, self.stops)
+
+    # -- what moves ---------------------------------------------------------------------------------------------
+
+    @property
+    def _hook_stiffness(self) -> float:
+        """Of the rope, in series with a structure that has no mass."""
+        if self.soft is None:
+            return self.stiffness
+        return self.stiffness / (1 + self.stiffness / self.soft.stiffness)
+
+    @property
+    def _start_speed(self) -> float:
+        """Of the motor at the beginning, with its sign [rad/s]."""
+        scene = self.scene
+        if self.stops:
+            return self.way * self.set_speed
+        if isinstance(scene, Lift) and scene.rope == "slack" and scene.slack is None:
+            curve = self.spec.motor.curve if self.spec.motor is not None else None
+            free = curve.no_load_speed if self._profile.shape == "curve" and curve is not None else None
+            return free if free is not None else self.set_speed
+        return 0.0
+
+    def _bodies(self) -> Iterator[Body]:
+        spec, speed = self.spec, self._start_speed
+        inertias = {MOTOR: model.motor_side_inertia(spec), MAINS: 1.0, LOAD: self.mass}
+        speeds = {MOTOR: speed, NODE: speed / self.ratio, DRUM: speed / self.ratio, HOOK: speed / self.ratio * self.arm}
+        if not self.lifts:
+            speeds[LOAD] = speeds[HOOK]
+        if self._follows_speed:
+            ramped = self._profile.imposes_speed and not speed
+            speeds[MAINS] = 0.0 if ramped else self.way * self.set_speed
+        inertias[DRUM] = self._drum_inertia
+        positions = {BRIDGE: self._sag} | {DRUM: 0.0}
+        if self.bridge is not None:
+            inertias[BRIDGE] = self.bridge.mass
+        for name in self.names:
+            yield Body(name, inertias.get(name, 0.0), positions.get(name, 0.0), speeds.get(name, 0.0))
+
+    @property
+    def _drum_inertia(self) -> float:
+        """Of the drum [kg*m^2]; where the file leaves it out nothing, or behind an elastic gear that of a steel shell
+        as thick as the rope, since a drum without mass between two springs has no motion of its own."""
+        given = self.spec.drum
+        if given.inertia or self.torsion is None:
+            return given.inertia or 0.0
+        thick = given.shell_thickness or self.spec.rope.diameter
+        return bodies.thin_ring(_STEEL * math.pi * given.diameter * thick * given.length, given.diameter)
+
+    @property
+    def _sag(self) -> float:
+        """Deflection of the structure at the beginning [m]."""
+        return 0.0 if self.lifts or self.bridge is None else self.held_weight / self.bridge.stiffness
+
+    def _meshes(self) -> Iterator[Mesh]:
+        spec = self.spec
+        outer = NODE if self.torsion is not None else DRUM
+        yield Mesh(
+            GEARBOX,
+            self.at(MOTOR),
+            self.at(outer),
+            self.ratio,
+            model.efficiency(spec),
+            model.reverse_efficiency(spec),
+        )
+        forward, reverse = hauling_efficiency(spec), lowering_efficiency(spec)
+        yield Mesh(TACKLE, self.at(DRUM), self.at(HOOK), 1 / self.arm, forward, reverse)
+
+    def _springs(self) -> Iterator[Spring]:
+        if self.bridge is not None:
+            given = self.bridge
+            damping = 2 * given.damping * math.sqrt(given.stiffness * given.mass)
+            yield Spring(STRUCTURE, self.at(BRIDGE), None, given.stiffness, damping)
+        if self.torsion is not None:
+            motor = model.motor_side_inertia(self.spec) * self.ratio**2
+            between = motor / (1 + motor / self._drum_inertia)
+            assert self.spec.gearbox is not None
+            damping = 2 * self.spec.gearbox.damping * math.sqrt(self.torsion * between)
+            law = CLAMPED if self.play else LINEAR
+            first, second = self.at(NODE), self.at(DRUM)
+            yield Spring(SHAFT, first, second, self.torsion, damping, self.play, law, rest=-self._twist)
+        k = self._hook_stiffness
+        damping = 2 * self.spec.rope.damping * math.sqrt(k * self.mass)
+        over = self.at(BRIDGE) if self.bridge is not None else None
+        rest = self._slack - self._sag if self.lifts else -(self.held_weight / k) - self._sag
+        yield Spring(ROPE, self.at(HOOK), self.at(LOAD), k, damping, law=NO_PULL, side=1, rest=rest, over=over)
+        if self.lifts:
+            yield Spring(GROUND, self.at(LOAD), None, 0.0, law=RIGID, side=-1)
+
+    @property
+    def _slack(self) -> float:
+        """Way of the hook before the rope is taut [m]."""
+        assert isinstance(self.scene, Lift)
+        return self.scene.slack or 0.0 if self.scene.rope == "slack" else 0.0
+
+    @property
+    def _twist(self) -> float:
+        """Twist of the gear at the beginning, with its play [rad]: under the load that hangs on it; in a lift against
+        the drive as it runs, and with the whole play before it as it starts from rest."""
+        assert self.torsion is not None
+        if self.lifts:
+            return self.play / 2 if self._start_speed else -self.play / 2
+        torque = self.held_weight * self.arm
+        if self.way:
+            torque = torque / hauling_efficiency(self.spec) if self.way > 0 else torque * lowering_efficiency(self.spec)
+        if isinstance(self.scene, Start):
+            torque = self.held_weight * self.arm
+        return self.play / 2 + torque / self.torsion
+
+    # -- what acts ----------------------------------------------------------------------------------------------
+
+    def _grips(self) -> Iterator[Grip]:
+        if self._follows_speed:
+            yield Grip(DRIVE, self.at(MOTOR), self.at(MAINS), self._limited(self._capacity()))
+        given = self.spec.brake
+        if given is None:
+            return
+        body = self.at(MOTOR if given.shaft == "motor" else DRUM)
+        if self.stops:
+            yield Grip(BRAKE, body, None, self._closing(given.delay, given.rise_time))
+        elif self.spec.limiter is not None and isinstance(self.scene, Lift | Start):
+            since = self.spec.limiter.delay + given.delay
+            yield Grip(BRAKE, body, None, replace(self._closing(since, given.rise_time), trigger=self._trip()))
+
+    def _closing(self, delay: float, rise: float) -> Signal:
+        """Torque of the brake from its command on."""
+        given = self.spec.brake
+        assert given is not None
+        full = given.torque
+        if given.rise == braking.EXPONENTIAL and rise > 0:
+            times, values = ((0.0, delay), (0.0, full)) if delay > 0 else ((0.0,), (full,))
+            return Signal(times, values, (0.0,) * len(times), (), -full, rise, delay)
+        if rise == 0:
+            return Signal((0.0, delay), (0.0, full), (0.0, 0.0)) if delay > 0 else Signal.constant(full)
+        if delay == 0:
+            return Signal((0.0, rise), (0.0, full), (full / rise, 0.0))
+        return Signal((0.0, delay, delay + rise), (0.0, 0.0, full), (0.0, full / rise, 0.0))
+
+    def _capacity(self) -> Signal:
+        """Torque the drive can give over time."""
+        full, profile = motor_torque(self.spec), self._profile
+        if profile.imposes_speed or profile.rise_time == 0:
+            return Signal.constant(full)
+        return Signal.through(tuple((time, full * share) for time, share in self._points(profile)))
+
+    def _points(self, profile: Profile) -> list[tuple[float, float]]:
+        """Times and shares of a rise, straight in between."""
+        time = profile.rise_time
+        if profile.points is not None:
+            return [(point.time, point.share) for point in profile.points]
+        if profile.shape == "ramp":
+            return [(0.0, 0.0), (time, 1.0)]
+        times = np.linspace(0.0, time, _PIECES + 1)
+        shares = start_profile.rise(profile.rise, time, times)
+        return list(zip(times.tolist(), shares.tolist(), strict=True))
+
+    def _limited(self, capacity: Signal) -> Signal:
+        """A capacity that ends when the limiter has switched the motor off."""
+        limiter = self.spec.limiter
+        if limiter is None or len(capacity.times) > 1 or not isinstance(self.scene, Lift | Start):
+            return capacity
+        full, delay = capacity.values[0], limiter.delay
+        trip = self._trip()
+        if delay == 0:
+            return Signal(values=(0.0,), trigger=trip, before=full)
+        return Signal((0.0, delay), (full, 0.0), (0.0, 0.0), trigger=trip, before=full)
+
+    def _trip(self) -> Trigger:
+        limiter = self.spec.limiter
+        assert limiter is not None
+        level = limiter.factor * (self.spec.load + self.spec.hook_block) * self.spec.gravity
+        rope = (self.bridge is not None) + (self.torsion is not None)
+        return Trigger(rope, "force", level, rising=True)
+
+    def _drives(self) -> Iterator[Drive]:
+        yield Drive.of("weight", self.at(LOAD), Signal.constant(-self.weight))
+        motor = self.spec.motor
+        if motor is None or self._follows_speed or not isinstance(self.scene, Lift | Start):
+            return
+        assert motor.curve is not None
+        gate = ONE
+        if self.spec.limiter is not None:
+            gate = self._limited(Signal.constant(1.0))
+        stages = tuple(_stages(motor.curve, motor.count, self.way))
+        yield Drive(DRIVE, self.at(MOTOR), stages, gate)
+
+    def _guides(self) -> Iterator[Guide]:
+        if self.released:
+            yield Guide(MOTOR, self.at(MOTOR))
+        if not self._follows_speed:
+            return
+        profile = self._profile
+        if not profile.imposes_speed or self._start_speed:
+            yield Guide(MAINS, self.at(MAINS))
+            return
+        points = self._points(profile)
+        times, shares = zip(*points, strict=True)
+        rates = self.way * self.set_speed * np.diff(shares) / np.diff(times)
+        values = (*rates.tolist(), 0.0)
+        yield Guide(MAINS, self.at(MAINS), Signal(tuple(times), values, (0.0,) * len(values)))
+
+    # -- how long -----------------------------------------------------------------------------------------------
+
+    def _window(self, train: Train) -> float:
+        """How long the scene is looked at [s]: until the rigid hoist has its speed or stands, and six periods more of
+        the slowest vibration, as a peak lies within the first."""
+        slowest = float(frequencies(train).min(initial=math.inf))
+        free = math.sqrt(self._hook_stiffness / self.mass)
+        ringing = _PERIODS * 2 * math.pi / min(slowest, free)
+        before = self._until_lift_off() if self.lifts else self._rigid_time()
+        return min(before + ringing, _LONGEST)
+
+    def _until_lift_off(self) -> float:
+        """Time in which the slack is run out and the rope tightened [s], or the drive has come to rest."""
+        one = reduced(self.spec, self.scene)
+        speed, slack = self._start_speed / self.ratio * self.arm, self._slack
+        rising = self._profile.rise_time
+        if slack:
+            pull = one.drive_force / one.drive_mass
+            quick = math.sqrt(2 * slack / pull)
+            full = one.speed / pull
+            rising += quick if quick < full else full + (slack - pull * full**2 / 2) / one.speed
+        least = two_mass.takeup(one.drive_mass, self.mass, self._hook_stiffness, one.weight, one.weight, 0.0).time
+        slow = one.weight / self._hook_stiffness / (speed or one.speed)
+        return 1.2 * (rising + least + slow)
+
+    def _rigid_time(self) -> float:
+        """Time of start or stop of the rigid hoist [s]."""
+        if self.released:
+            return 0.0
+        load = self.weight * self.arm / self.ratio
+        speed = self.set_speed
+        if isinstance(self.scene, Stop | LowerBrake):
+            time, _ = braked_way(self.spec, self.scene)
+            given = self.spec.brake
+            assert given is not None
+            return 1.2 * time if math.isfinite(time) else given.delay + given.rise_time + 1.0
+        torque = motor_torque(self.spec)
+        spare = max(torque - self.way * load / (model.efficiency(self.spec) * hauling_efficiency(self.spec)), 0.0)
+        empty = model.motor_side_inertia(self.spec) * speed / torque if torque else 0.0
+        rising = moving_inertia(self.spec, self.scene) * speed / spare if spare else empty
+        return self._profile.rise_time + 1.2 * (empty + min(rising, 20 * empty))
+
+
+def _stages(curve: AnyMotor, count: int, way: int) -> Iterator[Stage]:
+    """The stages of the motor's own curve; a motor that runs down follows the last one, turned round."""
+    if isinstance(curve, ConverterMotor):
+        end, ramp = way * curve.speed, curve.ramp_time
+        reference = Signal.through(((0.0, 0.0), (ramp, end))) if ramp > 0 else Signal.constant(end)
+        yield Stage(Governed(reference, count * curve.stiffness, count * curve.limit))
+        return
+    stages = curve.stages if way > 0 else curve.stages[-1:]
+    for stage in stages:
+        last = stage is stages[-1]
+        law = _law(stage, count, way, curve.no_load_speed)
+        yield Stage(law, None if last else stage.until_speed, None if last else stage.until_time)
+
+
+def _law(stage: MotorStage, count: int, way: int, no_load_speed: float | None) -> Law:
+    if stage.pieces is not None:
+        knots, values = (list(row) for row in zip(*stage.pieces, strict=True))
+        if way < 0:
+            knots, values = [-one for one in knots[::-1]], [-one for one in values[::-1]]
+        values = [count * one for one in values]
+        if len(knots) == 1:
+            return Signal.constant(values[0])
+        return Straight("speed", tuple(knots), tuple(values), stage.extends)
+    formula, slope = stage.formula, stage.slope
+    assert formula is not None
+    assert slope is not None
+    speeds = np.linspace(0.0, no_load_speed or 1.0, 201)
+    size, steepest = float(np.abs(formula(speeds)).max()), float(np.abs(slope(speeds)).max())
+    return Smooth(
+        "speed",
+        lambda speed: way * count * formula(way * speed),
+        lambda speed: count * float(slope(np.array([way * speed]))[0]),
+        count * size,
+        count * steepest / _SLOPES,
+    )

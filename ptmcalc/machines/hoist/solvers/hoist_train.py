@@ -1,0 +1,37 @@
+"""Motor, elastic gear with play, drum, rope, load and structure, exact from event to event."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist import motion
+from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
+from ptmcalc.machines.hoist.loads_motion import MOVING
+from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.spec import Hoist
+
+
+def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene with all that moves.
+
+        J_1 w_1' = M_m - M_g/(u eta),   J_d w_d' = M_g - F R/eta_r,   M y'' = F - Q + N,   m_b z'' = F - K_b z - b_b z'
+        M_g = C dz(phi_1/u - phi_d) + damping,   F = max(0, K (R phi_d - s_0 - y - z) + damping)
+
+    **Range** a massless rope of constant length; the structure one mode.
+    **Error** as `two_mass`.
+    **Source** as `two_mass`; the bridge with mass against an independent integration.
+    """
+    return motion.result(scene, case_of(spec, scene, carried), level)
+
+
+TRAIN: Solver[Hoist, Moving] = Solver(
+    name="hoist_train",
+    title="motor, gear with play, drum, rope, load and structure, exact from event to event",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=SCENES,
+    represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash"},
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: 1e-3 + motion.cost(case_of(spec, scene, carried), level),
+    source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
+    always=ALWAYS,
+    levels=len(motion.TOLERANCES),
+)

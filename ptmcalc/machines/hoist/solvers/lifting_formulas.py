@@ -1,0 +1,223 @@
+"""Textbook formulas of lifting, starting, stopping and letting go; shown beside what is computed."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
+from ptmcalc.laws import lift_off, lift_off_standard, two_mass
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.moving import (
+    braked_way,
+    hook_brake_force,
+    hook_speed,
+    reduced,
+    start_hook_speed,
+)
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
+
+_BETA = {"slow": 0.5, "quick": 1.0}
+
+
+def _shown(**values: float) -> Result:
+    return Result({name: Found(Estimate.unknown(value)) for name, value in values.items()}, work=1)
+
+
+def run_takeup(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
+    """Lift-off by a drive of finite mass that pulls with its mean starting torque all the time.
+
+        v_1^2 = v_0^2 + Q (2 P - Q)/(K m_1),   F_max = F_eq + ((F_eq - Q)^2 + K mu v_1^2)^(1/2)
+
+    **Range** rigid structure and gear, no damping; a stall gives the force it comes to.
+    **Error** none bound: it leaves out that the drive does not outrun its set speed.
+    **Source** `laws.two_mass.takeup`.
+    """
+    one = reduced(spec, scene)
+    speed = start_hook_speed(spec, scene)
+    found = two_mass.takeup(one.drive_mass, one.load_mass, one.stiffness, one.drive_force, one.weight, speed)
+    return _shown(
+        lift_off_factor=found.peak_force / one.weight,
+        rope_force_max=found.peak_force,
+        lift_off_speed=found.lift_off_speed,
+        tension_time=found.time,
+    )
+
+
+def run_speed_source(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
+    """Lift-off by a drive that keeps its speed.
+
+        psi = 1 + v/(g delta)^(1/2)
+
+    **Range** rigid or massless structure, no damping.
+    **Error** none bound.
+    **Source** `laws.lift_off.speed_source_factor`.
+    """
+    one = reduced(spec, scene)
+    speed = start_hook_speed(spec, scene)
+    factor = float(lift_off.speed_source_factor(speed, one.weight / one.stiffness, spec.gravity))
+    return _shown(lift_off_factor=factor)
+
+
+def run_standard(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
+    """Lift-off by the class of the hoist.
+
+        phi_2 = phi_2,min + beta_2 v_h
+
+    **Range** a file that gives the hoisting class.
+    **Error** none bound: it knows neither mass nor stiffness.
+    **Source** EN 13001-2 and ISO 8686-1, smallest factor by stiffness class (`by_class`).
+    """
+    assert spec.classes.hoisting is not None
+    creep = model.hook_speed(spec, "creep") if spec.speed.creep is not None else hook_speed(spec, scene)
+    speed = lift_off_standard.class_lift_off_speed(
+        spec.classes.drive, lift_off_standard.REGULAR, model.hook_speed(spec), creep
+    )
+    factor = lift_off_standard.standard_lift_off_factor(
+        spec.classes.hoisting, spec.classes.drive, speed, lift_off_standard.BY_CLASS
+    )
+    return _shown(lift_off_factor=factor)
+
+
+def has_class(spec: Hoist, scene: Lift) -> Criterion:
+    """Whether the file gives the hoisting class.
+
+    **Range** any file.
+    **Error** none.
+    **Source** the file.
+    """
+    return Criterion("-", 0.0 if spec.classes.hoisting else 1.0, 1.0, "no hoisting class is given", "")
+
+
+def run_braking(spec: Hoist, scene: LowerBrake | Stop, carried: frozenset[str], level: int) -> Result:
+    """A stop by the brake as two masses.
+
+        lowering: F = Q + M/(m_1 + M) (P_b - Q + (Q^2 + P_b^2 - 2 Q P_b cos(w t_d))^(1/2)), at most Q + v (K M)^(1/2)
+        hoisting: F = Q - min(v (K M)^(1/2), 2 (P_b + Q) M/(m_1 + M))
+
+    **Range** the drive still moves at the peak; a rope that stays taut; no rise of the brake.
+    **Error** none bound.
+    **Source** `laws.two_mass`, `laws.brake.brake_stop`.
+    """
+    one, brake = reduced(spec, scene), spec.brake
+    assert brake is not None
+    force = hook_brake_force(spec, scene)
+    if isinstance(scene, Stop) and scene.direction == "up":
+        least = two_mass.hoisting_stop_force(one.speed, force, one.weight, one.drive_mass, one.load_mass, one.stiffness)
+        return _shown(rope_force_min=max(least, 0.0))
+    most = float(
+        two_mass.lowering_brake_force(
+            force, one.weight, brake.delay + brake.rise_time / 2, one.drive_mass, one.load_mass, one.stiffness
+        )
+    )
+    faster = one.speed + spec.gravity * (brake.delay + brake.rise_time) * one.load_mass / (
+        one.drive_mass + one.load_mass
+    )
+    peak = min(most, two_mass.speed_step_force(faster, one.stiffness, one.load_mass, one.weight))
+    _, way = braked_way(spec, scene)
+    return _shown(lowering_brake_factor=peak / one.weight, rope_force_max=peak, stop_distance_lowering=way)
+
+
+def run_start(spec: Hoist, scene: Start, carried: frozenset[str], level: int) -> Result:
+    """A hanging load set in motion by a step of force.
+
+        F = Q + 2 (P - Q) M/(m_1 + M) upward;   downward the largest force is that of the end of the start
+
+    **Range** a step of torque, rope taut, no damping.
+    **Error** none bound; a force that rises slowly has no factor 2.
+    **Source** `laws.two_mass.hanging_start_force`.
+    """
+    one = reduced(spec, scene)
+    peak = two_mass.hanging_start_force(one.drive_force, one.weight, one.drive_mass, one.load_mass)
+    return _shown(start_factor=peak / one.weight, rope_force_max=peak) if scene.direction == "up" else _shown()
+
+
+def run_release(spec: Hoist, scene: Release, carried: frozenset[str], level: int) -> Result:
+    """A part of the load let go, by the standard.
+
+        phi_3 = 1 - (dm/m) (1 + beta_3)
+
+    **Range** any part.
+    **Error** none bound for a slow release.
+    **Source** EN 13001-2 and ISO 8686-1.
+    """
+    share = scene.share * spec.load / (spec.load + spec.hook_block) if scene.load == "full" else 0.0
+    return _shown(release_factor=float(lift_off.release_factor(share, _BETA[scene.manner])))
+
+
+def _cost(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> float:
+    return 1e-4
+
+
+TAKEUP: Solver[Hoist, Lift] = Solver(
+    name="takeup",
+    title="lift-off by a constant drive force",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Lift}),
+    represents=frozenset(),
+    gives=frozenset({"lift_off_factor", "rope_force_max", "lift_off_speed", "tension_time"}),
+    run=run_takeup,
+    cost=_cost,
+    source="energy and phase plane of two masses, ptmcalc.laws.two_mass",
+    decides=False,
+)
+STANDARD: Solver[Hoist, Lift] = Solver(
+    name="standard_phi2",
+    title="lift-off factor of the crane standards",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Lift}),
+    represents=frozenset(),
+    gives=frozenset({"lift_off_factor"}),
+    run=run_standard,
+    cost=_cost,
+    source="EN 13001-2, ISO 8686-1",
+    valid=has_class,
+    decides=False,
+)
+SPEED_SOURCE: Solver[Hoist, Lift] = Solver(
+    name="speed_source",
+    title="lift-off at a kept speed",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Lift}),
+    represents=frozenset(),
+    gives=frozenset({"lift_off_factor"}),
+    run=run_speed_source,
+    cost=_cost,
+    source="two-mass model with a drive of unlimited mass, ptmcalc.laws.lift_off",
+    decides=False,
+)
+BRAKING: Solver[Hoist, LowerBrake | Stop] = Solver(
+    name="braked_two_mass",
+    title="rope force and way of a stop",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({LowerBrake, Stop}),
+    represents=frozenset(),
+    gives=frozenset({"lowering_brake_factor", "rope_force_max", "rope_force_min", "stop_distance_lowering"}),
+    run=run_braking,
+    cost=_cost,
+    source="phase plane of two masses, ptmcalc.laws.two_mass",
+    decides=False,
+)
+HANGING: Solver[Hoist, Start] = Solver(
+    name="hanging_start",
+    title="rope force of a start with a hanging load",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Start}),
+    represents=frozenset(),
+    gives=frozenset({"start_factor", "rope_force_max"}),
+    run=run_start,
+    cost=_cost,
+    source="step of force on two masses, ptmcalc.laws.two_mass",
+    decides=False,
+)
+RELEASE: Solver[Hoist, Release] = Solver(
+    name="standard_phi3",
+    title="release factor of the crane standards",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Release}),
+    represents=frozenset(),
+    gives=frozenset({"release_factor"}),
+    run=run_release,
+    cost=_cost,
+    source="EN 13001-2, ISO 8686-1",
+    decides=False,
+)
+FORMULAS: tuple[AnySolver, ...] = (TAKEUP, STANDARD, SPEED_SOURCE, BRAKING, HANGING, RELEASE)

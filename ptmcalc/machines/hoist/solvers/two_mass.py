@@ -1,0 +1,40 @@
+"""Drive and load on an elastic rope, exact from event to event; gear and structure rigid."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist import motion
+from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
+from ptmcalc.machines.hoist.loads_motion import MOVING
+from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.spec import Hoist
+
+
+def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene with the drive as one mass.
+
+        m_1 x'' = F_m - F,   M y'' = F - Q + N,   F = max(0, K (x - s_0 - y) + b (x' - y'))
+
+    The drive keeps its set speed as long as that takes no more than its mean starting torque, or follows its curve;
+    losses of gear and tackle go by the direction of power. Brake with delay and rise, sticking at rest.
+
+    **Range** a rigid gear and structure; a massless rope of constant length.
+    **Error** between events exact; bars from runs that divide time otherwise (`motion.loads`), with a smooth curve by
+    its tolerance. The numbers are trusted only if the energy ledger closes to 1e-9.
+    **Source** derived in `numerics.piecewise` and `numerics.train`; worked cases of lift-off and braking.
+    """
+    return motion.result(scene, case_of(spec, scene, carried & ALWAYS), level)
+
+
+TWO_MASS: Solver[Hoist, Moving] = Solver(
+    name="two_mass",
+    title="drive and load on a rope, exact from event to event",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=SCENES,
+    represents=ALWAYS,
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: motion.cost(case_of(spec, scene, carried & ALWAYS), level),
+    source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
+    always=ALWAYS,
+    levels=len(motion.TOLERANCES),
+)
