@@ -1,0 +1,138 @@
+"""Oscillator under a pulse that ends: against the matrix exponential, quadrature, and dense samples of both.
+
+Witness: z' = A z, z = (x, v, two force states), by scipy's expm during the pulse and of the oscillator alone after it.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.linalg import expm
+from scipy.optimize import minimize_scalar
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.decay_pulse import DecayPulse
+
+PAPER = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 5.0)
+SHORT = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 0.2)
+
+
+def witness(pulse: DecayPulse, time: float) -> np.ndarray:
+    w, zeta, slow, fast = pulse.natural_frequency, pulse.damping_ratio, pulse.slow, pulse.fast
+    system = np.zeros((4, 4))
+    system[0, 1], system[1] = 1.0, (-w * w, -2 * zeta * w, pulse.acceleration, 0.0)
+    system[2, 2], system[2, 3], system[3, 3] = -slow, fast - slow, -fast
+    state = expm(system * min(time, pulse.duration)) @ [0.0, 0.0, 0.0, 1.0]
+    return np.asarray(expm(system[:2, :2] * max(0.0, time - pulse.duration)) @ state[:2])
+
+
+class TestMotion:
+    @pytest.mark.parametrize("zeta", [0.0, 0.02, 0.7, 1 - 1e-9, 1.0, 1 + 1e-9, 3.0])
+    @pytest.mark.parametrize(("slow", "fast"), [(3.0, 96.0), (3.0, 3.0 + 1e-7), (5.0, 5.0), (0.0, 2.0), (96.0, 3.0)])
+    @pytest.mark.parametrize("natural", [0.0, 1e-6, 5.0, 60.0])
+    def test_is_that_of_the_matrix_exponential(self, natural: float, zeta: float, slow: float, fast: float) -> None:
+        pulse = DecayPulse(natural, zeta, slow, fast, 2.0, 1.1)
+        times = np.array([0.0, 1e-4, 0.03, 0.4, 1.1, 1.3, 2.9])
+        x, v = pulse.at(times)
+        expected = np.array([witness(pulse, t) for t in times])
+        for found, column in ((x, expected[:, 0]), (v, expected[:, 1])):
+            assert np.abs(found - column).max() <= 1e-12 * np.abs(column).max() + 1e-300
+
+    def test_times_in_any_order_and_shape(self) -> None:
+        times = np.random.default_rng(1).uniform(0, 8, (7, 11))
+        x, v = PAPER.at(times)
+        again = [PAPER.at(t) for t in times.ravel()]
+        assert x.ravel() == pytest.approx([float(one[0]) for one in again], rel=1e-12, abs=1e-16)
+        assert v.ravel() == pytest.approx([float(one[1]) for one in again], rel=1e-12, abs=1e-15)
+
+    def test_joins_its_free_branch_with_its_speed(self) -> None:
+        """The printed branch has the wrong sign before the end of the pulse: a jump of 2 exp(-3 tau)/k^2 or so."""
+        for pulse in (PAPER, SHORT):
+            (before, after), (v_before, v_after) = pulse.at(
+                [pulse.duration, np.nextafter(pulse.duration, 10 * pulse.duration)]
+            )
+            assert after == pytest.approx(before, rel=1e-14)
+            assert v_after == pytest.approx(v_before, rel=1e-13)
+
+    def test_the_free_branch_is_the_printed_sum_with_its_sign_put_right(self) -> None:
+        k, tau = SHORT.natural_frequency, SHORT.duration
+        for t in (0.21, 0.6, 3.0):
+            total = 0.0
+            for a, sign in ((3.0, 1), (96.0, -1)):
+                swing = a * math.sin(k * t) - k * math.cos(k * t)
+                late = a * math.sin(k * (t - tau)) - k * math.cos(k * (t - tau))
+                total += sign * (swing - math.exp(-a * tau) * late) / (a * a + k * k)
+            assert float(SHORT.at(t)[0]) == pytest.approx(total / k, rel=1e-12)
+
+    def test_the_force_is_its_difference(self) -> None:
+        t = np.linspace(0, 5, 41)
+        assert PAPER.force(t) == pytest.approx(np.exp(-3 * t) - np.exp(-96 * t), abs=1e-15)
+        assert PAPER.force([5.1, -1.0]).tolist() == [0.0, 0.0]
+
+    def test_impulse_of_a_rigid_mass(self) -> None:
+        impulse = quad(lambda t: math.exp(-3 * t) - math.exp(-96 * t), 0, 5, points=[0.05, 0.2, 1], epsabs=1e-15)[0]
+        assert float(DecayPulse(0.0, 0.0, 3.0, 96.0, 1.0, 5.0).at(7.0)[1]) == pytest.approx(impulse, rel=1e-12)
+
+
+class TestLargest:
+    @pytest.mark.parametrize("seed", range(25))
+    def test_is_the_summit_of_dense_samples(self, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        natural, slow = 10 ** rng.uniform(-1, 2.5), 10 ** rng.uniform(-1, 1.5)
+        fast = slow * 10 ** rng.uniform(0, 3)
+        zeta = float(rng.choice([0.0, 0.01, 0.3, 1.0, 4.0]))
+        duration, sign = 10 ** rng.uniform(-2, 1), float(rng.choice([-1.0, 1.0]))
+        pulse = DecayPulse(natural, zeta, slow, fast, sign, duration)
+        summit = pulse.largest()
+        reach = duration + 2 * math.pi / natural * max(1.0, 4 * zeta)
+        times = np.union1d(np.linspace(0, reach, 20_001), np.geomspace(1e-6, 1, 2001) * reach)
+        x = pulse.at(times)[0]
+        top = int(np.argmax(np.abs(x)))
+        ends = times[max(0, top - 1)], times[min(len(times) - 1, top + 1)]
+        near = minimize_scalar(
+            lambda t: -abs(float(pulse.at(t)[0])), bounds=ends, method="bounded", options={"xatol": 1e-12}
+        )
+        expected = max(abs(x[top]), -near.fun)
+        assert abs(summit.value) >= expected * (1 - 1e-12)
+        assert abs(summit.value) - expected <= 1e-9 * expected + summit.error
+        assert summit.error <= 1e-9 * expected
+        assert float(pulse.at(summit.time)[0]) == pytest.approx(summit.value, rel=1e-9)
+
+    def test_a_stiff_spring_follows_the_force(self) -> None:
+        """Ripples of the jump in the slope stand on the quasi-static deflection: (l_2 - l_1)/k^3 of each sign."""
+        k = 2e4
+        summit = DecayPulse(k, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+        top = (1 - 3 / 96) * (3 / 96) ** (3 / 93)
+        assert summit.value * k * k == pytest.approx(top + 93 / k, rel=1e-5)
+        assert summit.value * k * k > top + 92 / k
+        assert summit.error <= 1e-6 * summit.value
+
+    @pytest.mark.parametrize("natural", [0.05, 0.3])
+    def test_a_soft_spring_turns_the_impulse(self, natural: float) -> None:
+        """Long after the pulse: v/k of its impulse, but for a phase."""
+        summit = DecayPulse(natural, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+        transform = abs(1 / (3 + 1j * natural) - 1 / (96 + 1j * natural))
+        assert abs(summit.value) == pytest.approx(transform / natural, rel=1e-6)
+        assert summit.time > 5.0
+
+    def test_of_nothing_is_nothing(self) -> None:
+        for pulse in (DecayPulse(5.0, 0.0, 3.0, 96.0, 0.0, 5.0), DecayPulse(5.0, 0.0, 3.0, 3.0, 1.0, 5.0)):
+            assert pulse.largest().value == 0.0
+
+    def test_says_where_it_cannot_be_trusted(self) -> None:
+        with pytest.raises(NumericsError, match="no largest deflection"):
+            DecayPulse(0.0, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+        with pytest.raises(NumericsError, match="lost its fraction"):
+            DecayPulse(1e15, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+
+    def test_of_the_paper_against_a_general_solver(self) -> None:
+        def turn(_: float, y: np.ndarray) -> float:
+            return float(y[1])
+
+        run = solve_ivp(
+            lambda t, y: [y[1], math.exp(-3 * t) - math.exp(-96 * t) - 5.47**2 * y[0]],
+            (0, 1), [0.0, 0.0], "DOP853", rtol=1e-12, atol=1e-16, events=turn,
+        )  # fmt: skip
+        summit = PAPER.largest()
+        assert summit.value == pytest.approx(max(y[0] for y in run.y_events[0]), rel=1e-10)
