@@ -6,7 +6,7 @@ Duhamel's integral of exponentials is a divided difference of exp over the expon
 
     x = a (l_2 - l_1) t^3 exp[p_1 t, p_2 t, -l_1 t, -l_2 t]      x' = a (l_2 - l_1) t^2 (exp[all but q] + q t exp[all])
 
-q the exponent nearest to 0. A divided difference is a quotient of two of lower order where its points lie farther
+q an exponent not beyond w. A divided difference is a quotient of two of lower order where its points lie farther
 apart than 1, and a power series about their mean where they do not; so nothing cancels where exponents meet
 (resonance of real exponents, critical damping, no spring) nor in short times. Quotients share their parts, and the
 series is summed only over the times that need it.
@@ -245,7 +245,10 @@ class DecayPulse:
         roots = _roots(self.natural_frequency, self.damping_ratio)
         points = (*roots, complex(-self.slow), complex(-self.fast))
         everything = tuple(range(4))
-        least = min(everything, key=lambda i: abs(points[i]))
+        _, *apart = max((abs(points[i] - points[j]), i, j) for i in everything for j in range(i))
+        least = min(apart, key=lambda i: abs(points[i]))  # left out of the whole already
+        if abs(points[least]) > self.natural_frequency:
+            least = min(everything, key=lambda i: abs(points[i]))
         rest = everything[:least] + everything[least + 1 :]
         whole, part = _differences(points, [everything, rest], t)
         scale = self.acceleration * (self.fast - self.slow) * t * t
@@ -347,7 +350,7 @@ def _series(points: list[complex], t: FloatArray) -> Values:
         for k in range(1, _TERMS + 1):
             sums[k] += offset * sums[k - 1]
     factors = np.array(sums) / _FACTORIALS[order : order + _TERMS + 1]
-    powers = np.multiply.accumulate(np.broadcast_to(width * t, (_TERMS, len(t))), axis=0)
+    powers = np.multiply.accumulate([width * t] * _TERMS, axis=0)
     total: Values = factors[0].real + factors[1:].real @ powers
     if factors.imag.any():
         total = total + 1j * (factors[0].imag + factors[1:].imag @ powers)
