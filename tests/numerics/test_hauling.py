@@ -1,0 +1,146 @@
+"""A load on a rope taken in by an uneven drum: against DOP853 on the full equations, strain and length coupled.
+
+Witness: s' = -V/(1 + eps), M y'' = m EA (eps + damping) - M g, eps = m H/s - 1, restarted at every corner of the map.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.hauling import Map, Rope, haul, largest_possible
+
+SPEED, MASS, FALLS, GRAVITY = 0.4 * math.pi, 5000.0, 4, 9.81
+TENSILE = 1.05e11 * 114e-6
+STATIC = MASS * GRAVITY / FALLS / TENSILE
+ROUNDED = 5e-13
+"""What the witness loses where it takes the strain from two lengths."""
+ROPE = Rope(160.0 / (1 + STATIC), FALLS**2 * TENSILE / MASS, STATIC, 0.0)
+
+
+def layer_map(turns: int, arc: float = math.pi / 3, bump: float = 2.34e-3, low: float = 0.15875) -> Map:
+    """A climb of 15 mm, then two bumps a turn."""
+    high = low + 0.015155
+    angles, radii = [0.0, 0.5, 0.5 + arc], [low, low, high]
+    for k in range(1, 2 * turns):
+        begin = 0.5 + k * math.pi
+        angles += [begin, begin + arc / 2, begin + arc]
+        radii += [high, high + bump, high]
+    return Map(np.array([*angles, angles[-1] + 1.0]), np.array([*radii, high]))
+
+
+def random_map(seed: int) -> Map:
+    rng = np.random.default_rng(seed)
+    angles = np.concatenate([[0.0], np.cumsum(rng.uniform(0.02, 2.0, 12))])
+    return Map(angles, 0.15 + rng.uniform(0, 0.02, 13))
+
+
+def witness(radius: Map, rope: Rope, per_stretch: int) -> tuple[np.ndarray, np.ndarray]:
+    """Times and dynamic forces over E A."""
+    length = rope.length * (1 + rope.static_strain)
+    state = np.array([rope.length, length / FALLS, SPEED * radius.radii[0] / FALLS])
+    found_times, found = [], []
+
+    def speed(t: np.ndarray) -> np.ndarray:
+        return SPEED * np.interp(SPEED * t, radius.angles, radius.radii)
+
+    def parts(t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        strain = FALLS * y[1] / y[0] - 1
+        rate = (speed(t) - FALLS * y[2]) / y[0]
+        return strain, strain + 2 * rope.damping_ratio * rate / np.sqrt(rope.rate / y[0])
+
+    def slope(t: float, y: np.ndarray) -> list[float]:
+        strain, force = parts(t, y)
+        return [-speed(t) / (1 + strain), -y[2], FALLS * TENSILE * force / MASS - GRAVITY]
+
+    for begin, end in zip(radius.angles[:-1] / SPEED, radius.angles[1:] / SPEED, strict=True):
+        run = solve_ivp(slope, (begin, end), state, "DOP853", rtol=1e-12, atol=1e-14, dense_output=True, max_step=0.02)
+        state, times = run.y[:, -1], np.linspace(begin, end, per_stretch)
+        found_times.append(times)
+        found.append(parts(times, run.sol(times))[1] - STATIC)
+    return np.concatenate(found_times), np.concatenate(found)
+
+
+class TestMotion:
+    @pytest.mark.parametrize("damping", [0.0, 0.03, 0.3])
+    @pytest.mark.parametrize("length", [160.0, 12.0])
+    def test_of_a_climb_and_its_crossovers(self, length: float, damping: float) -> None:
+        rope = replace(ROPE, length=length, damping_ratio=damping)
+        motion = haul(layer_map(2), SPEED, rope)
+        times, forces = witness(layer_map(2), rope, 1500)
+        most, least = motion.extremes()
+        assert np.all(np.abs(motion.at(times)[1] - forces) <= motion.bar(times) + ROUNDED)
+        assert most.error <= (1e-4 + 4 * damping * 8 / length) * most.value
+        step = 1e-4
+        assert forces.max() - most.error <= most.value <= forces.max() + most.error + step * most.value
+        assert forces.min() + least.error >= least.value >= forces.min() - least.error - step * most.value
+
+    @pytest.mark.parametrize("seed", range(6))
+    def test_of_any_map(self, seed: int) -> None:
+        radius = random_map(seed)
+        rope = replace(ROPE, length=20.0, damping_ratio=0.02 * (seed % 3))
+        motion = haul(radius, SPEED, rope)
+        times, forces = witness(radius, rope, 60)
+        most, least = motion.extremes()
+        assert np.all(np.abs(motion.at(times)[1] - forces) <= motion.bar(times) + ROUNDED)
+        assert max(most.error, least.error) <= 0.05 * most.value
+        assert most.value >= forces.max() - most.error
+        assert least.value <= forces.min() + least.error
+
+    def test_without_damping_strain_and_force_are_one(self) -> None:
+        motion = haul(layer_map(2), SPEED, ROPE)
+        strain, force = motion.at(np.linspace(0, motion.times[-1], 300))
+        assert np.array_equal(strain, force)
+
+    def test_an_even_drum_does_nothing(self) -> None:
+        motion = haul(Map(np.array([0.0, 5.0]), np.array([0.15, 0.15])), SPEED, ROPE)
+        most, least = motion.extremes()
+        assert most.value == least.value == 0.0
+        assert motion.rope_length(motion.times[-1]) == pytest.approx(ROPE.length - 0.75 / (1 + STATIC), rel=1e-14)
+
+    def test_hauling_multiplies_a_swing_by_the_fourth_root_of_the_lengths(self) -> None:
+        """From 120 to 15 m: 8^(1/4) = 1.68, the force of an undamped swing (C17)."""
+        angles = np.array([0.0, 0.3, 0.5, 300.5, 500.5, 105.0 / 0.16 + 0.5])
+        radius = Map(angles, np.array([0.15, 0.15, 0.16, 0.16, 0.16, 0.16]))
+        rope = replace(ROPE, length=(105.0 + 0.15 * 0.3 + 0.155 * 0.2) / (1 + STATIC) + 15.0)
+        motion = haul(radius, SPEED, rope)
+        early = motion.at(motion.times[2] + np.linspace(0, 2, 2001))[1].max()
+        late = motion.at(motion.times[-1] - np.linspace(0, 2, 2001))[1].max()
+        start = float(motion.rope_length(motion.times[2]))
+        assert late / early == pytest.approx((start / 15.0) ** 0.25, rel=3e-3)
+
+    def test_a_sudden_step_is_bounded_by_its_jump_of_speed(self) -> None:
+        """k DV/(m g) of the weight: reached where the climb is short against a period."""
+        step = 0.015155
+        radius = Map(np.array([0.0, 1.0, 1.001, 6.0]), np.array([0.15, 0.15, 0.15 + step, 0.15 + step]))
+        ratio = haul(radius, SPEED, ROPE).extremes()[0].value / STATIC
+        k = math.sqrt(ROPE.rate / ROPE.length)
+        assert ratio == pytest.approx(SPEED * step * k / (FALLS * GRAVITY), rel=2e-3)
+
+
+class TestBound:
+    @pytest.mark.parametrize("seed", range(20))
+    def test_holds_the_motion(self, seed: int) -> None:
+        rope = replace(ROPE, length=20.0 + 10 * seed, damping_ratio=0.01 * (seed % 4))
+        radius = random_map(seed) if seed % 2 else layer_map(1 + seed // 2, bump=1e-3 * seed)
+        most, least = haul(radius, SPEED, rope).extremes()
+        assert max(most.value + most.error, -least.value + least.error) <= largest_possible(radius, SPEED, rope)
+
+    def test_is_not_far_away(self) -> None:
+        """Bumps half a period apart, and long against one: all phases add up."""
+        k = math.sqrt(ROPE.rate / ROPE.length)
+        half = SPEED * math.pi / k
+        angles = np.arange(0, 9) * half
+        radius = Map(angles, 0.15 + 0.001 * (np.arange(9) % 2))
+        found = haul(radius, SPEED, ROPE).extremes()[0].value
+        assert largest_possible(radius, SPEED, ROPE) <= 1.2 * found
+
+
+def test_refuses_to_take_in_more_rope_than_there_is() -> None:
+    with pytest.raises(NumericsError, match="more rope than is free"):
+        haul(layer_map(3), SPEED, replace(ROPE, length=2.0))
+    with pytest.raises(NumericsError, match="swings"):
+        haul(Map(np.array([0.0, 1.0]), np.array([1e-9, 1e-9])), 1e-6, ROPE)
