@@ -65,6 +65,7 @@ from ptmcalc.laws import (
     vertical_curve,
     vibration,
     wave,
+    winding,
     wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
@@ -558,6 +559,17 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         (1e3, 3e3, 1.5, 120.0, 0.2, 2e-4, 0.0),
         (1.7e7, 3e3, 1.5, 120.0, 120.0, 2e-4, 1e-3),
     ],
+    winding.paper_frequency: [(2.1e11, 1.14e-4, 49050.0, 160.0, 9.81)],
+    winding.paper_amplitude: [(1.2566, 0.0175)],
+    winding.climb_amplitude: [(1.2566, 0.0152)],
+    winding.climb_rates: [(1.2566,)],
+    winding.stretch_stress: [(1.05e11, 2e-3, 160.0)],
+    winding.fall_stress: [(49050.0, 4, 1.14e-4)],
+    winding.stress_ratio: [(1.57, 0.059, 4, 1, 9.81)],
+    winding.sudden_ratio: [(1.2566, 0.0152, 21.9, 4, 1, 9.81)],
+    winding.crossover_ratio: [(2, 1.2566, 21.9)],
+    winding.crossover_rise: [(0.0175, 0.0152), (0.0175, 0.0175)],
+    winding.winding_radius: [(0.159, 0.0152, rise, 2, 1.05, 3.0) for rise in (0.0, 0.0023)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -633,6 +645,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, ("HC1", "HD6", 0.4, "by_class")),
         (ValueError, ("HC1", "HD1", 0.4, "2004")),
     ],
+    winding.winding_radius: [(ValueError, (0.159, 0.0152, 0.0023, 2, 3.2, 3.0))],
 }
 
 

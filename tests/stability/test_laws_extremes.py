@@ -61,6 +61,7 @@ from ptmcalc.laws import (
     vertical_curve,
     vibration,
     wave,
+    winding,
     wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
@@ -845,6 +846,17 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         rope_rod.hauled_strain,
         lambda d: (*d.positive(3), *sorted(d.positive(2), reverse=True), *d.positive(2)),
     ),
+    "paper_frequency": (winding.paper_frequency, lambda d: tuple(d.positive(5))),
+    "paper_amplitude": (winding.paper_amplitude, lambda d: tuple(d.positive(2))),
+    "climb_amplitude": (winding.climb_amplitude, lambda d: tuple(d.positive(2))),
+    "climb_rates": (winding.climb_rates, lambda d: tuple(d.positive(1))),
+    "stretch_stress": (winding.stretch_stress, lambda d: tuple(d.positive(3))),
+    "fall_stress": (winding.fall_stress, lambda d: (d.positive(1)[0], 4, d.positive(1)[0])),
+    "stress_ratio": (winding.stress_ratio, lambda d: (*d.positive(2), 4, 2, d.positive(1)[0])),
+    "sudden_ratio": (winding.sudden_ratio, lambda d: (*d.positive(3), 4, 2, d.positive(1)[0])),
+    "crossover_ratio": (winding.crossover_ratio, lambda d: (2, *d.positive(2))),
+    "crossover_rise": (winding.crossover_rise, lambda d: (on := d.positive(1)[0], on * d.share())),
+    "winding_radius": (winding.winding_radius, lambda d: (*d.positive(3), 2, 3 * d.share() + 1e-3, 9 * d.share())),
 }
 SIGNED = {
     "acceleration",
