@@ -133,12 +133,13 @@ class DecayPulse:
         if w * self.duration > _LOST:
             raise NumericsError("NUM102", f"a phase of {w * self.duration:.1e} rad has lost its fraction")
         length = _CHUNK * self._stretch
-        best = self._better(Summit(0.0, 0.0, 0.0), self._decades)
         crest = self._crest
-        best = self._better(best, self._places(crest - length / 2, crest + length / 2))
-        begin, behind = 0.0, math.inf
-        for _ in range(_MOST_CHUNKS):
-            best = self._better(best, self._places(begin, begin + length))
+        beside = self._places(crest - length / 2, crest + length / 2) if self.duration > length else np.empty(0)
+        places = np.unique(np.concatenate([self._decades, beside, self._places(0.0, length)]))
+        best, begin = self._better(Summit(0.0, 0.0, 0.0), places), 0.0
+        for chunk in range(_MOST_CHUNKS):
+            if chunk > 0:
+                best = self._better(best, self._places(begin, begin + length))
             begin = min(begin + length, self.duration)
             behind = 0.0 if begin >= self.duration else self._most_behind(begin)
             if behind <= abs(best.value):

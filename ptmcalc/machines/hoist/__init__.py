@@ -10,7 +10,9 @@ from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.checks import CHECKS
 from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
+from ptmcalc.machines.hoist.checks_winding import CHECKS_OF_WINDING
 from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
+from ptmcalc.machines.hoist.effects_winding import LAYER_MAP
 from ptmcalc.machines.hoist.loads import LOADS
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
@@ -54,9 +56,9 @@ KIND = MachineKind(
     title="hoist: rope, drum, motor, brake",
     spec=Hoist,
     loads=LOADS,
-    effects=EFFECTS_OF_MOTION,
+    effects=(*EFFECTS_OF_MOTION, LAYER_MAP),
     solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION),
+    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
     inspect=inspect,

@@ -1,5 +1,6 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
+import math
 from collections.abc import Iterator
 
 from ptmcalc.base import units
@@ -83,4 +84,12 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             lambda spec: 0.15 * rotor,
             lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
             "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        )
+    if any(scene.type == "winding" for scene in spec.all_scenes):
+        yield Assumption(
+            ("winding", "crossover"),
+            units.ANGLE,
+            lambda spec: math.radians(60),
+            lambda spec: Interval(math.radians(45), math.radians(75)),
+            "crossovers of drums grooved parallel reach over 60 to 70 deg; measure them",
         )

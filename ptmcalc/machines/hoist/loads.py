@@ -54,6 +54,14 @@ OF_THE_CLASS = (
     LoadInfo("mechanism_group", "group of the mechanism that its use asks (M)", units.RATIO, headline=False),
     LoadInfo("crane_group", "group of the crane that its use asks (A)", units.RATIO, headline=False),
 )
+OF_THE_WINDING = (
+    LoadInfo("winding_frequency", "natural frequency of the load on its rope", units.ANGULAR_FREQUENCY, governing=True),
+    LoadInfo("winding_displacement_max", "largest dynamic stretch of the rope", units.LENGTH),
+    LoadInfo("winding_stress_max", "largest dynamic stress of the rope", units.STRESS, governing=True),
+    LoadInfo("winding_stress_ratio", "dynamic over mean stress of the rope", units.RATIO, governing=True),
+    LoadInfo("winding_crossover_ratio", "crossovers over natural frequency", units.RATIO),
+    LoadInfo("winding_detuning", "least distance of the crossovers from resonance", units.RATIO),
+)
 STATIC = (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS)
 
-LOADS = (*STATIC, *MOTION)
+LOADS = (*STATIC, *MOTION, *OF_THE_WINDING)

@@ -97,6 +97,10 @@ class HoistChecks(CheckSettings):
     """largest torque of the gear over that of the even motion"""
     brake_reserve: PositiveRatio | None = None
     """least brake torque over that of the lowering load; by the group when left out"""
+    winding_stress_ratio: PositiveRatio = 0.1
+    """largest dynamic over mean stress of a rope that climbs to the next layer"""
+    crossover_detuning: PositiveRatio = 0.2
+    """least distance of the crossovers of a layer from resonance with the load, as a share of its frequency"""
 
 
 class HoistScene(Scene):

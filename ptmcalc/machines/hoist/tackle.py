@@ -1,5 +1,6 @@
 """What carries the load, as a designer writes it: reeving, rope, drum, and the structure it hangs on."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
@@ -149,6 +150,14 @@ class Winding(Fragment):
     """angle of the drum over which a crossover reaches; 60 deg is assumed when it is left out"""
     paper_modulus: PositiveStress | None = None
     """modulus in the formula of the winding paper, which takes that of the wire, 210 GPa, when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Between the crossovers the rope lies in its valleys."""
+        arc, count = given.number("crossover"), whole(given, "crossovers") or 2
+        if arc is not None and count > 0 and arc * count >= 2 * math.pi:
+            reason = f"{count} crossovers of {units.show(arc, units.ANGLE)} take more than the whole turn"
+            yield Conflict(("crossover",), reason, "write e.g. `crossover: 60 deg`")
 
 
 def whole(given: Given, key: str) -> int | None:

@@ -4,5 +4,8 @@ from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS
 from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
 from ptmcalc.machines.hoist.solvers.lifting_formulas import FORMULAS
 from ptmcalc.machines.hoist.solvers.two_mass import TWO_MASS
+from ptmcalc.machines.hoist.solvers.winding_corrected import WINDING_CORRECTED
+from ptmcalc.machines.hoist.solvers.winding_map import WINDING_MAP
+from ptmcalc.machines.hoist.solvers.winding_paper import WINDING_PAPER
 
-SOLVERS = (HOIST_STATICS, *FORMULAS, TWO_MASS, TRAIN)
+SOLVERS = (HOIST_STATICS, *FORMULAS, TWO_MASS, TRAIN, WINDING_PAPER, WINDING_CORRECTED, WINDING_MAP)

@@ -1,0 +1,66 @@
+"""The checks of a rope that climbs to its next layer."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.machines.hoist.spec import Hoist, WindUp
+
+WINDING = frozenset({WindUp})
+
+
+def _speed_key(spec: Hoist, scene: WindUp) -> KeyPath:
+    return ("speed", "drum" if spec.speed.drum is not None else "main")
+
+
+def _most_ratio(spec: Hoist, scene: WindUp) -> Estimate:
+    """Largest dynamic over mean stress of the rope, `checks: {winding_stress_ratio: ...}`.
+
+    **Range** any rope.
+    **Error** none: a given value.
+    **Source** an engineering choice of 10 %: what the safety factors of ropes, chosen by static pulls, easily bear.
+    """
+    return Estimate.exact(spec.checks.winding_stress_ratio)
+
+
+def _least_detuning(spec: Hoist, scene: WindUp) -> Estimate:
+    """Least distance of the crossovers from resonance, `checks: {crossover_detuning: ...}`.
+
+    **Range** light damping.
+    **Error** none: a given value.
+    **Source** an engineering choice of 20 %, beside which an undamped swing is magnified three times.
+    """
+    return Estimate.exact(spec.checks.crossover_detuning)
+
+
+WINDING_STRESS: Check[Hoist, WindUp] = Check(
+    code="HST140",
+    title="too much dynamic stress as the rope climbs a layer",
+    scenes=WINDING,
+    loads=("winding_stress_ratio",),
+    sense=Sense.AT_MOST,
+    limit=_most_ratio,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _speed_key(spec, scene),
+    repair=_speed_key,
+    what="The largest dynamic stress of the rope while it climbs to a layer and crosses over on it, over its mean.",
+    why="The rope's speed jumps with the radius of the drum and the load swings on its rope; the safety factor of"
+    " the rope knows static pulls only.",
+    formula="s_dyn/s_mean <= limit;   of a sudden climb w dR k n/(m g)",
+    source="Fidrovska and Varchenko, put right; the limit an engineering choice",
+)
+CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
+    code="HST141",
+    title="a resonance of the load with the rope's crossovers",
+    scenes=WINDING,
+    loads=("winding_detuning",),
+    sense=Sense.AT_LEAST,
+    limit=_least_detuning,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _speed_key(spec, scene),
+    repair=_speed_key,
+    what="The distance of the frequency of the crossovers from that of the load on its rope, while a layer is wound.",
+    why="Crossovers come in even time; near resonance the swing grows turn by turn, for a rope hardly damps it.",
+    formula="|n w/k - 1| >= limit for all lengths of the rope on the layer",
+    source="resonance of an oscillator; the limit an engineering choice",
+)
+CHECKS_OF_WINDING: tuple[AnyCheck, ...] = (WINDING_STRESS, CROSSOVER_RESONANCE)

@@ -1,0 +1,61 @@
+"""The effect of the drum's layer map on the load."""
+
+from collections.abc import Mapping
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.machines.hoist.climb import climb, radius_map, rope, sudden_ratio
+from ptmcalc.machines.hoist.model import filled
+from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.numerics.hauling import largest_possible
+
+LAYER_MAP_THRESHOLD = 0.02
+CHANGED = ("winding_displacement_max", "winding_stress_max", "winding_stress_ratio")
+"""Loads that the layer map changes."""
+
+
+def layer_map_criterion(spec: Hoist, scene: WindUp) -> Criterion:
+    """Dynamic over mean stress if the rope climbed at once.
+
+        w dR k n/(m g)
+
+    **Range** any drum in layers.
+    **Error** an upper bound for one climb; crossovers on the layer can add up to more.
+    **Source** `laws.winding.sudden_ratio`; the threshold of 2 % is an engineering choice.
+    """
+    value = sudden_ratio(spec, scene)
+    meaning = "dynamic over mean stress of a sudden climb"
+    return Criterion("ωΔr k/(m g)", value, LAYER_MAP_THRESHOLD, meaning, "laws.winding")
+
+
+def layer_map_bound(spec: Hoist, scene: WindUp, loads: Mapping[str, Estimate]) -> Mapping[str, Interval]:
+    """From nothing to what the climb and all crossovers of the layer give if every one meets the swing at its worst.
+
+        |C_j| <= |C_(j-1)| exp(-zeta theta) + S^(1/2) |e_p - e_p'| ...   (`numerics.hauling.largest_possible`)
+
+    **Range** a load that hung still before the climb; unbounded where the drum takes in all the rope.
+    **Error** a bound; without damping it grows with the number of crossovers.
+    **Source** derived in `numerics.hauling`.
+    """
+    try:
+        strain = largest_possible(radius_map(spec, scene), climb(spec, scene).drum_speed, rope(spec, scene))
+    except NumericsError:
+        return dict.fromkeys(CHANGED, ANYTHING)
+    case = climb(spec, scene)
+    stress = strain * filled(spec.rope.modulus)
+    most = dict(zip(CHANGED, (strain * case.length, stress, stress / case.mean_stress), strict=True))
+    return {
+        name: Interval(min(-loads[name].low, 0.0), max(most[name] - loads[name].high, 0.0))
+        for name in CHANGED
+        if name in loads
+    }
+
+
+LAYER_MAP: Effect[Hoist, WindUp] = Effect(
+    name="layer_map",
+    title="climb and crossovers of the layer",
+    scenes=frozenset({WindUp}),
+    criterion=layer_map_criterion,
+    bound=layer_map_bound,
+)

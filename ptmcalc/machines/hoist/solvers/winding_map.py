@@ -1,0 +1,87 @@
+"""The load on its rope over the map of the drum: the climb, every crossover of the layer, the rope ever shorter."""
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist.climb import (
+    FloatArray,
+    climb,
+    crossover_ratios,
+    detuning,
+    histories,
+    radius_map,
+    rope,
+    turns,
+)
+from ptmcalc.machines.hoist.loads import OF_THE_WINDING
+from ptmcalc.machines.hoist.model import filled
+from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.numerics.hauling import haul
+
+
+def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
+    """Stretch and stress of the rope from the climb to the end of the layer, or until the hook is up.
+
+        (s e')' + 2 zeta (kappa s)^(1/2) e' + kappa e = V',   V = w R(f),   s' = -V/(1 + e_0)
+
+    R goes straight between the corners of `laws.winding.winding_radius`.
+
+    **Range** a load that hung still before the climb, an even drum, a rope without mass that stays taut.
+    **Error** told: `numerics.hauling`.
+    **Source** `numerics.hauling`.
+
+    Raises:
+        NumericsError: for a rope that the drum takes in whole, or that goes slack.
+    """
+    case, modulus = climb(spec, scene), filled(spec.rope.modulus)
+    hanging = rope(spec, scene)
+    motion = haul(radius_map(spec, scene), case.drum_speed, hanging)
+    most, least = motion.extremes()
+    if least.value - least.error <= -hanging.static_strain:
+        raise NumericsError("NUM102", f"the rope goes slack {least.time:.3g} s after the climb begins")
+    length = float(motion.rope_length(most.time)) * (1 + hanging.static_strain)
+    at = {"time": most.time}
+    factors = {
+        "winding_displacement_max": length,
+        "winding_stress_max": modulus,
+        "winding_stress_ratio": modulus / case.mean_stress,
+    }
+    strain = Estimate.within(most.value, most.error)
+    loads = {name: Found(Estimate.within(strain.value * by, strain.numerical * by), at) for name, by in factors.items()}
+    loads |= {
+        "winding_frequency": Found(Estimate.exact(case.frequency)),
+        "winding_crossover_ratio": Found(Estimate.exact(crossover_ratios(spec, scene)[1])),
+        "winding_detuning": Found(Estimate.exact(detuning(spec, scene))),
+    }
+
+    def stretch_and_stress(time: FloatArray) -> tuple[FloatArray, FloatArray]:
+        force = motion.at(time)[1]
+        return force * motion.rope_length(time) * (1 + hanging.static_strain), force * modulus
+
+    end = float(motion.times[-1])
+    return Result(
+        loads,
+        work=len(motion.offsets),
+        window=(0.0, end),
+        histories=lambda: histories(end, case.frequency, stretch_and_stress, case.mean_stress),
+    )
+
+
+def cost(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> float:
+    """Predicted seconds: three stretches a crossover."""
+    return 4e-3 + 2.5e-5 * turns(spec, scene) * spec.winding.crossovers
+
+
+WINDING_MAP: Solver[Hoist, WindUp] = Solver(
+    name="winding_map",
+    title="climb and crossovers of a layer on a shortening rope",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({WindUp}),
+    represents=frozenset({"layer_map"}),
+    gives=frozenset(info.name for info in OF_THE_WINDING),
+    run=run,
+    cost=cost,
+    source="derived in ptmcalc.numerics.hauling",
+    always=frozenset({"layer_map"}),
+)
