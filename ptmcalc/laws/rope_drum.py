@@ -6,6 +6,11 @@ valleys of the one below (`nested`), which for even layers are one fewer than it
 
 import math
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
 NESTED, SQUARE = "nested", "square"
 
 
@@ -67,7 +72,7 @@ def turns_in_layer(turns: float, packing: str, layer: int) -> float:
     Args:
         turns: N, of the first layer [1].
         packing: `nested` or `square`.
-        layer: from 1.
+        layer: k, from 1.
 
     Returns:
         turns, not below 0 [1].
@@ -107,6 +112,36 @@ def drum_capacity(
     )
 
 
+def length_below(
+    layer: ArrayLike, drum_diameter: float, rope_diameter: float, turns: float, layer_step: float, packing: str
+) -> FloatArray:
+    """Length of rope on a drum as a layer begins: what the full layers below it hold.
+
+        l = 2 pi (sum of odd layers R_k N + sum of even layers R_k N')
+
+    Args:
+        layer: k, whole numbers from 1 [1].
+        drum_diameter: D, of the surface the rope lies on [m].
+        rope_diameter: d [m].
+        turns: N, of the first layer; N' of `turns_in_layer` [1].
+        layer_step: of `layer_step` [m].
+        packing: `nested` or `square`.
+
+    Returns:
+        l [m].
+
+    **Range** as `drum_capacity`.
+    **Error** as `drum_capacity`.
+    **Source** sums of whole numbers: o odd layers have the radii R_1 + 2 j step, e even ones R_1 + (2 j + 1) step.
+    """
+    below = np.asarray(layer, float) - 1
+    first = (drum_diameter + rope_diameter) / 2
+    odd, even = np.ceil(below / 2), np.floor(below / 2)
+    held = turns * odd * (first + (odd - 1) * layer_step)
+    held = held + turns_in_layer(turns, packing, 2) * even * (first + even * layer_step)
+    return np.asarray(2 * np.pi * held)
+
+
 def turns_for_length(
     length: float, drum_diameter: float, rope_diameter: float, turns: float, layer_step: float, packing: str
 ) -> tuple[float, int]:
@@ -125,15 +160,10 @@ def turns_for_length(
     Returns:
         turns altogether [1], and the layers they lie in [1].
 
-    Raises:
-        ValueError: for a drum that takes less than two turns side by side.
-
-    **Range** as `drum_capacity`; the flanges are not looked at.
+    **Range** as `drum_capacity`; N > 0; the flanges are not looked at.
     **Error** as `drum_capacity`.
     **Source** geometry.
     """
-    if turns < 2:
-        raise ValueError("a drum takes two turns side by side at least")
     # whole pairs of layers are counted at once: a drum that is far too short holds its rope in very many layers
     even = turns_in_layer(turns, packing, 2)
     done, layer, rest = 0.0, 1, length

@@ -93,6 +93,12 @@ class TestDrum:
         expected = layers_turn_by_turn(length, 0.15875, step, 36, packing == "nested")
         assert (turns, layers) == (pytest.approx(expected[0], rel=1e-12), expected[1])
 
+    @pytest.mark.parametrize("packing", ["nested", "square"])
+    def test_what_lies_below_a_layer_is_what_the_layers_below_take(self, packing: str) -> None:
+        below = rope_drum.length_below(np.arange(1, 9), 0.3, 0.0175, 36.0, 0.0152, packing)
+        rooms = [rope_drum.drum_capacity(0.3, 0.0175, 36.0, k, 0.0152, packing) for k in range(8)]
+        assert below == pytest.approx(rooms, rel=1e-13)
+
     def test_a_drum_far_too_short_still_counts_its_layers(self) -> None:
         turns, layers = rope_drum.turns_for_length(4e4, 0.3, 0.0175, 3.0, 0.0152, "nested")
         expected = layers_turn_by_turn(4e4, 0.15875, 0.0152, 3, nested=True)

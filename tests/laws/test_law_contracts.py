@@ -512,6 +512,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rope_drum.layer_radius: [(0.3, 0.0175, 0.0152, 3)],
     rope_drum.turns_in_layer: [(30.0, packing, 2) for packing in PACKINGS],
     rope_drum.drum_capacity: [(0.3, 0.0175, 30.0, 5, 0.0152, packing) for packing in PACKINGS],
+    rope_drum.length_below: [(5.0, 0.3, 0.0175, 30.0, 0.0152, packing) for packing in PACKINGS],
     rope_drum.turns_for_length: [(length, 0.3, 0.0175, 30.0, 0.0152, p) for length in (9.0, 163.0) for p in PACKINGS],
     rope_drum.drum_length_required: [(163.0, 0.3, 0.0175, 0.0195, 5, 0.0152, packing) for packing in PACKINGS],
     rope_drum.fleet_angle: [(0.5, 0.05, 6.0)],
@@ -633,7 +634,6 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     belt_section.minimum_pulley_diameter: [(ValueError, ("rubber", 0.006))],
     stopping.brake_torque_for_distance: [(ValueError, (19e3, 9e3, 0.5, 0.1, 0.65, 40.0, 0.9, 0.35, "seed"))],
     rope_drum.layer_step: [(ValueError, (0.0175, 0.0195, "loose")), (ValueError, (0.0175, 0.035, "nested"))],
-    rope_drum.turns_for_length: [(ValueError, (9.0, 0.3, 0.0175, 1.5, 0.0152, "nested"))],
     rope_drum.layer_factor: [(ValueError, (3,))],
     hoist_class.rope_safety_of_group: [(ValueError, ("M7", 2))],
     lift_off_standard.class_lift_off_speed: [

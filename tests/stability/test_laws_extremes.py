@@ -788,9 +788,13 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         rope_drum.drum_capacity,
         lambda d: (*d.positive(3), int(d.rng.integers(1, 20)), *d.positive(1), packed(d)),
     ),
+    "length_below": (
+        rope_drum.length_below,
+        lambda d: (int(d.rng.integers(1, 10**9)), *d.positive(4), packed(d)),
+    ),
     "turns_for_length": (
         rope_drum.turns_for_length,
-        lambda d: (*d.positive(3), 2 + d.positive(1)[0], *d.positive(1), packed(d)),
+        lambda d: (*d.positive(3), 1e-3 + d.positive(1)[0], *d.positive(1), packed(d)),
     ),
     "drum_length_required": (
         rope_drum.drum_length_required,

@@ -3,8 +3,16 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ptmcalc.laws import gearing, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene
+
+FloatArray = NDArray[np.float64]
+
+MOST_LAYERS = 10_000
+"""Layers that are looked at one by one."""
 
 
 def filled(value: float | None) -> float:
@@ -184,21 +192,27 @@ def motor_side_inertia(spec: Hoist) -> float:
 def drum_torque(spec: Hoist, mass: float, hook_height: float | None, hauling: bool) -> float:
     """Torque of all ropes on the drum with the hook so high, or the largest of all heights [N*m].
 
-    The pull falls as the rope shortens, the radius grows with every layer: it is largest where a layer begins.
+    The pull falls evenly as the rope shortens, the radius grows with every layer: the torque is largest where a layer
+    begins. Of more layers than `MOST_LAYERS` some are taken together, on the safe side.
     """
-    heights = layer_heights(spec) if hook_height is None else [hook_height]
-    torques = []
-    for layer, height in enumerate(heights, 1):
-        radius = layer_radius(spec, layer) if hook_height is None else wound(spec, height).radius
-        torques.append(hoisting.drum_torque(pulls(spec, mass, height, hauling).drum, spec.reeving.ropes, radius))
-    return max(torques)
+    if hook_height is not None:
+        at_drum, radius = pulls(spec, mass, hook_height, hauling).drum, wound(spec, hook_height).radius
+        return hoisting.drum_torque(at_drum, spec.reeving.ropes, radius)
+    last = wound(spec, spec.height).layers
+    layers = np.asarray(np.unique(np.round(np.linspace(1, last, min(last, MOST_LAYERS)))))
+    begins = np.clip((_length_below(spec, layers) - dead_length(spec)) / falls_of_a_rope(spec), 0.0, spec.height)
+    lowest, highest = (pulls(spec, mass, height, hauling).drum for height in (0.0, spec.height))
+    course = lowest + (highest - lowest) * (begins / spec.height)
+    lasts = np.append(layers[1:] - 1, last)
+    radii = layer_radius(spec, 1) + (lasts - 1) * layer_step(spec)
+    return hoisting.drum_torque(float(np.max(course * radii)), spec.reeving.ropes, 1.0)
 
 
-def layer_heights(spec: Hoist) -> list[float]:
-    """Heights of the hook at which the layers of its rope begin, the first one at the bottom [m]."""
-    last, dead, falls = wound(spec, spec.height).layers, dead_length(spec), falls_of_a_rope(spec)
-    full = (capacity(spec, layers, spec.winding.packing) for layers in range(1, last))
-    return [0.0, *(max((length - dead) / falls, 0.0) for length in full)]
+def _length_below(spec: Hoist, layers: FloatArray) -> FloatArray:
+    """Rope on the drum as layers begin [m]."""
+    return rope_drum.length_below(
+        layers, spec.drum.diameter, spec.rope.diameter, layer_turns(spec), layer_step(spec), spec.winding.packing
+    )
 
 
 def capacity(spec: Hoist, layers: int, packing: str) -> float:

@@ -1,5 +1,6 @@
 """Solvers of the hoist, one a file, from the cheapest to the richest."""
 
+from ptmcalc.machines.hoist.solvers.hoist_handbook import HOIST_HANDBOOK
 from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS
 from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
 from ptmcalc.machines.hoist.solvers.lifting_formulas import FORMULAS
@@ -8,4 +9,13 @@ from ptmcalc.machines.hoist.solvers.winding_corrected import WINDING_CORRECTED
 from ptmcalc.machines.hoist.solvers.winding_map import WINDING_MAP
 from ptmcalc.machines.hoist.solvers.winding_paper import WINDING_PAPER
 
-SOLVERS = (HOIST_STATICS, *FORMULAS, TWO_MASS, TRAIN, WINDING_PAPER, WINDING_CORRECTED, WINDING_MAP)
+SOLVERS = (
+    HOIST_STATICS,
+    HOIST_HANDBOOK,
+    *FORMULAS,
+    TWO_MASS,
+    TRAIN,
+    WINDING_PAPER,
+    WINDING_CORRECTED,
+    WINDING_MAP,
+)

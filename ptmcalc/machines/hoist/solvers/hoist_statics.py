@@ -168,6 +168,6 @@ HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     represents=frozenset(),
     gives=frozenset(info.name for info in STATIC),
     run=run,
-    cost=lambda spec, scene, carried, level: 2e-4,
+    cost=lambda spec, scene, carried, level: 1e-3,
     source="balance of every sheave; geometry of the drum; power balance of the gearbox; IEC 60034-1; ISO 4301-1",
 )
