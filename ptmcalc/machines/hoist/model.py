@@ -200,7 +200,7 @@ def drum_torque(spec: Hoist, mass: float, hook_height: float | None, hauling: bo
         return hoisting.drum_torque(at_drum, spec.reeving.ropes, radius)
     last = wound(spec, spec.height).layers
     layers = np.asarray(np.unique(np.round(np.linspace(1, last, min(last, MOST_LAYERS)))))
-    begins = np.clip((_length_below(spec, layers) - dead_length(spec)) / falls_of_a_rope(spec), 0.0, spec.height)
+    begins = _begins(spec, layers)
     lowest, highest = (pulls(spec, mass, height, hauling).drum for height in (0.0, spec.height))
     course = lowest + (highest - lowest) * (begins / spec.height)
     lasts = np.append(layers[1:] - 1, last)
@@ -208,11 +208,18 @@ def drum_torque(spec: Hoist, mass: float, hook_height: float | None, hauling: bo
     return hoisting.drum_torque(float(np.max(course * radii)), spec.reeving.ropes, 1.0)
 
 
-def _length_below(spec: Hoist, layers: FloatArray) -> FloatArray:
-    """Rope on the drum as layers begin [m]."""
-    return rope_drum.length_below(
+def layer_heights(spec: Hoist) -> list[float]:
+    """Heights of the hook at which the layers of its rope begin, of `MOST_LAYERS` at most [m]."""
+    last = min(wound(spec, spec.height).layers, MOST_LAYERS)
+    return [float(height) for height in _begins(spec, np.arange(1.0, last + 1))]
+
+
+def _begins(spec: Hoist, layers: FloatArray) -> FloatArray:
+    """Heights of the hook at which layers begin [m]."""
+    below = rope_drum.length_below(
         layers, spec.drum.diameter, spec.rope.diameter, layer_turns(spec), layer_step(spec), spec.winding.packing
     )
+    return np.asarray(np.clip((below - dead_length(spec)) / falls_of_a_rope(spec), 0.0, spec.height))
 
 
 def capacity(spec: Hoist, layers: int, packing: str) -> float:
