@@ -33,6 +33,8 @@ _NEWTON = 6
 _LEAST = 0.25
 """Part of its length that a stretch leaves of the rope at least: the quadrature is exact to 1e-11 then."""
 _MOST_TURNS = 1e6
+_MOST_MISSED = 30.0
+"""Growth of an error over a stretch, as an exponent, behind which a bar says nothing any more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,9 +210,11 @@ def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
     **Source** module docstring.
 
     Raises:
-        NumericsError: for a map that takes in more rope than there is, or a rope that loses more than three quarters
-            of its length from corner to corner.
+        NumericsError: for a map that takes in more rope than there is, a rope that loses more than three quarters of
+            its length from corner to corner or faster than the load swings, a million swings, damping from 1 on.
     """
+    if rope.damping_ratio >= 1:
+        raise NumericsError("NUM102", "a load damped so much does not swing")
     times = radius.angles / drum_speed
     speeds = drum_speed * radius.radii
     steps = np.diff(times)
@@ -248,6 +252,8 @@ def _swung(still: Hauled, thetas: FloatArray) -> tuple[ComplexArray, FloatArray]
         largest = max(largest, abs(float(still.offsets[j])) + (norm + wrong) / float(size[j + 1]))
         shifted = largest * (still.rope.length - float(still.lengths[j + 1])) / float(still.lengths[j + 1]) / 2
         share = float(missed[j]) + shifted * float(thetas[j])
+        if not share < _MOST_MISSED:
+            raise NumericsError("NUM102", "the drum changes the rope's length faster than the load swings on it")
         wrong = wrong + (norm + wrong) * math.expm1(share)
         amplitudes[j], error[j] = c, wrong
         end = c * complex(whole[j])

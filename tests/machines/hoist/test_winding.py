@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from support.design_files import problems_of
 from support.machines import changed, check_of, load_of, report_of, scene_of
 from support.winding import DIAMETERS, PAPER, PRINTED, general, hoist, paper_force, variant
 
@@ -191,6 +192,52 @@ class TestEffect:
         report = report_of(changed(PAPER, checks={"winding_stress_ratio": 0.0016}))
         assert check_of(scene_of(report), "HST140").verdict is Verdict.PASS
         assert one(report, "winding_stress_ratio").solver == "winding_map"
+
+
+class TestBadInput:
+    @pytest.mark.parametrize(
+        ("changes", "path", "said"),
+        [
+            ({"scenes": [{"type": "winding", "load": "empty"}]}, "load", "without a mass"),
+            ({"scenes": [{"type": "winding", "hook_height": "40 m"}]}, "hook_height", "no rope is free"),
+            ({"winding__crossover": "181 deg"}, "crossover", "more than the whole turn"),
+        ],
+    )
+    def test_is_told_at_its_key(self, changes: dict[str, Any], path: str, said: str) -> None:
+        (problem,) = problems_of(changed(PAPER, **changes))
+        assert problem.path[-1] == path
+        assert said in problem.message
+        assert problem.hint
+
+    @pytest.mark.parametrize(
+        "changes",
+        [
+            {"speed__drum": "1e6 rpm"},
+            {"speed__drum": "1e-9 rpm"},
+            {"load": "1e9 t"},
+            {"load": "1e-9 kg"},
+            {"rope__modulus": "1 Pa"},
+            {"rope__damping": 1},
+            {"height": "1 mm"},
+        ],
+    )
+    def test_what_nobody_can_compute_is_undecided(self, changes: dict[str, Any]) -> None:
+        report = report_of(changed(PAPER, **changes))
+        assert any(d.code in ("NUM101", "NUM102") for d in report.diagnostics)
+        assert check_of(scene_of(report), "HST140").verdict is Verdict.UNDECIDED
+
+    @pytest.mark.parametrize(
+        "changes",
+        [
+            {"rope__modulus": "1e6 GPa"},
+            {"height": "100 km"},
+            {"rope__damping": 0.999},
+            {"winding__crossover": "179.9999 deg"},
+            {"drum__length": "53 mm"},
+        ],
+    )
+    def test_the_rest_is_computed(self, changes: dict[str, Any]) -> None:
+        assert check_of(scene_of(report_of(changed(PAPER, **changes))), "HST140").verdict is Verdict.PASS
 
 
 class TestFindings:
