@@ -19,6 +19,8 @@ _WELL_POSED = 1e-6
 WORTH_A_LOOK = 400.0
 """Radians to come of the fastest component above which it is worth asking whether it has faded."""
 MOST_PANELS = 32
+_NOT_THERE = 8 * float(np.finfo(float).eps)
+"""Share of what it adds up below which a component is rounding."""
 _FEW = 4
 _ROUNDING = 1e-12
 _POWER_OF_TWO = 0.5
@@ -200,6 +202,8 @@ class Chunk:
 class _Components:
     """The components of a motion that can be told apart: how fast each is, what finds it, and who sees it.
 
+    What is no more than rounding of the state is not there: a stiff link under a slow load never shows less.
+
     Eigenvectors only say which panel is short enough, never how the state moves. A component whose eigenvector is not
     well separated (a free mass, coinciding frequencies) counts as always there.
     """
@@ -218,7 +222,9 @@ class _Components:
         limits = self.magnitudes @ np.abs(state)
         watched = limits[len(limits) - len(sizes) :]
         np.maximum(watched, sizes, out=watched)
-        seen = np.abs(self.shares @ state)[:, None] * self.shapes > faded * limits + 1e-290
+        share = np.abs(self.shares @ state)
+        share[share <= _NOT_THERE * (np.abs(self.shares) @ np.abs(state))] = 0.0
+        seen = share[:, None] * self.shapes > faded * limits + 1e-290
         there = ~self.posed | seen.any(axis=1)
         return float(self.speeds[there].max(initial=0.0))
 

@@ -11,6 +11,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.machines.hoist.moving import (
     DRIVE,
+    FLANK,
     GEARBOX,
     GROUND,
     HOOK,
@@ -109,7 +110,9 @@ def _gear_torque(course: Course) -> tuple[float, float]:
     """Largest torque of the gear on the drum shaft."""
     shaft = course.case.named("link", SHAFT)
     if shaft is not None:
-        return course.largest("link", shaft)
+        flank = course.case.named("link", FLANK)
+        found = [course.largest("link", index) for index in (shaft, flank) if index is not None]
+        return max(found)
     mesh = course.case.named("mesh", GEARBOX)
     assert mesh is not None
     return course.largest("mesh", mesh)

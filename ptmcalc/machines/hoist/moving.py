@@ -23,7 +23,6 @@ from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Rel
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import (
     CLAMPED,
-    LINEAR,
     NO_PULL,
     RIGID,
     Body,
@@ -45,7 +44,8 @@ STRUCTURE, GEAR = "structure", "gear_elasticity"
 """Effects that a case carries or leaves out."""
 BACKLASH = "gear_backlash"
 MOTOR, NODE, DRUM, HOOK, LOAD, BRIDGE, MAINS = "motor", "gear", "drum", "hook", "load", "structure", "set speed"
-ROPE, GROUND, SHAFT, GEARBOX, TACKLE = "rope", "ground", "gear shaft", "gearbox", "tackle"
+ROPE, GROUND, GEARBOX, TACKLE = "rope", "ground", "gearbox", "tackle"
+SHAFT, FLANK = "gear shaft", "gear shaft, back of the teeth"
 BRAKE, DRIVE = "brake", "drive"
 _STEEL = 7850.0
 _PERIODS = 6
@@ -392,9 +392,13 @@ class _Builder:
             between = motor / (1 + motor / self._drum_inertia)
             assert self.spec.gearbox is not None
             damping = 2 * self.spec.gearbox.damping * math.sqrt(self.torsion * between)
-            law = CLAMPED if self.play else LINEAR
             first, second = self.at(NODE), self.at(DRUM)
-            yield Spring(SHAFT, first, second, self.torsion, damping, self.play, law, rest=-self._twist)
+            if not self.play:
+                yield Spring(SHAFT, first, second, self.torsion, damping, rest=-self._twist)
+            else:  # a spring for each flank: from the middle of the play a small twist would be lost in rounding
+                rest = self.play / 2 - self._twist
+                yield Spring(SHAFT, first, second, self.torsion, damping, law=CLAMPED, side=1, rest=rest)
+                yield Spring(FLANK, first, second, self.torsion, damping, law=CLAMPED, side=-1, rest=rest - self.play)
         k = self._hook_stiffness
         damping = 2 * self.spec.rope.damping * math.sqrt(k * self.mass)
         over = self.at(BRIDGE) if self.bridge is not None else None
@@ -485,8 +489,8 @@ class _Builder:
         limiter = self.spec.limiter
         assert limiter is not None
         level = limiter.factor * (self.spec.load + self.spec.hook_block) * self.spec.gravity
-        rope = (self.bridge is not None) + (self.torsion is not None)
-        return Trigger(rope, "force", level, rising=True)
+        before = (self.bridge is not None) + (self.torsion is not None) * (2 if self.play else 1)
+        return Trigger(before, "force", level, rising=True)
 
     def _drives(self) -> Iterator[Drive]:
         yield Drive.of("weight", self.at(LOAD), Signal.constant(-self.weight))
