@@ -145,11 +145,15 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...], names: frozenset[s
 
 
 def _in_order(scenes: Iterable[SceneReport], names: frozenset[str]) -> list[LoadInfo]:
-    """The loads of these names: those of the fullest scene, and each of another behind the one it follows there."""
+    """The loads of these names: those of the fullest scene, and each of another behind the one it follows there.
+
+    A scene that shares none of its loads with those before it comes last.
+    """
     infos: list[LoadInfo] = []
     for scene in sorted(scenes, key=lambda scene: -len(scene.loads)):
-        place = 0
-        for info in (load.info for load in scene.loads if load.info.name in names):
+        own = [load.info for load in scene.loads if load.info.name in names]
+        place = next((infos.index(info) for info in own if info in infos), len(infos))
+        for info in own:
             if info not in infos:
                 infos.insert(place, info)
             place = infos.index(info) + 1
