@@ -1,7 +1,7 @@
 """A climb of the rope to its next layer as numbers: the load on its rope, the radius of the drum over its angle."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -125,7 +125,8 @@ def place_of_the_climb(spec: Hoist, scene: WindUp) -> tuple[Finding, ...]:
     takes = f"scene `{scene.label}` takes the hook at its lowest, where the rope is longest;"
     if scene.layer > len(heights):
         message = f"{takes} on this drum it never climbs to layer {scene.layer}"
-        return (Finding("NUM104", message, ("scenes",), f"write `layer: {max(len(heights), 2)}`"),)
+        hint = f"write `layer: {len(heights)}`" if len(heights) > 1 else "delete the scene"
+        return (Finding("NUM104", message, ("scenes",), hint),)
     said = units.show(heights[scene.layer - 1], units.SPAN)
     message = f"{takes} on this drum it climbs to layer {scene.layer} with the hook at {said}"
     return (Finding("NUM104", message, ("scenes",), f"write `hook_height: {said}`"),)
@@ -133,7 +134,7 @@ def place_of_the_climb(spec: Hoist, scene: WindUp) -> tuple[Finding, ...]:
 
 def histories(
     end: float, frequency: float, stretch_and_stress: Callable[[FloatArray], tuple[FloatArray, FloatArray]], mean: float
-) -> Mapping[str, History]:
+) -> dict[str, History]:
     """Stretch, stress and its ratio to the mean over time from 0."""
     count = min(MOST_SAMPLES, 201 + math.ceil(end * frequency / (2 * math.pi) * PER_PERIOD))
     times = np.linspace(0.0, end, count)

@@ -62,6 +62,10 @@ OF_THE_WINDING = (
     LoadInfo("winding_crossover_ratio", "crossovers over natural frequency", units.RATIO),
     LoadInfo("winding_detuning", "least distance of the crossovers from resonance", units.RATIO),
 )
+OF_THE_PAPER = (
+    LoadInfo("winding_displacement_paper", "stretch of the rope by the winding paper", units.LENGTH, headline=False),
+    LoadInfo("winding_stress_paper", "stress of the rope by the winding paper", units.STRESS, headline=False),
+)
 STATIC = (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS)
 
-LOADS = (*STATIC, *MOTION, *OF_THE_WINDING)
+LOADS = (*STATIC, *MOTION, *OF_THE_WINDING, *OF_THE_PAPER)

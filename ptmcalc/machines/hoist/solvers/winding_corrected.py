@@ -4,11 +4,11 @@ import math
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import winding
 from ptmcalc.machines.hoist.climb import climb, crossover_ratios, detuning, histories, place_of_the_climb
-from ptmcalc.machines.hoist.loads import OF_THE_WINDING
+from ptmcalc.machines.hoist.loads import OF_THE_PAPER, OF_THE_WINDING
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.solvers import winding_paper
 from ptmcalc.machines.hoist.spec import Hoist, WindUp
@@ -16,6 +16,11 @@ from ptmcalc.numerics.decay_pulse import DecayPulse
 
 CLAIMED = (0.07, 0.18)
 """Dynamic over mean stress that the paper claims."""
+OF_PAPER = {
+    "winding_displacement_max": "winding_displacement_paper",
+    "winding_stress_max": "winding_stress_paper",
+}
+"""Loads of the paper that are drawn over time beside ours, as in its figures."""
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
@@ -44,14 +49,23 @@ def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Resu
         "winding_crossover_ratio": Found(Estimate.exact(crossover_ratios(spec, scene)[1])),
         "winding_detuning": Found(Estimate.exact(detuning(spec, scene))),
     }
+    paper = winding_paper.run(spec, scene, carried, level)
+    loads |= {of_paper: paper.loads[name] for name, of_paper in OF_PAPER.items()}
+    claim = _claim(scene, paper.loads["winding_stress_ratio"].estimate.value, ratio.value)
+
+    def courses() -> dict[str, History]:
+        own = histories(
+            2 * pulse.duration, case.frequency, lambda t: (q := pulse.at(t)[0], q * per_stretch), case.mean_stress
+        )
+        printed = paper.histories()
+        return own | {of_paper: printed[name] for name, of_paper in OF_PAPER.items()}
+
     return Result(
         loads,
-        work=1,
+        work=2,
         window=(0.0, 2 * pulse.duration),
-        findings=(_claim(spec, scene, ratio.value), *place_of_the_climb(spec, scene)),
-        histories=lambda: histories(
-            2 * pulse.duration, case.frequency, lambda t: (q := pulse.at(t)[0], q * per_stretch), case.mean_stress
-        ),
+        findings=(claim, *place_of_the_climb(spec, scene)),
+        histories=courses,
     )
 
 
@@ -70,11 +84,9 @@ def _times(estimate: Estimate, factor: float) -> Estimate:
     return Estimate.within(estimate.value * factor, estimate.numerical * factor)
 
 
-def _claim(spec: Hoist, scene: WindUp, ratio: float) -> Finding:
+def _claim(scene: WindUp, of_paper: float, ratio: float) -> Finding:
     """What the paper claims, what its own equations give, and what follows with its errors put right."""
-    low, high, own, right = (
-        units.show(value, units.SHARE) for value in (*CLAIMED, winding_paper.ratio(spec, scene), ratio)
-    )
+    low, high, own, right = (units.show(share, units.SHARE) for share in (*CLAIMED, of_paper, ratio))
     message = (
         f"scene `{scene.label}`: dynamic stresses of {low} to {high} of the mean, as published for multilayer winding,"
         f" do not follow: the paper's own equations give {own} here, with tackle, rope and layer put right {right}"
@@ -88,7 +100,7 @@ WINDING_CORRECTED: Solver[Hoist, WindUp] = Solver(
     fidelity=Fidelity.MODAL,
     scenes=frozenset({WindUp}),
     represents=frozenset(),
-    gives=frozenset(info.name for info in OF_THE_WINDING),
+    gives=frozenset(info.name for info in (*OF_THE_WINDING, *OF_THE_PAPER)),
     run=run,
     cost=lambda spec, scene, carried, level: 3.5e-3,
     source="derived in ptmcalc.laws.winding and ptmcalc.numerics.decay_pulse",

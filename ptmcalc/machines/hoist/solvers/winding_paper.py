@@ -49,12 +49,6 @@ def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Resu
     )
 
 
-def ratio(spec: Hoist, scene: WindUp) -> float:
-    """Dynamic over mean stress by the paper's own equations [1]."""
-    stretch = abs(_pulse(spec, scene).largest().value)
-    return float(winding.stretch_stress(_modulus(spec), stretch, climb(spec, scene).length)) / _mean(spec, scene)
-
-
 def _modulus(spec: Hoist) -> float:
     return spec.winding.paper_modulus if spec.winding.paper_modulus is not None else WIRE
 
