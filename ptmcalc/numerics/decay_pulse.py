@@ -6,31 +6,22 @@ Duhamel's integral of exponentials is a divided difference of exp over the expon
 
     x = a (l_2 - l_1) t^3 exp[p_1 t, p_2 t, -l_1 t, -l_2 t]      x' = a (l_2 - l_1) t^2 (exp[all but q] + q t exp[all])
 
-q an exponent not beyond w. A divided difference is a quotient of two of lower order where its points lie farther
-apart than 1, and a power series about their mean where they do not; so nothing cancels where exponents meet
-(resonance of real exponents, critical damping, no spring) nor in short times. Quotients share their parts, and the
-series is summed only over the times that need it.
+q an exponent not beyond w; see `numerics.exponentials`. Nothing cancels where exponents meet (resonance of real
+exponents, critical damping, no spring) nor in short times.
 """
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.exponentials import differences
 from ptmcalc.numerics.free_motion import free_motion
 
 FloatArray = NDArray[np.float64]
-Values = NDArray[Any]
-"""Real or complex numbers."""
-Set = tuple[int, ...]
-"""Indices of the exponents of a divided difference; 0 and 1 are those of the system."""
 
-_TERMS = 18
-"""Of a series about the mean of points within 1 of each other, |offset| <= 3/4: (3/4)^18/18! is below rounding."""
-_FACTORIALS = np.array([float(math.factorial(k)) for k in range(_TERMS + 4)])
 _PER_PERIOD, _CHUNK, _MOST_CHUNKS = 16, 32, 64
 _PLACES = 160
 _NEWTON = 60
@@ -251,7 +242,7 @@ class DecayPulse:
         if abs(points[least]) > self.natural_frequency:
             least = min(everything, key=lambda i: abs(points[i]))
         rest = everything[:least] + everything[least + 1 :]
-        whole, part = _differences(points, [everything, rest], t)
+        whole, part = differences(points, (everything, rest), t)
         scale = self.acceleration * (self.fast - self.slow) * t * t
         turned = whole * t
         return scale * turned.real, scale * (part + points[least] * turned).real
@@ -269,9 +260,6 @@ def _spread(first: float, last: float) -> FloatArray:
     return np.geomspace(first, last, max(_PLACES, 8 * math.ceil(math.log10(last / first))))
 
 
-# --- divided differences of exp -----------------------------------------------------------------------------------
-
-
 def _roots(natural_frequency: float, damping_ratio: float) -> tuple[complex, complex]:
     """Exponents of the free vibration."""
     if damping_ratio < 1:
@@ -280,79 +268,3 @@ def _roots(natural_frequency: float, damping_ratio: float) -> tuple[complex, com
         return complex(decay, damped), complex(decay, -damped)
     sum_of = damping_ratio + math.sqrt((damping_ratio - 1) * (damping_ratio + 1))
     return complex(-natural_frequency / sum_of), complex(-natural_frequency * sum_of)
-
-
-def _mirrored(points: tuple[complex, ...], chosen: Set) -> tuple[Set, bool]:
-    """The set that stands for a set and its conjugate, and whether the set is that conjugate."""
-    if points[0].imag == 0 or (0 in chosen) == (1 in chosen) or 0 in chosen:
-        return chosen, False
-    return (0, *(i for i in chosen if i != 1)), True
-
-
-def _differences(points: tuple[complex, ...], wanted: list[Set], t: FloatArray) -> list[Values]:
-    """exp[p_i t for i in each wanted set] at rising times."""
-    split: dict[Set, tuple[Set, Set, complex]] = {}
-    near: dict[Set, int] = {}
-    start: dict[Set, int] = {}
-    for chosen in wanted:
-        start[_mirrored(points, chosen)[0]] = 0
-    for size in (4, 3, 2):
-        for chosen in [s for s in start if len(s) == size]:
-            width, i, j = max((abs(points[i] - points[j]), i, j) for i in chosen for j in chosen if j < i)
-            near[chosen] = int(np.searchsorted(t, 1 / width, "right")) if width > 0 else len(t)
-            children = tuple(s for s in chosen if s != j), tuple(s for s in chosen if s != i)
-            split[chosen] = (*children, points[i] - points[j])
-            if near[chosen] < len(t):
-                for child in children:
-                    key = _mirrored(points, child)[0]
-                    start[key] = min(start.get(key, len(t)), max(near[chosen], start[chosen]))
-    values: dict[Set, Values] = {}
-
-    def value(chosen: Set, begin: int) -> Values:
-        key, conjugate = _mirrored(points, chosen)
-        found = values[key][begin:]
-        return np.conj(found) if conjugate else found
-
-    for chosen in sorted(start, key=len):
-        real = _is_real(points, chosen)
-        found = np.empty(len(t), float if real else complex)
-        begin = start[chosen]
-        if len(chosen) == 1:
-            p = points[chosen[0]]
-            found[begin:] = np.exp((p.real if real else p) * t[begin:])
-        else:
-            turn = max(near[chosen], begin)
-            if turn > begin:
-                series = _series([points[i] for i in chosen], t[begin:turn])
-                found[begin:turn] = series.real if real else series
-            if turn < len(t):
-                first, second, apart = split[chosen]
-                if real and _mirrored(points, second)[1]:  # halves of each other's conjugate: no complex difference
-                    found[turn:] = value(first, turn).imag / (apart.imag * t[turn:])
-                else:
-                    quotient = (value(first, turn) - value(second, turn)) / (apart.real if apart.imag == 0 else apart)
-                    found[turn:] = (quotient.real if real else quotient) / t[turn:]
-        values[chosen] = found
-    return [value(chosen, 0) for chosen in wanted]
-
-
-def _is_real(points: tuple[complex, ...], chosen: Set) -> bool:
-    """Whether the conjugates of the points of a set are in it."""
-    return points[0].imag == 0 or (0 in chosen) == (1 in chosen)
-
-
-def _series(points: list[complex], t: FloatArray) -> Values:
-    """exp(c t) sum h_k t^k/(k + n)!, h_k the complete symmetric sums of the points about their mean c."""
-    order, centre = len(points) - 1, sum(points) / len(points)
-    width = max(abs(p - centre) for p in points) or 1.0
-    sums = [1.0 + 0j] + [0j] * _TERMS
-    for point in points:
-        offset = (point - centre) / width
-        for k in range(1, _TERMS + 1):
-            sums[k] += offset * sums[k - 1]
-    factors = np.array(sums) / _FACTORIALS[order : order + _TERMS + 1]
-    powers = np.multiply.accumulate([width * t] * _TERMS, axis=0)
-    total: Values = factors[0].real + factors[1:].real @ powers
-    if factors.imag.any():
-        total = total + 1j * (factors[0].imag + factors[1:].imag @ powers)
-    return np.asarray(np.exp((centre.real if centre.imag == 0 else centre) * t) * total)

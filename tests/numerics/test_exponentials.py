@@ -1,0 +1,46 @@
+"""Divided differences of exp against the corner of the exponential of a bidiagonal matrix (Opitz)."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from ptmcalc.numerics.exponentials import differences
+
+TIMES = np.array([0.0, 1e-6, 0.01, 0.2, 0.9, 1.1, 4.0])
+POINTS = {
+    "apart": (-1 + 5j, -1 - 5j, -3 + 0j, -96 + 0j),
+    "undamped": (2j, -2j, -0.5 + 0j, -4 + 0j),
+    "real": (-1 + 0j, -7 + 0j, -3 + 0j, -20 + 0j),
+    "one point": (-3 + 0j, -3 + 0j, -3 + 0j, -3 + 0j),
+    "nearly one point": (-3 + 1e-7j, -3 - 1e-7j, -3 + 0j, -3.0000001 + 0j),
+    "two pairs": (-3 + 0j, -3 + 0j, -50 + 0j, -50 + 0j),
+    "at rest": (0j, 0j, 0j, -2 + 0j),
+}
+SETS = ((0, 1, 2, 3), (1, 2, 3), (0, 1, 3), (0, 2), (1, 2), (2, 3), (1,), (3,))
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_are_the_corners_of_exponentials(name: str) -> None:
+    points = POINTS[name]
+    found = differences(points, SETS, TIMES)
+    for chosen, values in zip(SETS, found, strict=True):
+        order = len(chosen) - 1
+        for t, value in zip(TIMES, values, strict=True):
+            matrix = np.diag([points[i] * t for i in chosen]) + np.diag(np.ones(order), 1)
+            expected = expm(matrix)[0, order]
+            size = max(abs(expected), np.exp(max(points[i].real * t for i in chosen)))
+            assert (
+                abs(value - expected) <= (1e-9 if "nearly" in name else 1e-13) * size
+            )  # where the matrix has not more
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_are_real_where_their_points_are(name: str) -> None:
+    points = POINTS[name]
+    for chosen, values in zip(SETS, differences(points, SETS, TIMES), strict=True):
+        paired = points[0].imag == 0 or (0 in chosen) == (1 in chosen)
+        assert np.iscomplexobj(values) != paired
+
+
+def test_of_no_times_are_none() -> None:
+    assert [len(one) for one in differences(POINTS["apart"], SETS, np.empty(0))] == [0] * len(SETS)
