@@ -168,3 +168,27 @@ def hoist_start_time(
         )
     )
     return motor_speed / acceleration if acceleration > 0 else math.inf
+
+
+def load_frequency(stiffness: float, mass: float, structure_stiffness: float, structure_mass: float) -> float:
+    """Lowest natural frequency of a load on its rope under a structure that gives way, the drum held.
+
+        det[ K_b + K - m_b w^2,  -K;  -K,  K - M w^2 ] = 0,   (K/M)^(1/2) under a rigid one
+
+    Args:
+        stiffness: K, of the rope at the hook [N/m].
+        mass: M, on the hook [kg].
+        structure_stiffness: K_b; infinite for a rigid one [N/m].
+        structure_mass: m_b, that moves with it [kg].
+
+    Returns:
+        w [rad/s].
+
+    **Range** a rope without mass, a structure of one mode; m_b = 0 puts both springs in series.
+    **Error** exact for that model.
+    **Source** derived: the smaller root, written without a difference.
+    """
+    ratio = stiffness / structure_stiffness
+    own = ratio * structure_mass
+    width = math.sqrt((own - mass) ** 2 + ratio * mass * (2 * own + ratio * mass + 2 * mass))
+    return math.sqrt(2 * stiffness / (own + (1 + ratio) * mass + width))

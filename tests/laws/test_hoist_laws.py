@@ -175,6 +175,21 @@ class TestTorque:
         assert hoisting.hoist_start_time(90.0, 4e3, 0.5, 130.0, 101.0, 40.0, 0.9, 0.89) == math.inf
 
 
+class TestFrequency:
+    @pytest.mark.parametrize("structure", [(6e6, 6500.0), (1e9, 10.0), (1e3, 1e6), (6e6, 1e-6)])
+    def test_the_lower_of_two_modes(self, structure: tuple[float, float]) -> None:
+        held, mass = structure
+        stiffness = np.array([[held + 4e6, -4e6], [-4e6, 4e6]])
+        root = np.diag(1 / np.sqrt([mass, 12850.0]))
+        lowest = np.sqrt(np.linalg.eigvalsh(root @ stiffness @ root)[0])
+        assert hoisting.load_frequency(4e6, 12850.0, held, mass) == pytest.approx(float(lowest), rel=1e-6)
+
+    def test_a_rigid_structure_and_one_without_mass(self) -> None:
+        assert hoisting.load_frequency(4e6, 12850.0, math.inf, 9e3) == pytest.approx(math.sqrt(4e6 / 12850))
+        series = 1 / (1 / 4e6 + 1 / 6e6)
+        assert hoisting.load_frequency(4e6, 12850.0, 6e6, 0.0) == pytest.approx(math.sqrt(series / 12850))
+
+
 class TestClasses:
     def test_case_c27(self) -> None:
         cycles = np.array([2e4, 3e4, 5e4])

@@ -528,6 +528,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     hoisting.hoist_start_time: [
         (mean, 4e3, 0.5, 130.0, 101.0, 40.0, 0.9, 0.89, up) for mean in (90.0, 200.0) for up in (True, False)
     ],
+    hoisting.load_frequency: [(4e6, 12850.0, kb, mb) for kb in (6e6, np.inf) for mb in (0.0, 6500.0)],
     hoist_class.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
     hoist_class.equivalent_load: [(0.28, 3.0)],
     hoist_class.use_of_cycles: [(1e5,)],

@@ -815,6 +815,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda *given: min(hoisting.hoist_start_time(*given), 1e99),  # infinite where the motor stalls
         lambda d: (*d.positive(6), eta := max(d.share(), 0.51), 2 - 1 / eta, bool(d.rng.integers(2))),
     ),
+    "load_frequency": (hoisting.load_frequency, lambda d: tuple(d.positive(4))),
     "spectrum_factor": (hoist_class.spectrum_factor, lambda d: (np.full(4, 0.25), np.array([d.share()] * 4))),
     "equivalent_load": (hoist_class.equivalent_load, lambda d: (d.share(),)),
     "use_of_cycles": (hoist_class.use_of_cycles, lambda d: tuple(d.positive(1))),

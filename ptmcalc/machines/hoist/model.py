@@ -98,6 +98,13 @@ def hook_stiffness(spec: Hoist, hook_height: float) -> float:
     )
 
 
+def load_frequency(spec: Hoist, mass: float, hook_height: float) -> float:
+    """Lowest natural frequency of a mass on the hook, the drum held [rad/s]."""
+    under = spec.structure
+    held, moving = (under.stiffness, under.mass) if under is not None else (math.inf, 0.0)
+    return hoisting.load_frequency(hook_stiffness(spec, hook_height), mass, held, moving)
+
+
 # -- drum -----------------------------------------------------------------------------------------------------------
 
 

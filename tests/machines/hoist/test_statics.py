@@ -124,6 +124,14 @@ class TestTheCrane:
         assert value(scene, "rope_pull_max") == pytest.approx(value(bare, "rope_pull_max") / 0.985**2)
         assert value(scene, "rope_pull_lowering") == pytest.approx(value(bare, "rope_pull_lowering") * 0.985**2)
 
+    def test_the_load_swings_on_its_rope(self) -> None:
+        stiffness = 4 * 110e9 * 118e-6 / 13.1
+        rigid = math.sqrt(stiffness / 12850)
+        assert value(hoist_scene(CRANE), "natural_frequency") == pytest.approx(rigid)
+        soft = hoist_scene(changed(CRANE, structure={"stiffness": "6 MN/m", "mass": "0 kg"}))
+        series = 1 / (1 / stiffness + 1 / 6e6)
+        assert value(soft, "natural_frequency") == pytest.approx(math.sqrt(series / 12850))
+
     def test_the_height_of_the_hook(self) -> None:
         high = hoist_scene(changed(CRANE, scenes=[{"type": "run", "hook_height": "12 m"}]))
         assert value(high, "rope_stiffness") == pytest.approx(4 * 110e9 * 118e-6 / 1.1)

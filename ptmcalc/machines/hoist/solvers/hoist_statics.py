@@ -49,6 +49,8 @@ def _of_the_rope(spec: Hoist, scene: HoistScene) -> Numbers:
         "static_stretch": mass * spec.gravity / stiffness,
         "drum_ratio": spec.drum.diameter / d + 1,
     }
+    if mass > 0:
+        loads["natural_frequency"] = model.load_frequency(spec, mass, height)
     if spec.rope.breaking_force is not None:
         loads["rope_safety"] = wire_rope.rope_safety(spec.rope.breaking_force, pull)
     if given.sheave_diameter is not None:
@@ -166,7 +168,7 @@ HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=frozenset(info.name for info in STATIC),
+    gives=frozenset(info.name for info in STATIC) | {"natural_frequency"},
     run=run,
     cost=lambda spec, scene, carried, level: 1e-3,
     source="balance of every sheave; geometry of the drum; power balance of the gearbox; IEC 60034-1; ISO 4301-1",
