@@ -29,9 +29,8 @@ def test_are_the_corners_of_exponentials(name: str) -> None:
             matrix = np.diag([points[i] * t for i in chosen]) + np.diag(np.ones(order), 1)
             expected = expm(matrix)[0, order]
             size = max(abs(expected), np.exp(max(points[i].real * t for i in chosen)))
-            assert (
-                abs(value - expected) <= (1e-9 if "nearly" in name else 1e-13) * size
-            )  # where the matrix has not more
+            digits = 1e-9 if "nearly" in name else 1e-13  # the matrix has no more of points that nearly meet
+            assert abs(value - expected) <= digits * size
 
 
 @pytest.mark.parametrize("name", POINTS)
