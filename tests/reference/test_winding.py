@@ -84,3 +84,14 @@ def test_with_the_tackle() -> None:
 def test_height_at_which_a_sudden_climb_gives_what_the_paper_claims(share: float, height: float) -> None:
     k = 4 * winding.paper_frequency(2.1e11, 114e-6, 49050.0, 4 * height, 9.81)
     assert winding.sudden_ratio(SPEED, D * math.sqrt(3) / 2, k, 4, 1, 9.81) == pytest.approx(share, rel=STORED)
+
+
+def test_misprints() -> None:
+    """The branch after the pulse, with the sign as printed, jumps at its end."""
+    k, tau = 5.47, 5.0  # as printed
+    printed = 0.0
+    for a, sign in ((3.0, 1), (96.0, -1)):
+        swing = a * math.sin(k * tau) - k * math.cos(k * tau)
+        printed += sign * (swing + math.exp(-a * tau) * -k) / (a * a + k * k) / k
+    right = float(DecayPulse(k, 0.0, 3.0, 96.0, 1.0, tau).at(math.nextafter(tau, 6.0))[0])
+    assert printed - right == pytest.approx(-1.57192e-8, rel=STORED)
