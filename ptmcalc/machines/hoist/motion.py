@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.machines.hoist.moving import (
     DRIVE,
@@ -15,6 +15,7 @@ from ptmcalc.machines.hoist.moving import (
     GEARBOX,
     GROUND,
     HOOK,
+    LEAST_LEFT,
     LOAD,
     MOTOR,
     ROPE,
@@ -223,6 +224,25 @@ def _over_itself(found: dict[str, Found]) -> Found:
     return found["rope_force_share"]
 
 
+def _slowly(found: dict[str, Found], case: Case) -> dict[str, Found]:
+    """Loads of a release whose slowness nobody knows: between those of a quick one and of one without any swing."""
+    swung = {}
+    for name, one in found.items():
+        still = case.left_weight / (1.0 if "_force_m" in name else case.weight)
+        low, high = min(one.estimate.low, still), max(one.estimate.high, still)
+        swung[name] = Found(Estimate((low + high) / 2, low, high, one.estimate.numerical, (high - low) / 2), one.at)
+    return swung
+
+
+def _with_a_hook(found: dict[str, Found], case: Case) -> dict[str, Found]:
+    """Loads of a release of everything, which leaves a hook of our own: its weight, swinging, is in doubt."""
+    doubt = {}
+    for name, one in found.items():
+        size = 2 * case.left_weight / (1.0 if "_force_m" in name else case.weight)
+        doubt[name] = Found(one.estimate.widened(Interval(-size, size)), one.at)
+    return doubt
+
+
 def _over(force: Found, weight: float) -> Found:
     one = force.estimate
     return Found(
@@ -256,6 +276,10 @@ def result(scene: Moving, case: Case, level: int) -> Result:
     course = play(case, tolerance)
     others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
     found = loads(scene, course, others)
+    if case.left_weight <= LEAST_LEFT * case.weight:
+        found = _with_a_hook(found, case)
+    if isinstance(scene, Release) and scene.manner == "slow":
+        found = _slowly(found, case)
     found["natural_frequency"] = Found(Estimate.exact(float(frequencies(case.train).min(initial=math.inf))))
     findings = list(_remarks(scene, course))
     closes = 10 * tolerance if case.smooth else _CLOSES

@@ -53,6 +53,8 @@ _LONGEST = 600.0
 _PIECES = 64
 _SLOPES = 2.5
 """Steps in which the slope of a smooth torque curve is used, over its steepest."""
+LEAST_LEFT = 1e-3
+"""Mass that stays on the rope when the whole load comes off, over the load."""
 Moving = Lift | Start | Stop | LowerBrake | Release
 
 
@@ -73,12 +75,13 @@ class Reduced:
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A scene in numbers: the train, how long it is looked at, the weight and the rope at the hook, and the torque on
-    the drum while the load moves evenly in the scene's direction."""
+    """A scene in numbers: the train, how long it is looked at, the weight at its beginning and end and the rope
+    at the hook, and the torque on the drum while the load moves evenly in the scene's direction."""
 
     train: Train
     window: float
     weight: float
+    left_weight: float
     stiffness: float
     even_torque: float
     lowers: bool
@@ -268,11 +271,11 @@ class _Builder:
         self.set_speed = model.drum_speed(spec, getattr(scene, "speed", "main")) * self.ratio
 
     def _mass_after(self) -> float:
-        """What hangs on the rope in the scene; of a load that is gone a third of the rope is left [kg]."""
+        """What hangs on the rope in the scene; of a load that is gone a hook at least, a thousandth of it [kg]."""
         if not isinstance(self.scene, Release):
             return self.before
         left = self.before - self.scene.share * (self.before - self.spec.hook_block)
-        return max(left, rope_mass(self.spec, self.scene) / 3)
+        return max(left, LEAST_LEFT * self.before)
 
     def _direction(self) -> int:
         """1 where the hoist moves up, -1 down, 0 where it stands."""
@@ -314,7 +317,8 @@ class _Builder:
         window = self._window(train)
         losses = lowering_efficiency(self.spec) if self.way < 0 else 1 / hauling_efficiency(self.spec)
         even = self.held_weight * self.arm * losses
-        return Case(train, window, self.held_weight, self._hook_stiffness, even, self.way < 0, self.stops)
+        stiffness = self._hook_stiffness
+        return Case(train, window, self.held_weight, self.weight, stiffness, even, self.way < 0, self.stops)
 
     # -- what moves ---------------------------------------------------------------------------------------------
 
