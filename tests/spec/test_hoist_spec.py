@@ -9,7 +9,7 @@ from support.machines import changed
 
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.hoist.spec import LowerBrake, Release, Run, WindUp
+from ptmcalc.machines.hoist.spec import Lift, LowerBrake, Release, Run, WindUp
 
 
 def problems(data: dict[str, Any]) -> list[Diagnostic]:
@@ -124,9 +124,18 @@ class TestSeveralFaults:
 
 class TestScenes:
     def test_a_run_is_the_default(self) -> None:
-        spec = hoist_of(PAPER)
+        spec = hoist_of(changed(PAPER, scenes=None, brake=None))
         assert [type(scene) for scene in spec.all_scenes] == [Run]
         assert spec.all_scenes[0].label == "run_loaded"
+
+    def test_a_whole_hoist_lifts_and_lowers_too(self) -> None:
+        assert [type(scene) for scene in hoist_of(changed(PAPER, scenes=None)).all_scenes] == [Run, Lift, LowerBrake]
+
+    @pytest.mark.parametrize(("drive", "speed"), [("HD1", "main"), ("HD2", "creep"), ("HD4", "main")])
+    def test_a_load_is_lifted_off_as_its_drive_is_classed(self, drive: str, speed: str) -> None:
+        lift = hoist_of(changed(CRANE, scenes=None, class__drive=drive)).all_scenes[1]
+        assert isinstance(lift, Lift)
+        assert lift.speed == speed
 
     def test_what_moves_the_load_needs_a_drive(self) -> None:
         data = changed(PAPER, motor=None, scenes=[{"type": "start"}])

@@ -34,6 +34,7 @@ PAPER: dict[str, Any] = {
     "motor": {"inertia": "0.035 kg*m^2", "coupling_inertia": "0.01 kg*m^2", "mean_starting_torque": "75 N*m"},
     "brake": {"torque": "70 N*m"},
     "class": {"mechanism": "M5"},
+    "scenes": [{"type": "run"}],
 }
 """The machine of the paper on multilayer winding, with a drive: one rope, four falls, four layers."""
 
@@ -80,6 +81,7 @@ CRANE: dict[str, Any] = {
     "class": {"mechanism": "M5", "hoisting": "HC2", "drive": "HD2"},
     "duty": {"type": "S3", "factor": "40 %", "starts_per_hour": 180},
     "checks": {"hoop_stress": "150 MPa"},
+    "scenes": [{"type": "run"}],
 }
 """The hoist of an overhead crane: two ropes, two falls of each, one layer."""
 

@@ -13,10 +13,10 @@ from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
 from ptmcalc.machines.hoist.checks_winding import CHECKS_OF_WINDING
 from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
 from ptmcalc.machines.hoist.effects_winding import LAYER_MAP
-from ptmcalc.machines.hoist.loads import LOADS
+from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.spec import CREEPING, Hoist
 
 _SPEED_TOLERANCE = 0.05
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
@@ -42,7 +42,7 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
             ("rope", "modulus"),
             "write that of the rope on its metallic area, 90 to 130 GPa",
         )
-    if spec.classes.drive in ("HD2", "HD3") and spec.speed.creep is None:
+    if spec.classes.drive in CREEPING and spec.speed.creep is None:
         yield Finding(
             "SPC201",
             f"a drive of class {spec.classes.drive} has a creep speed",
@@ -62,4 +62,5 @@ KIND = MachineKind(
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
     inspect=inspect,
+    parts=parts,
 )

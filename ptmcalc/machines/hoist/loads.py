@@ -1,14 +1,18 @@
 """The loads a hoist can report."""
 
+from collections.abc import Iterator
+
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.hoist.loads_motion import MOTION
+from ptmcalc.machines.hoist.spec import Hoist
 
 OF_THE_ROPE = (
     LoadInfo("reeving_efficiency", "efficiency of tackle and deflection sheaves", units.RATIO),
     LoadInfo("rope_pull_max", "rope pull at the drum, hoisting", units.FORCE, governing=True),
     LoadInfo("rope_pull_lowering", "rope pull at the drum, lowering", units.FORCE),
     LoadInfo("rope_pull_empty", "smallest pull in the tackle, lowering empty", units.FORCE, headline=False),
+    LoadInfo("rope_pull_fall", "pull of a fall at its upper end, hoisting", units.FORCE, headline=False),
     LoadInfo("rope_safety", "rope safety Zp", units.RATIO, governing=True),
     LoadInfo("rope_length", "rope from drum to its end, hook lowest", units.SPAN),
     LoadInfo("rope_speed", "rope speed, first layer", units.SPEED),
@@ -32,6 +36,9 @@ OF_THE_DRUM = (
     LoadInfo("dead_wraps", "turns that stay on the drum", units.RATIO, headline=False),
     LoadInfo("fleet_angle", "fleet angle at the drum", units.ANGLE),
     LoadInfo("hoop_stress", "hoop stress of the drum shell", units.STRESS),
+    LoadInfo("layer_speed", "hook speed, layer", units.SPEED, headline=False),
+    LoadInfo("layer_torque", "torque at the drum as a layer begins, hoisting", units.TORQUE, headline=False),
+    LoadInfo("layer_pull", "rope pull on a layer by the torque of the first", units.FORCE, headline=False),
     LoadInfo("torque_drum", "torque at the drum, hoisting", units.TORQUE, governing=True),
 )
 OF_THE_DRIVE = (
@@ -69,3 +76,16 @@ OF_THE_PAPER = (
 STATIC = (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS)
 
 LOADS = (*STATIC, *MOTION, *OF_THE_WINDING, *OF_THE_PAPER)
+
+LAYERED = frozenset({"layer_speed", "layer_torque", "layer_pull"})
+
+
+def parts(spec: Hoist) -> Iterator[LoadInfo]:
+    """The loads of one hoist: fall by fall of a rope, the drum's first; layer by layer of the drum."""
+    for info in LOADS:
+        if info.name == "rope_pull_fall":
+            yield from (info.of(str(fall)) for fall in range(1, spec.reeving.falls // spec.reeving.ropes + 1))
+        elif info.name in LAYERED:
+            yield from (info.of(str(layer)) for layer in range(1, spec.drum.layers + 1))
+        else:
+            yield info

@@ -63,11 +63,20 @@ class Pulls:
     """smallest of all falls, at its lower end"""
 
 
+def fall_weight(spec: Hoist, hook_height: float) -> float:
+    """Of the rope in a fall [N]."""
+    return filled(spec.rope.mass) * fall_length(spec, hook_height) * spec.gravity
+
+
+def fall_pulls(spec: Hoist, mass: float, hook_height: float, hauling: bool) -> FloatArray:
+    """Pulls at the upper ends of the falls of one rope, that of the drum first [N]."""
+    load, efficiency = mass * spec.gravity / spec.reeving.ropes, filled(spec.reeving.sheave_efficiency)
+    return reeving.fall_pulls(load, falls_of_a_rope(spec), efficiency, fall_weight(spec, hook_height), hauling)
+
+
 def pulls(spec: Hoist, mass: float, hook_height: float, hauling: bool) -> Pulls:
     """Pulls of one rope with a mass on the hook, the rope's own weight in it."""
-    falls, weight = falls_of_a_rope(spec), filled(spec.rope.mass) * fall_length(spec, hook_height) * spec.gravity
-    load = mass * spec.gravity / spec.reeving.ropes
-    ends = reeving.fall_pulls(load, falls, filled(spec.reeving.sheave_efficiency), weight, hauling)
+    ends, weight = fall_pulls(spec, mass, hook_height, hauling), fall_weight(spec, hook_height)
     lost = deflection_efficiency(spec)
     at_drum = float(ends[0]) / lost if hauling else float(ends[0]) * lost
     return Pulls(at_drum, float(ends[0]), float(ends.min()) - weight)

@@ -184,6 +184,10 @@ class WindUp(HoistScene):
 AnyScene = Annotated[Run | Lift | Start | Stop | LowerBrake | Release | WindUp, Field(discriminator="type")]
 
 
+CREEPING = ("HD2", "HD3")
+"""Drive classes whose load is lifted off the ground at the creep speed (EN 13001-2, regular loads)."""
+
+
 class Hoist(MachineSpec):
     """A rope hoist: a load on a hook block, a tackle, a drum, a gearbox, a motor and a brake."""
 
@@ -223,7 +227,8 @@ class Hoist(MachineSpec):
     checks: HoistChecks = HoistChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a loaded run when left out"""
+    """what happens to the machine; a loaded run when left out, with a whole drive also a lift-off and a lowered load
+    that is braked"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -237,7 +242,12 @@ class Hoist(MachineSpec):
 
     @property
     def all_scenes(self) -> Sequence[HoistScene]:
-        return self.scenes if self.scenes is not None else (Run(),)
+        if self.scenes is not None:
+            return self.scenes
+        if self.motor is None or self.gearbox is None or self.brake is None:
+            return (Run(),)
+        creeps = self.speed.creep is not None and self.classes.drive in CREEPING
+        return (Run(), Lift(speed="creep" if creeps else "main"), LowerBrake())
 
     @property
     def settings(self) -> HoistChecks:

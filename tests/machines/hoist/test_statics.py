@@ -62,6 +62,23 @@ class TestThePaper:
         assert value(scene, "drum_layers") == layers
         assert value(scene, "drum_turns") == pytest.approx(turns)
 
+    def test_layer_by_layer(self) -> None:
+        """The pull a constant torque gives falls as D_1/D_k; the torque of the hanging load grows."""
+        scene = hoist_scene(PAPER)
+        radii = [0.15875 + k * 0.0175 * math.sqrt(3) / 2 for k in range(4)]
+        pull = value(scene, "rope_pull_max")
+        for k, radius in enumerate(radii, 1):
+            assert value(scene, f"layer_pull[{k}]") == pytest.approx(pull * radii[0] / radius)
+            assert value(scene, f"layer_speed[{k}]") == pytest.approx(12 * 2 * math.pi / 60 * radius / 4)
+        torques = [value(scene, f"layer_torque[{k}]") for k in range(1, 5)]
+        assert torques == sorted(torques)
+        assert torques[-1] == pytest.approx(value(scene, "torque_drum"))
+
+    def test_fall_by_fall(self) -> None:
+        scene = hoist_scene(PAPER)
+        pulls = [value(scene, f"rope_pull_fall[{k}]") for k in range(1, 5)]
+        assert pulls == pytest.approx(list(balanced_falls(5000 * G, 4, 0.98, 1.1 * 40 * G, True)[1]))
+
     def test_the_torque_is_largest_where_the_last_layer_begins(self) -> None:
         scene = hoist_scene(FREE)
         radius = 0.15875 + 3 * 0.0175 * math.sqrt(3) / 2

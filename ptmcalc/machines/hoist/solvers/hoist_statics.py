@@ -4,9 +4,9 @@ import math
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import hoist_class, reeving, rope_drum, wire_rope
+from ptmcalc.laws import hoist_class, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.drive_data import Duty, Motor
 from ptmcalc.machines.hoist.loads import STATIC
@@ -29,6 +29,7 @@ def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> 
     """
     loads = _of_the_rope(spec, scene) | _of_the_drum(spec, scene)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    found |= {name: Found(Estimate.exact(value)) for name, value in _part_by_part(spec, scene).items()}
     return Result(found | _of_the_drive(spec, scene) | _of_the_use(spec), work=1)
 
 
@@ -98,6 +99,21 @@ def _of_the_drum(spec: Hoist, scene: HoistScene) -> Numbers:
             drum.shell_thickness,
             factor,
         )
+    return loads
+
+
+def _part_by_part(spec: Hoist, scene: HoistScene) -> Numbers:
+    """Pulls of the falls; speed, torque and pull layer by layer."""
+    mass = model.hook_mass(spec, scene)
+    falls = model.fall_pulls(spec, mass, model.hook_height(scene), hauling=True)
+    loads = {of("rope_pull_fall", str(fall)): float(pull) for fall, pull in enumerate(falls, 1)}
+    first = model.pulls(spec, mass, 0.0, hauling=True).drum
+    for layer, height in enumerate(model.layer_heights(spec)[: spec.drum.layers], 1):
+        radius, name = model.layer_radius(spec, layer), str(layer)
+        pull = model.pulls(spec, mass, height, hauling=True).drum
+        loads[of("layer_speed", name)] = model.hook_speed(spec, layer=layer)
+        loads[of("layer_torque", name)] = hoisting.drum_torque(pull, spec.reeving.ropes, radius)
+        loads[of("layer_pull", name)] = first * model.layer_radius(spec, 1) / radius
     return loads
 
 
