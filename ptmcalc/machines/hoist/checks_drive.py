@@ -213,4 +213,38 @@ BRAKE: OneCheck = only(_brake_wanted)(
     )
 )
 
-CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE)
+
+def _heat_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Heat the rotor may take up in one start, from its data sheet.
+
+    **Range** motors whose rotor takes up the heat of slip itself.
+    **Error** none: a given value.
+    **Source** the maker's data.
+    """
+    allowed = spec.motor.start_heat if spec.motor is not None else None
+    return Estimate.exact(math.inf if allowed is None else allowed)
+
+
+def _heat_wanted(spec: Hoist, scene: HoistScene) -> bool:
+    return _driven(spec, scene) and spec.motor is not None and spec.motor.start_heat is not None
+
+
+START_HEAT: OneCheck = only(_heat_wanted)(
+    Check(
+        code="HST119",
+        title="too much heat of a start in the rotor",
+        scenes=RUNNING,
+        loads=("start_heat",),
+        sense=Sense.AT_MOST,
+        limit=_heat_limit,
+        needs=lambda spec, scene: (("gearbox",), ("motor", "no_load_speed")),
+        blame=lambda spec, scene, loads: ("motor", "start_heat"),
+        repair=lambda spec, scene: ("motor", "start_heat"),
+        what="A start with the hanging load heats the rotor no more than its data sheet allows.",
+        why="In a start of a cage motor the rotor takes up as much energy as it gives to what it moves, and more.",
+        formula="J w_0^2/2/(1 - M_load/M_mean) <= A",
+        source="energy of the slip; the maker's data",
+    )
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT)

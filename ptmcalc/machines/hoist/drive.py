@@ -1,8 +1,9 @@
 """The drive of a hoist as numbers: torques of even motion, the brake that holds, starts, heat over the duty."""
 
+import math
 from dataclasses import dataclass
 
-from ptmcalc.laws import brake, duty, hoisting
+from ptmcalc.laws import brake, duty, hoisting, inertia
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive_data import Gearbox, Motor
 from ptmcalc.machines.hoist.model import filled
@@ -51,6 +52,24 @@ def start_time(spec: Hoist, motor: Motor, mass: float, hook_height: float | None
         model.reverse_efficiency(spec),
         up,
     )
+
+
+def field_speed(motor: Motor) -> float | None:
+    """Speed of the motor without load, for induction motors that of the field; None where it is not known [rad/s]."""
+    if motor.no_load_speed is not None or motor.curve is None:
+        return motor.no_load_speed
+    return motor.curve.no_load_speed
+
+
+def start_heat(spec: Hoist, motor: Motor, field: float, mass: float, hook_height: float | None) -> float:
+    """In the rotor of one motor in a start upwards, everything rigid; infinite where it does not lift [J]."""
+    gear, efficiency = gearbox_of(spec), model.efficiency(spec)
+    share = torque_up(spec, mass, hook_height) / starting_torque(motor)
+    if share >= 1:
+        return math.inf
+    load = inertia.inertia_on_motor_shaft(model.load_inertia(spec, mass), gear.ratio, efficiency, inertia.DRIVE)
+    moved = model.motor_side_inertia(spec) + load
+    return duty.switching_heat(moved, field, 1.0, 0.0, load_share=share) / motor.count
 
 
 # -- brake ----------------------------------------------------------------------------------------------------------

@@ -50,6 +50,7 @@ OF_THE_DRIVE = (
     LoadInfo("start_time", "start time upwards, rigid", units.TIME),
     LoadInfo("torque_motor_rms", "heating motor torque (rms)", units.TORQUE, governing=True),
     LoadInfo("heating_utilisation", "heating torque over what the duty allows", units.SHARE, governing=True),
+    LoadInfo("start_heat", "heat of a start in the rotor of one motor", units.ENERGY),
     LoadInfo("starts_per_hour", "starts per hour", units.RATIO, headline=False),
     LoadInfo("brake_torque_static", "torque of the lowering load on the brake shaft", units.TORQUE),
     LoadInfo("brake_reserve_static", "brake torque over that of the load", units.RATIO, governing=True),

@@ -57,8 +57,6 @@ class Pulls:
 
     drum: float
     """at the drum"""
-    first: float
-    """of the fall that leads to the drum, at its upper end"""
     least: float
     """smallest of all falls, at its lower end"""
 
@@ -79,7 +77,7 @@ def pulls(spec: Hoist, mass: float, hook_height: float, hauling: bool) -> Pulls:
     ends, weight = fall_pulls(spec, mass, hook_height, hauling), fall_weight(spec, hook_height)
     lost = deflection_efficiency(spec)
     at_drum = float(ends[0]) / lost if hauling else float(ends[0]) * lost
-    return Pulls(at_drum, float(ends[0]), float(ends.min()) - weight)
+    return Pulls(at_drum, float(ends.min()) - weight)
 
 
 # -- rope -----------------------------------------------------------------------------------------------------------

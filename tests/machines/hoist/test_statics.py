@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from support.hoists import CRANE, PAPER, balanced_falls, hoist_of, hoist_scene, layers_turn_by_turn, value
 from support.machines import changed, check_of, load_of, report_of, scene_of
@@ -181,6 +182,20 @@ class TestTheCrane:
         on = 3600 * 0.4 / 240
         assert busy**2 - plain**2 == pytest.approx(8 * (calm**2 - plain**2))  # so many more starts in the hour
         assert busy**2 - plain**2 < 240**2 * up / on  # no start down takes as long
+
+    def test_the_rotor_takes_up_the_slip_of_a_start(self) -> None:
+        """Integrated over the start: the field turns on while the rotor comes up, and the difference is heat."""
+        data = changed(CRANE, motor__no_load_speed="1500 rpm", motor__start_heat="9 kJ")
+        scene = hoist_scene(data)
+        field = 1500 * 2 * math.pi / 60
+        time = value(scene, "start_time") * field / value(scene, "motor_speed")
+        rise = field / time  # to the speed of the field, evenly
+        at = np.linspace(0, time, 20001)
+        heat = float(np.trapezoid(240 * (field - rise * at), at))
+        assert value(scene, "start_heat") == pytest.approx(heat, rel=1e-4)
+        assert verdict(scene, "HST119") is Verdict.PASS
+        assert verdict(hoist_scene(changed(data, motor__start_heat="1 kJ")), "HST119") is Verdict.FAIL
+        assert verdict(hoist_scene(changed(data, motor__no_load_speed=None)), "HST119") is Verdict.NOT_CHECKED
 
     def test_a_motor_without_rest_is_rated_for_all_of_it(self) -> None:
         data = changed(CRANE, duty={"type": "S1"}, motor__rated_duty=None)

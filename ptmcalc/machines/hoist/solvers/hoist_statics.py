@@ -150,6 +150,9 @@ def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
 def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None, up: float) -> Numbers:
     loads = {"starting_reserve": drive.starting_torque(motor) / up if up > 0 else math.inf}
     loads["start_time"] = drive.start_time(spec, motor, mass, height, up=True)
+    field = drive.field_speed(motor)
+    if field is not None:
+        loads["start_heat"] = drive.start_heat(spec, motor, field, mass, height)
     if spec.duty is not None:
         loads["torque_motor_rms"] = drive.rms_torque(spec, motor)
         allowed = drive.permissible_torque(spec, motor)
