@@ -344,7 +344,7 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     found = _around_forces(loads, one.weight, rise)
     if "natural_frequency" in loads and math.isfinite(loads["natural_frequency"].value):
         found["natural_frequency"] = _relative(loads["natural_frequency"], gain)
-    for name in ("lift_off_time", "tension_time"):
+    for name in ("lift_off_time", "tension_time", "lift_off_speed", "stop_time"):
         if name in loads and math.isfinite(loads[name].value):
             found[name] = _relative(loads[name], gain)
     for name in ("stop_distance", "stop_distance_lowering"):

@@ -1,0 +1,155 @@
+"""Bars of a hoist in motion against integrations of its own: a rope with mass, and a rope that gets shorter."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+from support import hoist_ode
+from support.hoist_ode import Machine, Seen
+from support.machines import report_of, scene_of
+
+from ptmcalc.contract.report import LoadReport
+
+PIECES = 6
+TIGHTER = 1 / 3
+
+
+def random_hoist(rng: np.random.Generator, rope_share: float, structure: bool) -> tuple[Machine, dict[str, Any]]:
+    """A hoist by chance, as a witness knows it and as a file says it."""
+    load, falls = float(rng.uniform(2e3, 2e4)), int(rng.choice([2, 4]))
+    weight, length = load * 9.81, float(rng.uniform(6, 20))
+    deflection = float(10 ** rng.uniform(-2.2, -1))
+    stiffness, speed = weight / deflection, float(rng.uniform(0.1, 0.5)) * math.sqrt(9.81 * deflection)
+    diameter, gear, sheave = 0.02, float(rng.uniform(0.8, 0.98)), float(rng.uniform(0.97, 1.0))
+    arm = (0.4 + diameter) / 2 / falls
+    motor_speed = 100.0
+    ratio = motor_speed / (speed / arm)
+    tackle = sum(sheave**k for k in range(falls)) / falls
+    lowering = falls / sum(sheave**-k for k in range(falls))
+    motor = float(10 ** rng.uniform(0, 1)) * load * (arm / ratio) ** 2
+    drum = float(rng.uniform(0, 0.2)) * load * arm**2
+    static = weight * arm / ratio
+    share, free = float(rng.uniform(4, 12)), motor_speed
+    given = (float(rng.uniform(3, 20)) * stiffness, float(rng.uniform(0.2, 3)) * load) if structure else None
+    one = Machine(
+        load, stiffness, length, rope_share * load, arm, ratio, motor, drum, gear, tackle, lowering, speed,
+        share * static, free, float(rng.uniform(1.6, 3)) * static, float(rng.uniform(0, 0.2)),
+        float(rng.choice([0.0, 0.1])), given,
+    )  # fmt: skip
+    data: dict[str, Any] = {
+        "kind": "hoist",
+        "load": f"{load} kg",
+        "height": f"{length} m",
+        "speed": {"main": f"{speed} m/s"},
+        "reeving": {"falls": falls, "sheave_efficiency": sheave},
+        "rope": {
+            "diameter": f"{diameter} m",
+            "area": "200 mm^2",
+            "modulus": f"{stiffness * length / falls / 200e-6} Pa",
+            "mass": f"{rope_share * load / (length * falls)} kg/m",
+        },
+        "drum": {"diameter": "0.4 m", "length": "40 m", "pitch": "22 mm", "inertia": f"{drum} kg*m^2"},
+        "gearbox": {"ratio": ratio, "efficiency": gear},
+        "motor": {
+            "inertia": f"{motor} kg*m^2",
+            "coupling_inertia": "0 kg*m^2",
+            "curve": {
+                "type": "linear",
+                "starting_torque": f"{one.starting} N*m",
+                "no_load_speed": f"{free} rad/s",
+                "rated_torque": f"{static} N*m",
+            },
+        },
+        "brake": {"torque": f"{one.brake} N*m", "delay": f"{one.delay} s", "rise_time": f"{one.rise} s"},
+        "scenes": [{"type": "lift", "profile": {"shape": "curve"}}, {"type": "lower_brake"}],
+    }
+    if given is not None:
+        data["structure"] = {"stiffness": f"{given[0]} N/m", "mass": f"{given[1]} kg"}
+    return one, data
+
+
+def truths(one: Machine, scene: str, seen: Seen, pieces: int) -> Mapping[str, float]:
+    """What the witness says of each load."""
+    found = {"rope_force_max": seen.most, "natural_frequency": hoist_ode.natural_frequency(one, pieces)}
+    if one.structure is not None:
+        found["bridge_force_max"] = seen.bridge
+    if scene == "lift":
+        factor = seen.most / one.weight
+        return found | {"lift_off_factor": factor, "lift_off_time": seen.lifted, "lift_off_speed": seen.speed}
+    return found | {
+        "lowering_brake_factor": seen.most / one.weight,
+        "rope_force_min": seen.least,
+        "stop_time": seen.stopped,
+        "stop_distance_lowering": -seen.lowest,
+    }
+
+
+def misses(load: LoadReport, truth: float, tighter: float = 1.0) -> bool:
+    """Whether the truth lies outside a bar, or outside a part of it; half a millionth is the witness's own."""
+    one = load.estimate
+    low, high = one.value - tighter * (one.value - one.low), one.value + tighter * (one.high - one.value)
+    slack = 5e-7 * abs(truth)
+    return not low - slack <= truth <= high + slack
+
+
+def compared(
+    seed: int, rope_share: float, structure: bool, pieces: int, shortens: bool
+) -> list[tuple[str, bool, bool]]:
+    """Loads of both scenes of a hoist: name, whether the bar misses the truth, whether a third of it does."""
+    rng = np.random.default_rng(seed)
+    one, data = random_hoist(rng, rope_share, structure)
+    data["effects"] = {"rope_mass" if shortens else "rope_shortening": "off"}
+    report, found = report_of(data), []
+    for name in ("lift_loaded", "lower_brake_loaded"):
+        scene = scene_of(report, name)
+        kind = name.removesuffix("_loaded")
+        window = next(load.window for load in scene.loads if load.info.name == "rope_force_max")
+        assert window is not None
+        play = hoist_ode.lift if kind == "lift" else hoist_ode.lower
+        seen = play(one, window[1], pieces, shortens)
+        known = {load.info.name: load for load in scene.loads}
+        for load, truth in truths(one, kind, seen, pieces).items():
+            found.append((load, misses(known[load], truth), misses(known[load], truth, TIGHTER)))
+    return found
+
+
+@pytest.fixture(scope="module")
+def with_rope_mass() -> list[tuple[str, bool, bool]]:
+    rng = np.random.default_rng(11)
+    return [
+        one
+        for seed in range(3)
+        for one in compared(seed, float(10 ** rng.uniform(-2, -0.6)), seed % 2 == 1, PIECES, shortens=False)
+    ]
+
+
+def test_waves_along_the_rope_stay_in_the_bars(with_rope_mass: list[tuple[str, bool, bool]]) -> None:
+    assert [name for name, missed, _ in with_rope_mass if missed] == []
+
+
+def test_a_third_of_the_bars_would_not_do(with_rope_mass: list[tuple[str, bool, bool]]) -> None:
+    assert [name for name, _, missed in with_rope_mass if missed]
+
+
+@pytest.mark.parametrize("seed", [21, 22, 23])
+def test_a_rope_that_gets_shorter_stays_in_the_bars(seed: int) -> None:
+    found = compared(seed, 1e-9, False, 1, shortens=True)
+    assert [name for name, missed, _ in found if missed] == []
+
+
+@pytest.mark.parametrize("seed", [31, 32])
+def test_without_either_the_numbers_are_those_of_the_witness(seed: int) -> None:
+    """Both effects off: nothing is left but rounding, structure and losses included."""
+    one, data = random_hoist(np.random.default_rng(seed), 1e-9, structure=True)
+    data["effects"] = {"rope_mass": "off", "rope_shortening": "off"}
+    report = report_of(data)
+    for name in ("lift_loaded", "lower_brake_loaded"):
+        scene, kind = scene_of(report, name), name.removesuffix("_loaded")
+        known = {load.info.name: load for load in scene.loads}
+        window = known["rope_force_max"].window
+        assert window is not None
+        play = hoist_ode.lift if kind == "lift" else hoist_ode.lower
+        for load, truth in truths(one, kind, play(one, window[1]), 1).items():
+            assert known[load].estimate.value == pytest.approx(truth, rel=1e-6), load
