@@ -10,6 +10,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.machines.hoist.moving import (
+    BRAKE,
     DRIVE,
     FLANK,
     GEARBOX,
@@ -147,8 +148,9 @@ def _of_the_lift(course: Course) -> Readings:
 
 
 def stopped(course: Course) -> float:
-    """When the motor came to rest for good; infinite where it still turns [s]."""
-    group = course.system.groups.of[0]
+    """When the shaft of the brake came to rest for good; infinite where it still turns [s]."""
+    brake = course.case.named("grip", BRAKE)
+    group = course.system.groups.of[course.case.train.grips[brake].first if brake is not None else 0]
     if course.record.mode.turning[group] != 0:
         return math.inf
     name = course.system.friction_name(group)
@@ -334,11 +336,12 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
             )
         )
     if case.stops and math.isinf(stopped(course)):
+        way = units.show(case.drop, units.SPAN)
         said.append(
             Finding(
                 "NUM110",
                 f"scene `{label}`: the brake does not hold the load: it goes down to the ground, or to the end of the"
-                " rope",
+                f" rope, by up to {way}",
                 ("brake", "torque"),
                 "a stronger brake",
             )

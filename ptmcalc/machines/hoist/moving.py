@@ -86,6 +86,8 @@ class Case:
     even_torque: float
     lowers: bool
     stops: bool
+    drop: float
+    """way of the hook to the ground; all of the lift where the scene has it at its lowest [m]"""
 
     def named(self, what: str, name: str) -> int | None:
         """Index of a body, link, mesh, grip or drive of this name."""
@@ -318,7 +320,8 @@ class _Builder:
         losses = lowering_efficiency(self.spec) if self.way < 0 else 1 / hauling_efficiency(self.spec)
         even = self.held_weight * self.arm * losses
         stiffness = self._hook_stiffness
-        return Case(train, window, self.held_weight, self.weight, stiffness, even, self.way < 0, self.stops)
+        drop = self.scene.hook_height or self.spec.height
+        return Case(train, window, self.held_weight, self.weight, stiffness, even, self.way < 0, self.stops, drop)
 
     # -- what moves ---------------------------------------------------------------------------------------------
 

@@ -230,6 +230,23 @@ class TestWhatIsWrong:
         assert judged.repair is not None
         assert judged.repair.value == pytest.approx(1.75 * value(scene, "brake_torque_static"), rel=0.02)
 
+    def test_so_does_the_braking_of_a_lowered_load(self) -> None:
+        report = report_of(changed(CRANE, brake__torque="60 N*m", scenes=[{"type": "lower_brake"}]))
+        assert any("by up to 12 m" in one.message for one in report.diagnostics)
+        assert report.verdict == "fail"
+
+    @pytest.mark.parametrize("gearbox", [{}, {"stiffness": "1.5 MN*m/rad"}, {"backlash": "0.1 deg"}])
+    def test_a_brake_on_the_drum_stops_the_load_while_the_rotor_swings_on(self, gearbox: dict[str, Any]) -> None:
+        data = changed(CRANE, brake={"torque": "25 kN*m", "shaft": "drum"}, scenes=[{"type": "lower_brake"}])
+        data["gearbox"] |= gearbox | ({"stiffness": "1.5 MN*m/rad"} if gearbox else {})
+        scene = hoist_scene(data)
+        held = 2 * balanced_falls(12850 * G / 2, 2, 0.985, 1.05 * 13.1 * G, False)[1][0] * 0.1855
+        moved = 14 + 0.93 * 0.16 * 106**2 + 12850 * (0.1855 / 2) ** 2  # the rotor drives the drum on, through the gear
+        rigid = 0.133**2 / 2 / ((25e3 - held) / moved * 0.1855 / 2)
+        stretch = 12850 * G * 13.1 / (4 * 110e9 * 118e-6)
+        assert rigid < value(scene, "stop_distance_lowering") < rigid + stretch / 4
+        assert verdict(scene, "HST122") is Verdict.PASS
+
     def test_the_speed_at_which_it_lands_by_energy(self) -> None:
         data = changed(FREE, brake__torque="20 N*m", drum__layers=4)
         scene = hoist_scene(data)
