@@ -109,6 +109,8 @@ def compared(
         assert window is not None
         play = hoist_ode.lift if kind == "lift" else hoist_ode.lower
         seen = play(one, window[1], pieces, shortens)
+        if seen.slips:
+            continue
         known = {load.info.name: load for load in scene.loads}
         for load, truth in truths(one, kind, seen, pieces).items():
             found.append((load, misses(known[load], truth), misses(known[load], truth, TIGHTER)))
@@ -133,9 +135,9 @@ def test_a_third_of_the_bars_would_not_do(with_rope_mass: list[tuple[str, bool, 
     assert [name for name, _, missed in with_rope_mass if missed]
 
 
-@pytest.mark.parametrize("seed", [21, 22, 23])
+@pytest.mark.parametrize("seed", range(21, 33))
 def test_a_rope_that_gets_shorter_stays_in_the_bars(seed: int) -> None:
-    found = compared(seed, 1e-9, False, 1, shortens=True)
+    found = compared(seed, 1e-9, seed % 2 == 1, 1, shortens=True)
     assert [name for name, missed, _ in found if missed] == []
 
 

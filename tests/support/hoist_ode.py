@@ -83,6 +83,8 @@ class Seen:
     lifted: float = math.inf
     speed: float = 0.0
     stopped: float = math.inf
+    slips: bool = False
+    """whether the load pulls the drum through the closed brake once more, which is not followed"""
 
 
 class Chain:
@@ -202,4 +204,5 @@ def lower(one: Machine, end: float, pieces: int = 1, shortens: bool = False) -> 
             lambda t, y: chain.rate(y, 0.0, mass, False, True), (time, end), y, dense_output=True, **OPTIONS
         )
         chain.look(seen, held, time, end)
+        seen.slips = float(chain.forces(held.sol(np.linspace(time, end, SEEN)))[0].max()) * gain**-1 > one.brake
     return seen

@@ -88,6 +88,8 @@ class Case:
     stops: bool
     drop: float
     """way of the hook to the ground; all of the lift where the scene has it at its lowest [m]"""
+    holds: bool
+    """whether the scene is a stop whose brake is stronger than the load"""
 
     def named(self, what: str, name: str) -> int | None:
         """Index of a body, link, mesh, grip or drive of this name."""
@@ -320,8 +322,10 @@ class _Builder:
         losses = lowering_efficiency(self.spec) if self.way < 0 else 1 / hauling_efficiency(self.spec)
         even = self.held_weight * self.arm * losses
         stiffness = self._hook_stiffness
-        drop = self.scene.hook_height or self.spec.height
-        return Case(train, window, self.held_weight, self.weight, stiffness, even, self.way < 0, self.stops, drop)
+        scene, lowers = self.scene, self.way < 0
+        drop = scene.hook_height or self.spec.height
+        holds = isinstance(scene, Stop | LowerBrake) and math.isfinite(braked_way(self.spec, scene)[0])
+        return Case(train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds)
 
     # -- what moves ---------------------------------------------------------------------------------------------
 
