@@ -77,6 +77,63 @@ def rod_frequency(stiffness: float, rope_mass: float, load_mass: float, mode: in
     return share * math.sqrt(stiffness / load_mass)
 
 
+def free_rod_root(drive_ratio: float, load_ratio: float) -> float:
+    """First root of the frequency equation of a rod with a mass at either end, travel left out.
+
+        B = atan(1/(a B)) + atan(1/(b B)),   0 < B <= pi
+
+    Args:
+        drive_ratio: a = m_1/m_r, drive mass over rope mass [1].
+        load_ratio: b = M/m_r, load over rope mass [1].
+
+    Returns:
+        B; pi for a rope without masses at its ends [1].
+
+    **Range** a, b >= 0, not both infinite.
+    **Error** rounding: the two sides cross once, and no term is lost beside another.
+    **Source** derived: cos(B x/l + alpha) with tan(alpha) = a B at the drive, tan(B + alpha) = -b B at the load; for
+    a infinite `rod_root`.
+    """
+    low, high = 0.0, math.pi
+    x = min(math.sqrt(1 / drive_ratio + 1 / load_ratio), high) if drive_ratio > 0 and load_ratio > 0 else high
+    for _ in range(_STEPS):
+        value, slope = x, 1.0
+        for ratio in (drive_ratio, load_ratio):
+            value -= math.atan2(1.0, ratio * x)
+            slope += ratio / (1 + (ratio * x) ** 2)
+        low, high = (x, high) if value < 0 else (low, x)
+        following = x - value / slope if low < x - value / slope < high else (low + high) / 2
+        if abs(following - x) <= 2 * _EPS * x:
+            break
+        x = following
+    return x
+
+
+def free_rod_frequency(stiffness: float, rope_mass: float, drive_mass: float, load_mass: float) -> float:
+    """Lowest natural frequency of drive and load on a rope with mass.
+
+        w = B (K/m_r)^(1/2),   B = atan(m_r/(m_1 B)) + atan(m_r/(M B))
+
+    Args:
+        stiffness: K [N/m].
+        rope_mass: m_r, of the hanging rope [kg].
+        drive_mass: m_1, at the hook [kg].
+        load_mass: M [kg].
+
+    Returns:
+        w; of a rope without mass (K/m_1 + K/M)^(1/2) [rad/s].
+
+    **Range** a uniform taut rope between two masses that are free, m_r >= 0.
+    **Error** exact for that model.
+    **Source** as `free_rod_root`.
+    """
+    light = math.sqrt(stiffness / drive_mass + stiffness / load_mass)
+    if rope_mass == 0:
+        return light
+    root = free_rod_root(drive_mass / rope_mass, load_mass / rope_mass)
+    return root / math.sqrt(rope_mass / drive_mass + rope_mass / load_mass) * light
+
+
 def third_mass_frequency(stiffness: float, rope_mass: float, load_mass: float) -> float:
     """Lowest natural frequency with a third of the rope's mass added to the load.
 

@@ -39,6 +39,28 @@ class TestFrequencies:
         ours = [rope_rod.rod_frequency(stiffness, ratio * load, load, mode) for mode in (1, 2, 3)]
         assert ours == pytest.approx(found.tolist(), rel=1e-6)
 
+    @pytest.mark.parametrize("rope", [1e-9, 1.0, 180.0, 2e4])
+    @pytest.mark.parametrize("drive", [50.0, 1.8e4, 1e15])
+    def test_two_masses_against_elements(self, rope: float, drive: float) -> None:
+        count, load, stiffness = 60, 3e3, 1.4e5
+        mass, stiff = np.zeros((2 * count + 1,) * 2), np.zeros((2 * count + 1,) * 2)
+        for k in range(count):
+            place = slice(2 * k, 2 * k + 3)
+            mass[place, place] += rope / count / 30 * np.array([[4, 2, -1], [2, 16, 2], [-1, 2, 4]])
+            stiff[place, place] += stiffness * count / 3 * np.array([[7, -8, 1], [-8, 16, -8], [1, -8, 7]])
+        mass[-1, -1] += load
+        mass[0, 0] += drive
+        shift = 1.0  # keeps the travel off 0, where the stiffness is singular
+        found = eigh(mass, stiff + shift * mass, eigvals_only=True)  # the reciprocals, so that small ones keep digits
+        squares = np.sort(1 / found - shift)
+        ours = rope_rod.free_rod_frequency(stiffness, rope, drive, load)
+        assert ours**2 == pytest.approx(squares[1], rel=1e-6)
+
+    def test_a_drive_that_stands_is_the_end_of_a_rod(self) -> None:
+        for ratio in (1e-6, 0.06, 3.0):
+            held = rope_rod.rod_frequency(1.4e5, ratio * 3e3, 3e3, 1)
+            assert rope_rod.free_rod_frequency(1.4e5, ratio * 3e3, 1e30, 3e3) == pytest.approx(held, rel=1e-12)
+
     @pytest.mark.parametrize("ratio", [1e-6, 1e-3, 0.06, 0.3, 1.0, 5.0, 1e3])
     def test_the_third_of_the_rope_errs_as_it_says(self, ratio: float) -> None:
         above = rope_rod.third_mass_frequency(1e5, ratio, 1.0) / rope_rod.rod_frequency(1e5, ratio, 1.0, 1) - 1

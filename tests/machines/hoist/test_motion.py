@@ -103,6 +103,18 @@ class TestC14:
         assert value(scene, "lowering_brake_factor") == pytest.approx(1.3948, rel=PRINTED)
 
 
+def test_c17_as_a_formula() -> None:
+    """3 t on 120 m of a rope of 1.5 kg/m, the drive so heavy that it stands: the frequency of the rod beside ours."""
+    scene = {"type": "lift"}
+    data = reduced(3000.0, 1e12, 1.05e11 * 1.6e-4 / 120, 0.1, 1e9, scene, rope__mass=f"{180 / 10} kg/m")
+    load = load_of(played(data), "natural_frequency")
+    assert [one.name for one in load.formulas] == ["rod"]
+    assert load.formulas[0].value == pytest.approx(6.76373, rel=PRINTED)
+    assert load.estimate.value == pytest.approx(math.sqrt(1.05e11 * 1.6e-4 / 120 / 3000), rel=1e-8)
+    bounded = load_of(played(changed(data, effects={"rope_shortening": "off"})), "natural_frequency").estimate
+    assert bounded.low <= 6.76373 <= bounded.high
+
+
 class TestC16:
     """8 t, an induction motor takes up 50 mm of slack."""
 

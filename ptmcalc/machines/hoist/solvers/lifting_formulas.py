@@ -4,14 +4,18 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
-from ptmcalc.laws import lift_off, lift_off_standard, two_mass
+from ptmcalc.laws import lift_off, lift_off_standard, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.moving import (
     braked_way,
     hook_brake_force,
     hook_speed,
+    moving_inertia,
+    ratio,
     reduced,
+    rope_mass,
     start_hook_speed,
+    travel,
 )
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
 
@@ -143,6 +147,33 @@ def run_release(spec: Hoist, scene: Release, carried: frozenset[str], level: int
     return _shown(release_factor=float(lift_off.release_factor(share, _BETA[scene.manner])))
 
 
+def run_rod(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
+    """Lowest natural frequency of drive and load on a rope that is a rod with its own mass.
+
+        w = B (K/m_r)^(1/2),   B = atan(m_r/(m_1 B)) + atan(m_r/(M B))
+
+    **Range** rigid gear and structure.
+    **Error** exact for that model; a rope without mass is `two_mass`.
+    **Source** `laws.rope_rod.free_rod_frequency`.
+    """
+    one = reduced(spec, scene)
+    drive = moving_inertia(spec, scene) * (ratio(spec) / travel(spec, scene)) ** 2 - one.load_mass
+    rope = rope_mass(spec, scene)
+    return _shown(natural_frequency=rope_rod.free_rod_frequency(one.stiffness, rope, drive, one.load_mass))
+
+
+def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
+    """Whether rope, drive and load are all that swings.
+
+    **Range** any file.
+    **Error** none.
+    **Source** the file.
+    """
+    gear = spec.gearbox
+    rigid = spec.structure is None and (gear is None or gear.stiffness is None)
+    return Criterion("-", 0.0 if rigid else 1.0, 1.0, "gear or structure give", "")
+
+
 def _cost(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> float:
     return 1e-4
 
@@ -220,4 +251,17 @@ RELEASE: Solver[Hoist, Release] = Solver(
     source="EN 13001-2, ISO 8686-1",
     decides=False,
 )
-FORMULAS: tuple[AnySolver, ...] = (TAKEUP, STANDARD, SPEED_SOURCE, BRAKING, HANGING, RELEASE)
+ROD: Solver[Hoist, HoistScene] = Solver(
+    name="rod",
+    title="frequency of a rope with mass",
+    fidelity=Fidelity.MODAL,
+    scenes=frozenset({Lift, Start, Stop, LowerBrake}),
+    represents=frozenset(),
+    gives=frozenset({"natural_frequency"}),
+    run=run_rod,
+    cost=_cost,
+    source="longitudinal vibration of a rod with end masses, ptmcalc.laws.rope_rod",
+    valid=is_rigid,
+    decides=False,
+)
+FORMULAS: tuple[AnySolver, ...] = (ROD, TAKEUP, STANDARD, SPEED_SOURCE, BRAKING, HANGING, RELEASE)
