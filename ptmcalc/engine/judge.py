@@ -28,8 +28,8 @@ class Ruling:
         """Signed distance of the value from the limit; positive on the sound side."""
         if self.value is None or self.limit is None:
             return None
-        distance = self.value.value - self.limit.value
-        return distance if self.check.sense is Sense.AT_LEAST else -distance
+        value, limit = self.value.value, self.limit.value
+        return value - limit if self.check.sense is Sense.AT_LEAST else limit - value
 
 
 def judge(kind: AnyKind, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> tuple[Ruling, ...]:

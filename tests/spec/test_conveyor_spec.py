@@ -388,7 +388,7 @@ def test_a_misspelt_word_is_found_at_its_place_with_the_one_that_is_meant(
 @pytest.mark.parametrize(
     ("old", "new", "word"),
     [
-        ("kind: conveyor", "kind: hoist", "conveyor"),
+        ("kind: conveyor", "kind: xyz", "conveyor"),
         ("lift: 18 m", "xyz: 18 m", "inclination"),
         ("speed: 2.5 m/s", "speed: 2.5 m/s\neffects: {xyz: off}", "belt_wave"),
         ("speed: 2.5 m/s", "speed: 2.5 m/s\nchecks: {xyz: 1}", "belt_safety_running"),
