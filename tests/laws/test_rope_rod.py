@@ -39,7 +39,7 @@ class TestFrequencies:
         ours = [rope_rod.rod_frequency(stiffness, ratio * load, load, mode) for mode in (1, 2, 3)]
         assert ours == pytest.approx(found.tolist(), rel=1e-6)
 
-    @pytest.mark.parametrize("rope", [1e-9, 1.0, 180.0, 2e4])
+    @pytest.mark.parametrize("rope", [1.0, 180.0, 2e4])
     @pytest.mark.parametrize("drive", [50.0, 1.8e4, 1e15])
     def test_two_masses_against_elements(self, rope: float, drive: float) -> None:
         count, load, stiffness = 60, 3e3, 1.4e5

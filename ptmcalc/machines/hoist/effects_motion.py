@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.laws import backlash, lift_off, two_mass
+from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
 from ptmcalc.machines.hoist.moving import (
@@ -13,6 +13,7 @@ from ptmcalc.machines.hoist.moving import (
     case_of,
     hook_speed,
     motor_torque,
+    moving_inertia,
     ratio,
     reduced,
     rope_mass,
@@ -39,6 +40,7 @@ _WAVE, _SNATCHED = 3.0, 8.0
 and with one that goes slack and snatches again. On the seeded sample of the test the ratios were 1.8 and 4.0."""
 
 
+_ROUNDING = 1e-12
 _BEATS = 4.0
 """What the beat of structure and rope may shift, over the growth of the rope's swing: 2.0 on the seeded sample."""
 
@@ -238,13 +240,13 @@ def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     """What waves along the rope can add.
 
         |dF| <= c D (m_r/M)^(1/2),   D dynamic part of the force;   c = 3, or 8 where the rope goes slack in between
-        w lower by at most the share 1 - (1 + m_r/(3 M))^(-1/2)
+        w lower by at most what the rod between its end masses has it lower
 
     The first wave of a snatch, v (K m_r)^(1/2), is the dynamic part of a speed source times (m_r/M)^(1/2).
 
     **Range** ropes up to the mass of their load.
     **Error** calibrated: on a seeded sample of chains of forty masses the ratio was at most 1.8 with a taut rope and
-    4.0 with one that snatches; the frequency by Rayleigh's quotient.
+    4.0 with one that snatches; the frequency is exact for a rigid gear and structure.
     **Source** `laws.rope_rod.snatch_wave_force`; numbers of the sample.
     """
     one = reduced(spec, scene)
@@ -254,7 +256,7 @@ def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     found = _around_forces(loads, one.weight, rise)
     frequency = loads.get("natural_frequency")
     if frequency is not None and math.isfinite(frequency.value):
-        found["natural_frequency"] = Interval(frequency.value * (1 / math.sqrt(1 + share / 3) - 1), 0.0)
+        found["natural_frequency"] = Interval(frequency.value * (_slower(spec, scene) - 1), 0.0)
     way, wave = rise * one.weight / one.stiffness, 2 * math.sqrt(share * one.load_mass / one.stiffness)
     for name in ("stop_distance", "stop_distance_lowering"):
         found[name] = Interval(-way, way)
@@ -263,6 +265,17 @@ def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     if "lift_off_speed" in loads:
         found["lift_off_speed"] = _relative(loads["lift_off_speed"], _WAVE * math.sqrt(share))
     return {name: offset for name, offset in found.items() if name in loads and math.isfinite(loads[name].value)}
+
+
+def _slower(spec: Hoist, scene: Moving) -> float:
+    """Lowest frequency with the mass of the rope over that without, the drive held or free, the lower of the two."""
+    one, rope = reduced(spec, scene), rope_mass(spec, scene)
+    held = rope_rod.rod_frequency(one.stiffness, rope, one.load_mass, 1) / math.sqrt(one.stiffness / one.load_mass)
+    drive = moving_inertia(spec, scene) * (ratio(spec) / travel(spec, scene)) ** 2 - one.load_mass
+    if drive <= 0:
+        return held
+    free = rope_rod.free_rod_frequency(one.stiffness, rope, drive, one.load_mass)
+    return min(held, free / two_mass.two_mass_frequency(one.stiffness, drive, one.load_mass), 1.0) * (1 - _ROUNDING)
 
 
 def _dynamic_share(loads: Loads, weight: float) -> float:
