@@ -8,7 +8,7 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
 from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded, only
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Stop
 
 
 def _driven(spec: Hoist, scene: HoistScene) -> bool:
@@ -197,7 +197,7 @@ BRAKE: OneCheck = only(_brake_wanted)(
     Check(
         code="HST118",
         title="a brake too weak to hold the load",
-        scenes=RUNNING,
+        scenes=frozenset({Run, Stop, LowerBrake}),
         loads=("brake_reserve_static",),
         sense=Sense.AT_LEAST,
         limit=_brake_limit,

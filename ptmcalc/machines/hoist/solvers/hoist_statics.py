@@ -11,7 +11,7 @@ from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.drive_data import Duty, Motor
 from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Stop
 
 Numbers = dict[str, float]
 
@@ -133,18 +133,25 @@ def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
             loads |= _of_the_motor(spec, spec.motor, mass, height, up)
             if math.isinf(loads["start_time"]):
                 notes["starting_reserve"] = "stall: the motor does not lift the hanging load"
-    held = drive.held(spec, mass, height)
-    if held is not None:
-        loads |= {
-            "brake_torque_static": held.torque,
-            "brake_reserve_static": held.reserve,
-            "drop_distance": held.drop,
-            "drop_speed": held.speed,
-        }
-        if held.drop > 0:
-            way, hits = units.show(held.drop, units.SPAN), units.show(held.speed, units.SPEED)
-            notes["brake_reserve_static"] = f"the load drops {way} to the ground and meets it at {hits}"
-    return {name: Found(Estimate.exact(value), note=notes.get(name, "")) for name, value in loads.items()}
+    found = {name: Found(Estimate.exact(value), note=notes.get(name, "")) for name, value in loads.items()}
+    return found | _of_the_brake(spec, scene)
+
+
+def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
+    """What the closed brake holds, and what happens where it does not."""
+    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height)
+    if held is None:
+        return {}
+    note = ""
+    if held.drop > 0:
+        way, hits = units.show(held.drop, units.SPAN), units.show(held.speed, units.SPEED)
+        note = f"the load drops {way} to the ground and meets it at {hits}"
+    return {
+        "brake_torque_static": Found(Estimate.exact(held.torque)),
+        "brake_reserve_static": Found(Estimate.exact(held.reserve), note=note),
+        "drop_distance": Found(Estimate.exact(held.drop)),
+        "drop_speed": Found(Estimate.exact(held.speed)),
+    }
 
 
 def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None, up: float) -> Numbers:
@@ -191,4 +198,29 @@ HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     run=run,
     cost=lambda spec, scene, carried, level: 1e-3,
     source="balance of every sheave; geometry of the drum; power balance of the gearbox; IEC 60034-1; ISO 4301-1",
+)
+
+
+def hold(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
+    """What the closed brake holds in a scene that ends with it.
+
+        reserve = M_B/(S R n eta_r/u);   a brake below 1 lets the load sink with a = (M_d eta_r/u - M_B)/J
+
+    **Range** as `hoist_statics`; a brake whose torque does not fade.
+    **Error** exact for that model.
+    **Source** power balance of the gearbox (`laws.hoisting`).
+    """
+    return Result(_of_the_brake(spec, scene), work=1)
+
+
+HOLDING: Solver[Hoist, HoistScene] = Solver(
+    name="holding_brake",
+    title="the load on the closed brake",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Stop, LowerBrake}),
+    represents=frozenset(),
+    gives=frozenset({"brake_torque_static", "brake_reserve_static", "drop_distance", "drop_speed"}),
+    run=hold,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="power balance of the gearbox",
 )
