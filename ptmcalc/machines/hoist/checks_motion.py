@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.laws import lift_off_standard
-from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.moving import Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
 from ptmcalc.spec.scene import Scene
@@ -126,6 +126,12 @@ def _way_limit(spec: Hoist, scene: Stop) -> Estimate:
     return Estimate.exact(scene.hook_height or spec.height)
 
 
+def _way_repair(spec: Hoist, scene: Moving) -> KeyPath:
+    """A brake that does not hold is told so, and what it lacks, by HST118: near that limit a stop takes for ever."""
+    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height)
+    return () if held is None or held.reserve < 1 else ("brake", "torque")
+
+
 def _where_lowering(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
     return (replace(WAY, each=None),) if _lowers(scene) else ()
 
@@ -139,7 +145,7 @@ WAY: Check[Hoist, Stop] = Check(
     limit=_way_limit,
     needs=no_needs,
     blame=lambda spec, scene, loads: ("brake", "torque"),
-    repair=_brake_key,
+    repair=_way_repair,
     each=_where_lowering,
     what="The brake stops the lowered load within the way the file allows, above the ground, or at all.",
     why="In the delay of the brake the load falls with the drive; a brake weaker than the load never stops it.",
