@@ -135,7 +135,7 @@ def lift_off_time(course: Course) -> float:
 
 def _of_the_lift(course: Course) -> Readings:
     lifted = lift_off_time(course)
-    if not math.isfinite(lifted):
+    if not math.isfinite(lifted) or course.case.weak:
         return {"lift_off_speed": (0.0, None), "lift_off_time": (math.inf, None), "tension_time": (math.inf, None)}
     taut = first_event(course, ROPE, "closed")
     hook = course.case.named("body", HOOK)
@@ -329,11 +329,14 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
     """What happened on the way that a reader must know."""
     said = []
     label, case = scene.label, course.case
-    if isinstance(scene, Lift) and not math.isfinite(lift_off_time(course)):
+    lifted = not isinstance(scene, Lift) or math.isfinite(lift_off_time(course))
+    if not lifted or case.weak:
         rope = case.named("link", ROPE)
         assert rope is not None
         force, time = course.top("link", rope)
         phase = "taking up the slack" if force <= 0 else "tensioning the rope"
+        if lifted:
+            phase = "holding the load, which only its swing took off the ground"
         reached = units.show(force, units.FORCE)
         said.append(
             Finding(

@@ -90,6 +90,8 @@ class Case:
     """way of the hook to the ground; all of the lift where the scene has it at its lowest [m]"""
     holds: bool
     """whether the scene is a stop whose brake is stronger than the load"""
+    weak: bool
+    """whether the scene is a lift by a drive whose largest force is less than the load's"""
 
     def named(self, what: str, name: str) -> int | None:
         """Index of a body, link, mesh, grip or drive of this name."""
@@ -325,7 +327,10 @@ class _Builder:
         scene, lowers = self.scene, self.way < 0
         drop = scene.hook_height or self.spec.height
         holds = isinstance(scene, Stop | LowerBrake) and math.isfinite(braked_way(self.spec, scene)[0])
-        return Case(train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds)
+        weak = self.lifts and self._follows_speed and reduced(self.spec, scene).drive_force < self.weight
+        return Case(
+            train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds, weak
+        )
 
     # -- what moves ---------------------------------------------------------------------------------------------
 

@@ -239,7 +239,7 @@ class TestRelease:
 
 
 class TestStall:
-    @pytest.mark.parametrize(("share", "phase"), [(0.4, "tensioning the rope")])
+    @pytest.mark.parametrize(("share", "phase"), [(0.4, "tensioning the rope"), (0.98, "holding the load")])
     def test_lift(self, share: float, phase: str) -> None:
         report = report_of(reduced(5000.0, 18000.0, 1.2e6, 0.05, share * 5000 * G, {"type": "lift"}))
         scene = scene_of(report)
