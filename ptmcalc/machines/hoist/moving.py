@@ -17,7 +17,7 @@ from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import bodies, reeving, start_profile, two_mass
 from ptmcalc.laws import brake as braking
-from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.modes import frequencies
@@ -326,7 +326,8 @@ class _Builder:
         stiffness = self._hook_stiffness
         scene, lowers = self.scene, self.way < 0
         drop = scene.hook_height or self.spec.height
-        holds = isinstance(scene, Stop | LowerBrake) and math.isfinite(braked_way(self.spec, scene)[0])
+        held = drive.held(self.spec, model.hook_mass(self.spec, scene), scene.hook_height)
+        holds = isinstance(scene, Stop | LowerBrake) and held is not None and held.reserve > 1
         weak = self.lifts and self._follows_speed and reduced(self.spec, scene).drive_force < self.weight
         return Case(
             train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds, weak
