@@ -33,8 +33,8 @@ MOST_EVALUATIONS = {
     "chain_drive.yaml": 100_000,
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
-    "hoist.yaml": 60_000,
-    "hoist/crane_hoist_m5.yaml": 50_000,
+    "hoist.yaml": 30_000,
+    "hoist/crane_hoist_m5.yaml": 40_000,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 
