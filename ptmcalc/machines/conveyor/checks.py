@@ -37,6 +37,7 @@ _GRIPPING = ANY_MOTION - {Jam}
 _LEAST_WRAP = 2.8  # rad, 160 deg
 _LEAST_GRIP = 0.6931471805599453  # mu alpha = ln 2: below it the drum transmits less than the run-off tension
 _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
+_HOUR = 3600.0
 _STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
 
 _TENSION: KeyPath = ("takeup", "tension")
@@ -308,6 +309,13 @@ def _brake_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
     return _brake_key(spec, scene) if brakes_of(spec, scene) else ()
 
 
+def _time_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
+    """What must hold the belt: its strongest brake; without one the limit that no brake was asked to keep."""
+    if brakes_of(spec, scene) or spec.checks.stop_time is None:
+        return _brake_key(spec, scene)
+    return ("checks", "stop_time")
+
+
 def _stop_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
     """The latest brake's delay or rise, where full torque from the first moment would stop the rigid body in time; else
     the strongest brake's torque."""
@@ -345,13 +353,19 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
 
 
 def _time_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Longest time of any stop, from the file.
+    """Longest time of any stop, from the file; an hour without one: then it never stops.
 
-    **Range** stops with a limit.
+    **Range** any stop; a run-out only where the file gives the limit.
     **Error** none: a chosen limit.
     **Source** the plant's rules.
     """
-    return Estimate.exact(spec.checks.stop_time or math.inf)
+    return Estimate.exact(spec.checks.stop_time or _HOUR)
+
+
+def _where_timed(spec: Conveyor, scene: ConveyorScene) -> Checks:
+    """Every stop; a run-out only with a limit."""
+    held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
+    return (replace(STOP_TIME, each=None),) if held else ()
 
 
 STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
@@ -362,13 +376,14 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     sense=Sense.AT_MOST,
     limit=_time_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: _brake_key(spec, scene) if brakes_of(spec, scene) else ("checks", "stop_time"),
+    blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=_brake_repair,
-    each=_only_with("CNV107", lambda scene: ("checks", "stop_time")),
-    what="The belt at the head comes to rest within the time the file allows.",
-    why="Conveyors that feed one another must stop in order, or the transfer points choke.",
+    each=_where_timed,
+    what="The belt at the head comes to rest within the time the file allows, or at all.",
+    why="Conveyors that feed one another must stop in order, or the transfer points choke; a load that lowers itself"
+    " faster than the brakes hold it runs away.",
     formula="t(v = 0) <= limit",
-    source="the plant's rules",
+    source="the plant's rules; balance of the whole belt",
 )
 
 

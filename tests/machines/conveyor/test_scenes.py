@@ -363,6 +363,17 @@ def test_a_belt_that_the_load_drives_on_never_stops_and_says_so() -> None:
         assert load_of(scene, name).estimate.value == math.inf
 
 
+@pytest.mark.parametrize("kind", ["stop", "emergency_stop"])
+@pytest.mark.parametrize("spare", [0.9, 1.1])
+def test_a_stop_without_any_limit_fails_where_the_load_overpowers_the_brakes(kind: str, spare: float) -> None:
+    rig = Rig(sections=((400.0, -60.0),), tension=300e3)
+    torque = -spare * rig.resistance() * rig.drives["head"].diameter / 2
+    data = replace(rig, brakes=(Brake(torque),)).data({"type": kind})
+    scene = scene_of(report_of(data))
+    assert check_of(scene, "CNV107").verdict is (Verdict.PASS if spare > 1 else Verdict.FAIL)
+    assert (load_of(scene, "stop_time").estimate.value < math.inf) is (spare > 1)
+
+
 def test_the_elastic_belt_stops_on_another_way_than_the_rigid_one_at_its_head() -> None:
     """The take-up gives belt to the head or takes it: momentum is kept, the way of the head is not the mean one."""
     scene = told("weight", "emergency_stop")
