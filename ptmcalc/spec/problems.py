@@ -143,5 +143,7 @@ def _wrong_form(path: KeyPath, given: object, form: str, model: Model, document:
     reason = f"{quote(dotted(path)) if path else 'the file'} takes {form}, found {describe(given)}"
     field = keys_at(model, path[:-1], document.data).get(str(path[-1])) if path else None
     example = example_of(field) if field else example_like(annotation_at(model, path, document.data), given)
+    if form == _FORMS["int_type"] and isinstance(given, str) and given.strip().isdecimal():
+        example = given.strip()
     key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
     return Diagnostic("SPC111", reason, document.value_span(path), path, f"write `{key}{example}`")

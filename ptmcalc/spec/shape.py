@@ -117,6 +117,8 @@ def words_of(annotation: Any) -> list[str]:
 
 def example_of(field: FieldInfo | None) -> str:
     """A value that can be copied behind a key."""
+    if field and field.examples:
+        return str(field.examples[0])
     measure = measure_of(field) if field else None
     return measure.quantity.example if measure else example_like(field.annotation if field else None)
 
@@ -132,7 +134,8 @@ def example_like(annotation: Any, word: object = None) -> str:
         return "..."
     model = next((model for model in models if word in _types(model)), models[0])
     told_apart = [f"type: {_types(model)[0]}"] if len(models) > 1 else []
-    entries = [(f"{key}: {example_of(field)}", field.is_required()) for key, field in keys_of(model).items()]
+    keys = {key: field for key, field in keys_of(model).items() if key != "type" or not told_apart}
+    entries = [(f"{key}: {example_of(field)}", field.is_required()) for key, field in keys.items()]
     shown = told_apart + [entry for entry, needed in entries if needed] or [entry for entry, _ in entries[:1]]
     return "{" + ", ".join(shown) + "}"
 

@@ -47,6 +47,16 @@ class TestBadInput:
         assert f"{teeth} teeth do not make a sprocket" in found.message
         assert "teeth: 8" in found.hint
 
+    def test_teeth_in_quotes_are_answered_by_themselves_without_quotes(self) -> None:
+        found = faulty(changed(CH_05, sprocket__teeth="11"), "sprocket", "teeth")
+        assert found.hint == "write `teeth: 11`"
+
+    def test_what_is_added_for_a_missing_part_is_one_that_passes(self) -> None:
+        data = changed(CH_05, sprocket=None)
+        hint = faulty(data, "sprocket").hint
+        assert not problems(data | yaml.safe_load(hint.removeprefix("add ").strip("`")))
+        assert faulty(changed(CH_05, layout=None), "layout").hint.count("type: conveyor") == 1
+
     def test_three_teeth_at_the_tail(self) -> None:
         assert faulty(changed(CH_05, layout__tail__teeth=3), "layout", "tail", "teeth").code == "SPC113"
         assert faulty(changed(ROLLER, layout__driven__teeth=2), "layout", "driven", "teeth").code == "SPC113"

@@ -107,7 +107,7 @@ class ChainData(Fragment):
 class Sprocket(Fragment):
     """A sprocket."""
 
-    teeth: Annotated[int, Field(strict=True)]
+    teeth: Annotated[int, Field(strict=True, examples=[8])]
     """number of teeth"""
     diameter: PositiveLength | None = None
     """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
