@@ -25,7 +25,7 @@ from ptmcalc.contract.report import (
     SceneReport,
     SolverReport,
 )
-from ptmcalc.contract.result import History
+from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
@@ -97,12 +97,26 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)
     diagnostics = loaded.diagnostics + tuple(
-        Diagnostic(f.code, f.message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
-        for f in dict.fromkeys(finding for scene in settled for finding in scene.said)
+        Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
+        for f, message in _said(settled)
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
+
+
+def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:
+    """What was found on the way, once each, with the scenes it is about where the file has several."""
+    about: dict[Finding, dict[str, None]] = {}
+    for one in settled:
+        for finding in one.said:
+            about.setdefault(finding, {})[one.plan.scene.label] = None
+    for finding, labels in about.items():
+        if len(settled) == 1 or finding.message.startswith("scene `"):
+            yield finding, finding.message
+            continue
+        scenes = f"scene{'s' if len(labels) > 1 else ''} {', '.join(f'`{label}`' for label in labels)}"
+        yield finding, f"{scenes}: {finding.message}"
 
 
 def _text(loaded: Loaded, key: str) -> str:

@@ -9,7 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.chain_drive.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.model import tail_teeth
+from ptmcalc.machines.chain_drive.model import tail_teeth, tension_key
 from ptmcalc.machines.chain_drive.resonances import resonances
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run
 
@@ -204,7 +204,7 @@ def _slack_limit(spec: ChainDrive, scene: Run) -> Estimate:
 
 
 def _tension_key(spec: ChainDrive, scene: Run) -> KeyPath:
-    return ("layout", "takeup", "tension") if isinstance(spec.layout, ConveyorLayout) else ("layout", "slack_sag")
+    return tension_key(spec)
 
 
 SLACK: Check[ChainDrive, Run] = Check(

@@ -8,6 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.model import tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.starting import drive_of, start_case
 
@@ -158,12 +159,6 @@ def _slack_limit(spec: ChainDrive, scene: Start) -> Estimate:
     return Estimate.exact(0.0)
 
 
-def _tension_key(spec: ChainDrive) -> KeyPath:
-    if isinstance(spec.layout, ConveyorLayout):
-        return ("layout", "takeup", "tension")
-    return ("layout", "slack_sag")
-
-
 SLACK: Check[ChainDrive, Start] = Check(
     code="CHN123",
     title="a strand that goes slack in the start",
@@ -172,8 +167,8 @@ SLACK: Check[ChainDrive, Start] = Check(
     sense=Sense.AT_LEAST,
     limit=_slack_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: _tension_key(spec),
-    repair=lambda spec, scene: _tension_key(spec) if isinstance(spec.layout, ConveyorLayout) else (),
+    blame=lambda spec, scene, loads: tension_key(spec),
+    repair=lambda spec, scene: tension_key(spec) if isinstance(spec.layout, ConveyorLayout) else (),
     what="Every section of both strands keeps some tension at every moment of the start.",
     why="A slack chain leaves its teeth, and snatches when it comes taut again.",
     formula="min over sections and time of S >= 0",

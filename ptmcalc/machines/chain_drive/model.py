@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import belt_modes, chain_selection, inertia, motor, sag, sprocket
 from ptmcalc.laws.loop_bounds import LoopMasses
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
@@ -40,6 +41,11 @@ def filled(value: float | None) -> float:
 
 
 # -- chain and sprockets --------------------------------------------------------------------------------------------
+
+
+def tension_key(spec: ChainDrive) -> KeyPath:
+    """What of the file keeps the chain taut."""
+    return ("layout", "takeup", "tension") if isinstance(spec.layout, ConveyorLayout) else ("layout", "slack_sag")
 
 
 def stiffness(spec: ChainDrive) -> float:

@@ -1,10 +1,12 @@
 """Machines with other ends than a constant tension, against finite elements summed harmonic by harmonic."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from support import chain_fem
 from support.chains import CH_05, FIRST, MOTOR, ROLLER, Witness, chain_of
 from support.machines import changed, check_of, load_of, report_of, scene_of
@@ -12,6 +14,7 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.machines.chain_drive.resonances import resonances
 
+FILE = Path(__file__).parents[3] / "specs" / "chain_drive.yaml"
 EA, P = 206e9 * 1.6e-3, 0.32
 ZETA = 0.1
 LOSSY = {"law": "hysteretic", "ratio": ZETA}
@@ -177,3 +180,14 @@ def test_the_bound_is_above_what_finite_elements_find_and_not_far_in_resonance()
         force = Witness(data).force
         bound = value(data, "tension_polygon_bound")
         assert max(force.max(), -force.min()) <= bound <= most * max(force.max(), -force.min())
+
+
+def test_a_chain_that_goes_slack_says_in_which_scene_and_what_would_keep_it_taut() -> None:
+    data = yaml.safe_load(FILE.read_text())
+    data["layout"]["takeup"]["tension"] = "10 N"
+    found = [one for one in report_of(data).diagnostics if one.code == "NUM102"]
+    assert found
+    for one in found:
+        assert one.message.startswith("scene `stop_loaded`: the chain goes slack at ")
+        assert one.path == ("layout", "takeup", "tension")
+        assert one.hint == "a higher `tension` keeps it taut"

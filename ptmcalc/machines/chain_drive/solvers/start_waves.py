@@ -12,7 +12,7 @@ from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_modes, chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray
+from ptmcalc.machines.chain_drive.model import FloatArray, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting import StartCase, Swinging, ratios, start_case
@@ -131,10 +131,10 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
         window=(0.0, case.held + case.window),
         health={"modes": float(many), "sections": float(len(along.smallest))},
     )
-    return beyond_slack(found)
+    return beyond_slack(spec, found)
 
 
-def beyond_slack(result: Result) -> Result:
+def beyond_slack(spec: ChainDrive, result: Result) -> Result:
     """The result, or what is left of it where the chain may go slack: how low it would come, and a finding where it
     surely does. What a chain does that is caught again is not known."""
     low = result.loads["tension_min"]
@@ -146,10 +146,13 @@ def beyond_slack(result: Result) -> Result:
     }
     if low.estimate.high >= 0:
         return replace(result, loads=loads)
+    where = tension_key(spec)
     finding = Finding(
         "NUM102",
         f"the chain goes slack at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the run-off; what is said"
         " of the time after that is not trusted",
+        where,
+        f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut",
     )
     return replace(result, loads=loads, findings=(finding,))
 

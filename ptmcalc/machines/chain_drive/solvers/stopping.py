@@ -105,7 +105,7 @@ def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
         "tension_min": Found(smallest, where),
         "safety_start": Found(Estimate(middle, low, high, largest.numerical * slope), when),
     }
-    return beyond_slack(Result(loads, work=work, window=(0.0, case.rest()[0])))
+    return beyond_slack(spec, Result(loads, work=work, window=(0.0, case.rest()[0])))
 
 
 _MODES = 24

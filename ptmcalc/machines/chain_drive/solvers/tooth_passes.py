@@ -214,7 +214,7 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
         for name, load in loads_of(spec, case, found.largest, None).items()
     }
     loads["tension_min"] = Found(smallest, at)
-    return beyond_slack(Result(loads, work=found.work, window=(0.0, case.held + case.window)))
+    return beyond_slack(spec, Result(loads, work=found.work, window=(0.0, case.held + case.window)))
 
 
 def _lowest(case: StartCase, passing: Passing, found: _Found, sections: Sections) -> tuple[Estimate, dict[str, float]]:

@@ -439,6 +439,8 @@ def _findings(case: Moving, drawn: Drawn) -> Iterator[Finding]:
                 "NUM102",
                 f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off; what the"
                 " simulation says of the time after that is not trusted",
+                ("takeup", "tension"),
+                "a higher `tension` keeps the belt taut",
             )
 
 
