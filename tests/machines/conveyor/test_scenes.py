@@ -486,6 +486,16 @@ def test_the_coefficient_is_identified_from_the_way_it_makes(friction: float, li
     assert found == pytest.approx(friction, rel=1e-6)
 
 
+@pytest.mark.parametrize(("share", "said"), [(0.99, 0), (1.01, 1)])
+def test_a_measured_way_longer_than_without_friction_is_told(share: float, said: int) -> None:
+    """m v^2/2 = m_load g h is the end of what the climb allows: beyond it the coefficient would be negative."""
+    rig = replace(HILL, sections=((500.0, 8.0),), friction=1e-9)
+    _, way = _rigid_stop(rig)
+    report = report_of(rig.data({"type": "run"}, {"type": "coast", "measured_distance": f"{share * way!r} m"}))
+    found = [one for one in report.diagnostics if one.path == ("scenes", 1, "measured_distance")]
+    assert [one.code for one in found] == ["SPC201"] * said
+
+
 def test_the_coefficient_identified_from_the_belts_own_way_is_near_it() -> None:
     """The head of an elastic belt goes another way than the mean: a few per cent."""
     way = load_of(told("hill", "coast"), "coast_distance").estimate.value

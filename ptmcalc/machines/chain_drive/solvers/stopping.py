@@ -4,8 +4,9 @@ import math
 from collections.abc import Callable
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
@@ -56,9 +57,16 @@ def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) 
     found = extremes(spec, case)
     loads["tension_min"] = found.smallest
     loads["safety_start"] = safety(spec, found.largest + case.line.centrifugal)
+    findings: tuple[Finding, ...] = ()
     if isinstance(scene, Coast) and scene.measured_distance is not None:
-        loads |= _identified(spec, scene, case.line, scene.measured_distance)
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+        told = _identified(spec, scene, case.line, scene.measured_distance)
+        loads |= told
+        findings = tuple(
+            finding
+            for coefficient in told.values()
+            for finding in too_long_a_way(spec.all_scenes, scene, scene.measured_distance, coefficient)
+        )
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1, findings=findings)
 
 
 def _identified(spec: ChainDrive, scene: Coast, line: ChainLine, way: float) -> dict[str, float]:

@@ -1,8 +1,10 @@
 """Stops and standstill of the rigid conveyor: what the brakes and the backstop have to hold, what a run-out tells."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
@@ -63,7 +65,8 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
     line = belt_line(spec, scene)
     friction, lift = _friction_per_coefficient(spec, scene, line)
     found, _ = stopping.coast_down_coefficient(moving_mass(line), lift, friction, 1.0, line.speed, way, 0.0, 0.0)
-    return _exactly({"resistance_coefficient_identified": float(found)})
+    told = _exactly({"resistance_coefficient_identified": float(found)})
+    return replace(told, findings=too_long_a_way(spec.all_scenes, scene, way, float(found)))
 
 
 def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> tuple[float, float]:
