@@ -73,6 +73,7 @@ LOADS = (
     LoadInfo("ratio", "ratio of the teeth", units.RATIO, headline=False),
     LoadInfo("pitches", "length of the chain in pitches", units.RATIO),
     LoadInfo("centre_distance", "distance of the shafts", units.SPAN, headline=False),
+    LoadInfo("centre_distance_fitted", "distance of the shafts that fits the chain", units.SPAN, headline=False),
     LoadInfo("centre_distance_pitches", "distance of the shafts in pitches", units.RATIO, headline=False),
     LoadInfo("design_power", "design power of one chain on 19 teeth", units.POWER, governing=True),
 )

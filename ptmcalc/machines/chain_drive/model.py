@@ -296,10 +296,18 @@ def centre_distance(spec: ChainDrive) -> float:
     layout = spec.layout
     if isinstance(layout, ConveyorLayout):
         return layout.length
-    if layout.centre_distance is not None:
-        return layout.centre_distance
-    return chain_selection.centre_distance(
-        filled(layout.pitches), spec.chain.pitch, spec.sprocket.teeth, layout.driven.teeth
+    return fitted_distance(spec) if layout.centre_distance is None else layout.centre_distance
+
+
+def fitted_distance(spec: ChainDrive) -> float:
+    """Distance of two shafts at which a chain of whole pitches lies straight on both sides [m]."""
+    return chain_selection.centre_distance(pitches(spec), spec.chain.pitch, spec.sprocket.teeth, tail_teeth(spec))
+
+
+def reaches_round(spec: ChainDrive) -> bool:
+    """Whether the chain is longer than round sprockets that touch; a search may try another, a file cannot say so."""
+    return pitches(spec) > chain_selection.chain_pitches(
+        sum(_radii(spec)), spec.chain.pitch, spec.sprocket.teeth, tail_teeth(spec)
     )
 
 

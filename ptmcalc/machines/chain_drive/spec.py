@@ -294,7 +294,7 @@ def _of_layout(layout: Given, driver: Given | None, pitch: float | None) -> Iter
         room = units.show(least, units.LENGTH)
         reason = f"the sprockets touch: their pitch radii together are {room}"
         yield Conflict(("layout", named, apart), reason, "write about 40 pitches, or correct the pitch of the chain")
-    elif distance is None and isinstance(pitches, int):
+    elif isinstance(pitches, int):
         needed = chain_selection.chain_pitches(least, pitch, one, two)
         if pitches <= needed:
             reason = f"{pitches} pitches do not reach round both sprockets, which touch at {needed:.1f}"

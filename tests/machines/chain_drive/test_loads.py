@@ -100,6 +100,16 @@ def test_two_shafts_by_hand() -> None:
         assert load_of(report, name).estimate.value == pytest.approx(number, rel=1e-12), name
 
 
+@pytest.mark.parametrize(("given", "count"), [({}, 118), ({"layout__pitches": 118}, 118)])
+def test_the_distance_that_fits_a_chain_of_whole_pitches(given: dict[str, Any], count: int) -> None:
+    """118 pitches are 0.33 more than shafts 1 m apart take: nearly half of that is room to move them."""
+    fitted, p = value(changed(ROLLER, **given), "centre_distance_fitted"), 0.0254
+    assert 2 * fitted / p + (19 + 57) / 2 + ((57 - 19) / (2 * math.pi)) ** 2 * p / fitted == pytest.approx(count)
+    assert fitted != pytest.approx(1, rel=1e-4)
+    alone = changed(ROLLER, layout__pitches=count, layout__centre_distance=None)
+    assert value(alone, "centre_distance") == value(alone, "centre_distance_fitted") == fitted
+
+
 def test_a_cranked_link_closes_an_odd_chain_and_bears_a_fifth_less() -> None:
     odd = changed(ROLLER, layout__pitches=119, layout__cranked_link="yes", layout__centre_distance=None)
     plain = changed(ROLLER, layout__pitches=118, layout__centre_distance=None)

@@ -16,7 +16,9 @@ from ptmcalc.machines.chain_drive.model import (
     chain_length,
     chain_line,
     filled,
+    fitted_distance,
     pitches,
+    reaches_round,
     tail_teeth,
     useful_pull,
     wrap,
@@ -60,6 +62,8 @@ def _sizes(spec: ChainDrive) -> Iterator[tuple[str, float]]:
     yield "wrap", wrap(spec)
     yield "pitches", pitches(spec)
     yield "centre_distance", centre_distance(spec)
+    if isinstance(spec.layout, TwoShafts) and reaches_round(spec):
+        yield "centre_distance_fitted", fitted_distance(spec)
     yield "centre_distance_pitches", centre_distance(spec) / spec.chain.pitch
 
 
@@ -131,6 +135,7 @@ CHAIN_SELECTION: Solver[ChainDrive, Run] = Solver(
             "wrap",
             "pitches",
             "centre_distance",
+            "centre_distance_fitted",
             "centre_distance_pitches",
             "design_power",
             "engagement_speed",
