@@ -63,13 +63,20 @@ class Settled:
 
     @property
     def said(self) -> list[Finding]:
-        """What was found on the way; of several runs of a solver the richest and finest speaks for all."""
+        """What was found on the way; of several runs of a solver the richest and finest speaks for all, and a solver
+        none of whose loads is reported any more leaves it to one that carries more."""
         best: dict[str, Run] = {}
         for run in self.runs:
             known = best.setdefault(run.rung.solver.name, run)
             if (len(run.rung.carried), run.rung.level) > (len(known.rung.carried), known.rung.level):
                 best[run.rung.solver.name] = run
-        return [finding for run in best.values() for finding in run.result.findings] + self.findings
+        reported = {load.rung.solver.name for load in self.loads.values()}
+        heard = [
+            run
+            for name, run in best.items()
+            if name in reported or not any(run.rung.carried < other.rung.carried for other in self.runs)
+        ]
+        return [finding for run in heard for finding in run.result.findings] + self.findings
 
     @property
     def carried(self) -> frozenset[str]:

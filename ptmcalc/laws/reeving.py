@@ -53,9 +53,9 @@ def lowering_tackle_efficiency(falls: int, sheave_efficiency: float) -> float:
 def fall_pulls(load: float, falls: int, sheave_efficiency: float, fall_weight: float, hauling: bool) -> FloatArray:
     """Pulls at the upper ends of the falls of one rope, that of the drum first.
 
-        U_(k+1) = U_k eta at an upper sheave, L_(k+1) = L_k eta at a lower one, U = L + w, sum L = W
+        L_(k+1) = L_k eta at a lower sheave, U_(k+1) = U_k eta at an upper one, U = L + w, sum L = W
 
-    with 1/eta for eta while the load is lowered.
+    with 1/eta for eta while the load is lowered. The rope comes down from the drum: the first sheave is a lower one.
 
     Args:
         load: W, that the falls of this rope carry at their lower ends [N].
@@ -77,7 +77,7 @@ def fall_pulls(load: float, falls: int, sheave_efficiency: float, fall_weight: f
     share[0], offset[0] = 1.0, 0.0
     for k in range(1, falls):
         share[k] = share[k - 1] * loss
-        offset[k] = (offset[k - 1] + 1) * loss - 1 if k % 2 else offset[k - 1] * loss
+        offset[k] = offset[k - 1] * loss if k % 2 else (offset[k - 1] + 1) * loss - 1
     first = (load - float(offset.sum()) * fall_weight) / float(share.sum())
     return np.asarray(share * first + (offset + 1) * fall_weight)
 

@@ -133,7 +133,7 @@ def _unknown(path: KeyPath, model: Model, document: Document) -> Diagnostic:
 def _choice(path: KeyPath, given: object, expected: str, document: Document) -> Iterator[Diagnostic]:
     if given is Unread.VALUE:
         return
-    words = re.findall(r"'([^']*)'", expected)
+    words = re.findall(r"'([^']*)'", expected) or re.findall(r"\d+", expected)
     reason = f"{quote(dotted(path))} is {describe(given)}, not one of {', '.join(f'`{word}`' for word in words)}"
     hint = did_you_mean(given if isinstance(given, str) else "", words, "write one of ")
     yield Diagnostic("SPC112", reason, document.value_span(path), path, hint)

@@ -44,6 +44,11 @@ class TestReeving:
         assert "5 falls do not share out on two ropes" in found.message
         assert "falls: 6" in found.hint
 
+    def test_ropes_are_one_or_two(self) -> None:
+        found = faulty(changed(CRANE, reeving__ropes=3), "reeving", "ropes")
+        assert "is `3`, not one of `1`, `2`" in found.message
+        assert "1" in found.hint
+
 
 class TestRopeAndDrum:
     @pytest.mark.parametrize("drum", ["17.5 mm", "10 mm"])
@@ -99,6 +104,11 @@ class TestDrive:
     def test_a_power_without_a_speed(self) -> None:
         assert "`speed` is missing" in faulty(changed(CRANE, motor__speed=None), "motor").message
 
+    def test_a_play_with_nothing_elastic_behind_it(self) -> None:
+        found = faulty(changed(PAPER, gearbox__backlash="0.2 deg"), "gearbox")
+        assert "stiffness" in found.hint
+        assert not problems(changed(PAPER, gearbox__backlash="0 deg"))
+
     def test_a_spectrum_that_is_no_whole(self) -> None:
         data = changed(CRANE, duty__load_spectrum=[{"share": 0.5, "load": 1}, {"share": 0.2, "load": 0.5}])
         assert "add up to 0.7" in faulty(data, "duty", "load_spectrum").message
@@ -152,6 +162,18 @@ class TestScenes:
     def test_a_hook_above_its_highest_place(self) -> None:
         data = changed(PAPER, scenes=[{"type": "run", "hook_height": "41 m"}])
         assert "40 m only" in faulty(data, "scenes", 0, "hook_height").message
+
+    @pytest.mark.parametrize("scene", ["run", "lift", "start", "stop", "lower_brake", "release", "winding"])
+    def test_a_hook_so_high_that_no_rope_is_free(self, scene: str) -> None:
+        data = changed(PAPER, motor__speed="960 rpm", scenes=[{"type": scene, "hook_height": "40 m"}])
+        assert "least_fall: 1 m" in faulty(data, "scenes", 0, "hook_height").hint
+        assert not problems(changed(data, least_fall="1 m"))
+
+    @pytest.mark.parametrize("scene", ["lift", "start", "stop", "lower_brake", "release", "winding"])
+    def test_an_empty_hook_without_a_mass(self, scene: str) -> None:
+        data = changed(PAPER, scenes=[{"type": scene, "load": "empty"}])
+        assert "hook_block: 90 kg" in faulty(data, "scenes", 0, "load").hint
+        assert not problems(changed(data, hook_block="90 kg"))
 
     def test_a_layer_that_is_never_wound(self) -> None:
         data = changed(CRANE, scenes=[{"type": "winding"}])

@@ -78,3 +78,14 @@ def test_a_drum_far_too_short_for_its_rope_has_very_many_layers() -> None:
     scene = hoist_scene(changed(PAPER, height="10 km", drum__length="60 mm"))
     assert value(scene, "drum_layers") > 100
     assert scene.checks[0].verdict is Verdict.FAIL
+
+
+def test_a_stall_looked_at_for_longer_than_its_rope_lasts_is_unknown_not_nan() -> None:
+    """The window takes all of a rope as soft as rubber at the set speed: its shortening has no bound."""
+    data = changed(PAPER, rope__modulus="10 MPa", motor__speed="960 rpm", scenes=[{"type": "lift"}])
+    scene = hoist_scene(data)
+    loads = {load.info.name: load.estimate for load in scene.loads}
+    assert loads["lift_off_time"].value == math.inf
+    assert loads["rope_force_max"].high == math.inf
+    assert not any(math.isnan(part) for one in loads.values() for part in (one.value, one.low, one.high))
+    assert {judgement.code: judgement.verdict for judgement in scene.checks}["HST121"] is Verdict.FAIL

@@ -93,9 +93,9 @@ def hoist_of(data: dict[str, Any]) -> Hoist:
     return spec
 
 
-def hoist_scene(data: dict[str, Any], name: str = "") -> SceneReport:
-    """The only scene of a hoist, or one by name."""
-    return scene_of(report_of(data), name)
+def hoist_scene(data: dict[str, Any], name: str = "", *, repairs: bool = False) -> SceneReport:
+    """The only scene of a hoist, or one by name; repairs are looked for where a test asks for them."""
+    return scene_of(report_of(data, repairs=repairs), name)
 
 
 def value(scene: SceneReport, name: str) -> float:
@@ -111,8 +111,8 @@ def balanced_falls(load: float, falls: int, efficiency: float, weight: float, ha
     for k in range(falls):  # upper = lower + weight
         matrix[row, falls + k], matrix[row, k], right[row] = 1.0, -1.0, weight
         row += 1
-    for k in range(falls - 1):  # sheaves, the first one on top
-        ends = falls if k % 2 == 0 else 0
+    for k in range(falls - 1):  # sheaves, the first one on the hook block, for the rope comes down from the drum
+        ends = falls if k % 2 else 0
         matrix[row, ends + k + 1], matrix[row, ends + k] = 1.0, -loss
         row += 1
     matrix[row, :falls], right[row] = 1.0, load

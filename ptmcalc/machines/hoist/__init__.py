@@ -9,6 +9,7 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.checks import CHECKS
 from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
+from ptmcalc.machines.hoist.checks_drum import CHECKS_OF_DRUM
 from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
 from ptmcalc.machines.hoist.checks_winding import CHECKS_OF_WINDING
 from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
@@ -35,6 +36,14 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
                 ("speed",),
                 "correct the speed, the ratio or the reeving",
             )
+    if motor is not None and motor.rated is not None and motor.mean_torque < motor.rated:
+        rated, mean = (units.show(torque, units.TORQUE) for torque in (motor.rated, motor.mean_torque))
+        yield Finding(
+            "SPC201",
+            f"the motor starts with {mean} in the mean, below its rated torque of {rated}",
+            ("motor",),
+            "correct its power, speed or starting torque: hoisting motors start with 1.5 to 2.5 times the rated torque",
+        )
     if spec.rope.modulus is not None and spec.rope.modulus > _WIRE:
         yield Finding(
             "SPC201",
@@ -58,7 +67,7 @@ KIND = MachineKind(
     loads=LOADS,
     effects=(*EFFECTS_OF_MOTION, LAYER_MAP),
     solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
+    checks=(*CHECKS, *CHECKS_OF_DRUM, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
     inspect=inspect,

@@ -8,7 +8,7 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
 from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded, only
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Stop
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 
 def _driven(spec: Hoist, scene: HoistScene) -> bool:
@@ -46,11 +46,15 @@ def _reserve_limit(spec: Hoist, scene: Run) -> Estimate:
     return Estimate.exact(spec.checks.motor_reserve)
 
 
-WEAK: OneCheck = only(_driven)(
+def _raised(spec: Hoist, scene: HoistScene) -> bool:
+    return _driven(spec, scene) and not (isinstance(scene, Start) and scene.direction == "down")
+
+
+WEAK: OneCheck = only(_raised)(
     Check(
         code="HST114",
         title="a motor too weak to lift the load",
-        scenes=RUNNING,
+        scenes=frozenset({Run, Start}),
         loads=("starting_reserve",),
         sense=Sense.AT_LEAST,
         limit=_reserve_limit,

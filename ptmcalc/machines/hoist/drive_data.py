@@ -71,6 +71,13 @@ class Gearbox(drive.Gear):
     damping: Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)] = 0.03
     """damping ratio of the swing of the rotor against the drum; shafts and teeth have 0.02 to 0.1"""
 
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Teeth meet through their play with a blow that goes by the stiffness behind them."""
+        yield from super().conflicts(given)
+        if given.number("backlash"):
+            yield from together(given, "backlash", "stiffness", "the blow through the play goes by the stiffness")
+
 
 class Brake(Fragment):
     """The holding brake."""

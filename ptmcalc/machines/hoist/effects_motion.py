@@ -8,9 +8,8 @@ from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
-from ptmcalc.machines.hoist.moving import (
-    Moving,
-    case_of,
+from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.reduced import (
     hook_speed,
     motor_torque,
     moving_inertia,
@@ -299,7 +298,7 @@ def _around_forces(loads: Loads, weight: float, rise: float) -> dict[str, Interv
         if name in ("backlash_torque_peak", "gear_impact_factor"):
             most = loads["rope_force_max"].value / weight if "rope_force_max" in loads else 1.0
             size = abs(one.value) * rise / max(most, 1.0)
-        least = -min(size, one.low) if name in _NEVER_PUSH and one.low >= 0 else -size
+        least = -min(size, max(one.low, 0.0)) if name in _NEVER_PUSH else -size
         found[name] = Interval(least, size)
     return found
 
@@ -355,11 +354,11 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     part = 2 * _shortening(spec, scene)
     gain = 1 / math.sqrt(1 - part) - 1 if part < 1 else math.inf
     one = reduced(spec, scene)
-    rise = gain * max(_dynamic_share(loads, one.weight), 0.0)
+    if math.isinf(gain):  # a stall stays one: what never happens is not in doubt
+        return {name: ANYTHING for name in _anything(loads) if math.isfinite(loads[name].value)}
+    rise = gain * _dynamic_share(loads, one.weight)
     if rise == 0:
         return {}
-    if math.isinf(rise):
-        return {name: ANYTHING for name in loads if name in FORCES}
     found = _around_forces(loads, one.weight, rise)
     if spec.structure is not None:
         found |= {

@@ -166,9 +166,12 @@ def stopped(course: Course) -> float:
 
 
 def first_rest(course: Course) -> float:
-    """When the shaft of the brake first came to rest; a swinging load may pull it through once more [s]."""
+    """When the shaft of the brake first came to rest; a swinging load may pull it through once more [s]. A gear that
+    jams stops both its shafts."""
+    if not any(body.speed for body in course.case.train.bodies):
+        return 0.0
     name = course.system.friction_name(_braked_group(course))
-    return first_event(course, name, "at rest") if any(b.speed for b in course.case.train.bodies) else 0.0
+    return min(first_event(course, name, "at rest"), first_event(course, GEARBOX, JAMMED))
 
 
 def _of_the_stop(course: Course) -> Readings:

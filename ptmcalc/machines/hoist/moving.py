@@ -15,11 +15,20 @@ import numpy as np
 from ptmcalc.components.motor import AnyMotor, ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.components.start import Profile
-from ptmcalc.laws import bodies, reeving, start_profile, two_mass
+from ptmcalc.laws import bodies, start_profile, two_mass
 from ptmcalc.laws import brake as braking
 from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
+from ptmcalc.machines.hoist.reduced import (
+    braked_way,
+    hauling_efficiency,
+    lowering_efficiency,
+    motor_torque,
+    moving_inertia,
+    ratio,
+    reduced,
+    travel,
+)
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import (
     CLAMPED,
@@ -51,26 +60,12 @@ _STEEL = 7850.0
 _PERIODS = 6
 _LONGEST = 600.0
 _PIECES = 64
+_LOOKED_AT = 2001
 _SLOPES = 2.5
 """Steps in which the slope of a smooth torque curve is used, over its steepest."""
 LEAST_LEFT = 1e-3
 """Mass that stays on the rope when the whole load comes off, over the load."""
 Moving = Lift | Start | Stop | LowerBrake | Release
-
-
-@dataclass(frozen=True, slots=True)
-class Reduced:
-    """A hoist as two masses at the hook: what the closed forms work with.
-
-    `drive_mass` is m_1 with the power flowing to the load, `drive_force` P of the mean starting torque, `weight` Q.
-    """
-
-    drive_mass: float
-    load_mass: float
-    stiffness: float
-    drive_force: float
-    weight: float
-    speed: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,115 +104,6 @@ class Case:
     def smooth(self) -> bool:
         """Whether a nonlinear torque takes part."""
         return any(isinstance(stage.law, Smooth) for drive in self.train.drives for stage in drive.stages)
-
-
-# -- numbers of the machine -----------------------------------------------------------------------------------------
-
-
-def travel(spec: Hoist, scene: HoistScene) -> float:
-    """Of the hook for a radian of the drum [m]."""
-    return model.wound(spec, model.hook_height(scene)).radius / model.falls_of_a_rope(spec)
-
-
-def hauling_efficiency(spec: Hoist) -> float:
-    """Of tackle and deflection sheaves while the drum hauls [1]."""
-    tackle = reeving.tackle_efficiency(model.falls_of_a_rope(spec), filled(spec.reeving.sheave_efficiency))
-    return tackle * model.deflection_efficiency(spec)
-
-
-def lowering_efficiency(spec: Hoist) -> float:
-    """Of tackle and deflection sheaves while the load turns the drum [1]."""
-    tackle = reeving.lowering_tackle_efficiency(model.falls_of_a_rope(spec), filled(spec.reeving.sheave_efficiency))
-    return tackle * model.deflection_efficiency(spec)
-
-
-def ratio(spec: Hoist) -> float:
-    """Motor speed over drum speed [1]."""
-    return spec.gearbox.ratio if spec.gearbox is not None else 1.0
-
-
-def motor_torque(spec: Hoist) -> float:
-    """Mean starting torque of all motors [N*m]."""
-    return spec.motor.count * spec.motor.mean_torque if spec.motor is not None else 0.0
-
-
-def hook_speed(spec: Hoist, scene: HoistScene) -> float:
-    """Of the hook in a scene, the rope on the layer it is on there [m/s]; 0 where the load hangs still."""
-    which = getattr(scene, "speed", "main")
-    return model.drum_speed(spec, which) * travel(spec, scene)
-
-
-def rope_mass(spec: Hoist, scene: HoistScene) -> float:
-    """Of the falls that hang [kg]."""
-    falls = model.fall_length(spec, model.hook_height(scene)) * spec.reeving.falls
-    return filled(spec.rope.mass) * falls
-
-
-def reduced(spec: Hoist, scene: HoistScene) -> Reduced:
-    """The hoist as two masses at the hook while it hauls."""
-    arm, gear, tackle = travel(spec, scene), model.efficiency(spec), hauling_efficiency(spec)
-    mass = model.hook_mass(spec, scene)
-    rotor = model.motor_side_inertia(spec) * (ratio(spec) / arm) ** 2 * gear * tackle
-    drum = (spec.drum.inertia or 0.0) / arm**2 * tackle
-    return Reduced(
-        rotor + drum,
-        mass,
-        model.hook_stiffness(spec, model.hook_height(scene)),
-        motor_torque(spec) * ratio(spec) * gear * tackle / arm,
-        mass * spec.gravity,
-        hook_speed(spec, scene),
-    )
-
-
-def start_hook_speed(spec: Hoist, scene: Lift) -> float:
-    """Of the drive as the rope comes taut, at the hook [m/s]: its set speed, or what its mean torque brings it to."""
-    if scene.rope == "taut":
-        return 0.0
-    if scene.slack is None:
-        return hook_speed(spec, scene)
-    one = reduced(spec, scene)
-    return min(hook_speed(spec, scene), math.sqrt(2 * scene.slack * one.drive_force / one.drive_mass))
-
-
-def brake_torque(spec: Hoist) -> float:
-    """Of the closed brake, on the motor shaft [N*m]; 0 without one."""
-    given = spec.brake
-    if given is None:
-        return 0.0
-    return given.torque if given.shaft == "motor" else given.torque / ratio(spec)
-
-
-def hook_brake_force(spec: Hoist, scene: HoistScene) -> float:
-    """Force at the hook against which the closed brake slips while the load drives it [N]."""
-    losses = model.reverse_efficiency(spec) * lowering_efficiency(spec)
-    return brake_torque(spec) * ratio(spec) / (travel(spec, scene) * losses) if losses > 0 else math.inf
-
-
-def moving_inertia(spec: Hoist, scene: HoistScene) -> float:
-    """All that moves, on the motor shaft [kg*m^2]."""
-    drum = (spec.drum.inertia or 0.0) + model.hook_mass(spec, scene) * travel(spec, scene) ** 2
-    return model.motor_side_inertia(spec) + drum / ratio(spec) ** 2
-
-
-def braked_way(spec: Hoist, scene: LowerBrake | Stop) -> tuple[float, float]:
-    """Time [s] and way of the hook [m] of the rigid hoist until the brake has stopped it, losses of gear and tackle
-    helping while it is lowered; infinite where the brake is the weaker."""
-    arm, speed = travel(spec, scene), model.drum_speed(spec, scene.speed) * ratio(spec)
-    load = model.hook_mass(spec, scene) * spec.gravity * arm / ratio(spec)
-    lowers = scene.type == "lower_brake" or scene.direction == "down"
-    losses = max(model.reverse_efficiency(spec), 0.0) * lowering_efficiency(spec)
-    given = spec.brake
-    assert given is not None
-    time, angle = braking.brake_stop(
-        moving_inertia(spec, scene),
-        speed,
-        brake_torque(spec),
-        load * losses if lowers else -load,
-        given.delay,
-        given.rise_time,
-        given.rise,
-    )
-    return time, angle / ratio(spec) * arm
 
 
 # -- the train ------------------------------------------------------------------------------------------------------
@@ -328,10 +214,19 @@ class _Builder:
         drop = scene.hook_height or self.spec.height
         held = drive.held(self.spec, model.hook_mass(self.spec, scene), scene.hook_height)
         holds = isinstance(scene, Stop | LowerBrake) and held is not None and held.reserve > 1
-        weak = self.lifts and self._follows_speed and reduced(self.spec, scene).drive_force < self.weight
+        weak = self.lifts and self._most_force < self.weight
         return Case(
             train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds, weak
         )
+
+    @property
+    def _most_force(self) -> float:
+        """Largest force of the drive at the hook [N]: of its mean torque, or of its curve below the free speed."""
+        force, motor = reduced(self.spec, self.scene).drive_force, self.spec.motor
+        if self._follows_speed or motor is None or motor.curve is None:
+            return force
+        torques = motor.curve.torque(np.linspace(0.0, motor.curve.no_load_speed or 1.0, _LOOKED_AT), np.inf)
+        return force * float(np.max(torques)) / motor.mean_torque
 
     # -- what moves ---------------------------------------------------------------------------------------------
 

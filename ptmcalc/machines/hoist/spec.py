@@ -281,25 +281,24 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             if isinstance(layers, int) and isinstance(wanted, int) and wanted > layers:
                 reason = f"the rope never climbs to layer {wanted}: the drum has {layers}"
                 yield Conflict(("scenes", index), reason, f"write `layers: {wanted}` under `drum`")
-        if what == "winding":
-            yield from _nothing_to_swing(given, index, scene)
+        yield from _nothing_that_hangs(given, index, scene, what)
         profile = scene.raw.get("profile")
         if isinstance(profile, dict) and profile.get("shape") == "curve" and motor is not None and "curve" not in motor:
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
             yield Conflict(("scenes", index, what, "profile", "shape"), "the motor has no `curve` to follow", hint)
 
 
-def _nothing_to_swing(given: Given, index: int, scene: Given) -> Iterator[Conflict]:
-    """A load that swings on its rope as it winds up has a mass, and rope to swing on."""
-    if scene.word("load") == "empty" and not given.number("hook_block"):
-        reason = "an empty hook without a mass does not swing"
-        yield Conflict(("scenes", index, "winding", "load"), reason, "add `hook_block: 90 kg`, or write `load: full`")
+def _nothing_that_hangs(given: Given, index: int, scene: Given, what: str) -> Iterator[Conflict]:
+    """What moves on its rope has a mass, and rope to hang on."""
+    if what != "run" and scene.word("load") == "empty" and not given.number("hook_block"):
+        reason = "an empty hook without a mass does not move on its rope"
+        yield Conflict(("scenes", index, what, "load"), reason, "add `hook_block: 90 kg`, or write `load: full`")
     reeving = given.block("reeving")
     hook, height = scene.number("hook_height"), given.number("height")
     spare = (given.number("least_fall") or 0.0) + ((reeving.number("lead_length") or 0.0) if reeving else 0.0)
-    if hook is not None and height is not None and hook >= height and spare <= 0:
+    if hook is not None and hook == height and spare <= 0:
         reason = "no rope is free with the hook so high"
-        yield Conflict(("scenes", index, "winding", "hook_height"), reason, "write less, or add `least_fall: 1 m`")
+        yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or add `least_fall: 1 m`")
 
 
 _ADD = {

@@ -353,3 +353,33 @@ def test_absurd_sizes_end_in_a_report_of_numbers(seed: int) -> None:
     for scene in report.scenes:
         assert not any(math.isnan(load.estimate.value) for load in scene.loads)
         assert scene.loads or [one for one in report.diagnostics if one.code.startswith("NUM")]
+
+
+def test_the_bar_of_a_rope_that_goes_slack_does_not_push() -> None:
+    brake = {"torque": "2.5 kN*m", "rise_time": "0.02 s"}
+    data = changed(CRANE, speed={"main": "0.9 m/s"}, gearbox__ratio=16, brake=brake)
+    scene = scene_of(report_of(changed(data, scenes=[{"type": "stop", "direction": "up"}])))
+    force = load_of(scene, "rope_force_min").estimate
+    assert force.low == pytest.approx(0, abs=1e-3)
+    assert force.high > 1e3
+
+
+def test_a_stall_is_told_once_by_the_run_that_is_reported() -> None:
+    """The drive without the play and the elastic gear stalls at another time: it is no longer heard."""
+    gear = {"gearbox__stiffness": "1.5 MN*m/rad", "gearbox__backlash": "0.1 deg"}
+    weak = changed(CRANE, motor__mean_starting_torque="60 N*m", scenes=[{"type": "lift"}], **gear)
+    said = [one.message for one in report_of(weak).diagnostics if one.code == "NUM110"]
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize(("overload", "lifts"), [(1.5, False), (2.5, True)])
+def test_a_motor_whose_curve_stays_below_the_load_lifts_it_with_its_swing_only(overload: float, lifts: bool) -> None:
+    """12 kW at 1460 rpm give 78.5 N m; the load asks 120 N m."""
+    data = changed(CRANE, duty=None, structure=None)
+    data["motor"] = {"inertia": "0.16 kg*m^2", "coupling_inertia": "0.0 kg*m^2"}
+    data["motor"]["curve"] = {"type": "induction", "power": "12 kW", "speed": "1460 rpm", "overload": overload}
+    data["motor"]["curve"]["synchronous_speed"] = "1500 rpm"
+    lift = {"type": "lift", "profile": {"shape": "curve"}}
+    report = report_of(changed(data, scenes=[lift]))
+    assert check_of(scene_of(report), "HST121").verdict is (Verdict.PASS if lifts else Verdict.FAIL)
+    assert any("stall" in one.message for one in report.diagnostics) is not lifts

@@ -221,7 +221,7 @@ class TestAssumptions:
 
 class TestWhatIsWrong:
     def test_a_brake_weaker_than_the_load_says_how_far_it_drops(self) -> None:
-        scene = hoist_scene(changed(CRANE, brake__torque="60 N*m"))
+        scene = hoist_scene(changed(CRANE, brake__torque="60 N*m"), repairs=True)
         judged = check_of(scene, "HST118")
         assert judged.verdict is Verdict.FAIL
         assert value(scene, "drop_distance") == 12.0
@@ -234,6 +234,22 @@ class TestWhatIsWrong:
         report = report_of(changed(CRANE, brake__torque="60 N*m", scenes=[{"type": "lower_brake"}]))
         assert any("by up to 12 m" in one.message for one in report.diagnostics)
         assert report.verdict == "fail"
+
+    @pytest.mark.parametrize(
+        ("brake", "scene"),
+        [
+            ({"torque": "60 N*m"}, {"type": "stop", "direction": "up"}),
+            ({"torque": "10 kN*m", "shaft": "drum"}, {"type": "lower_brake"}),
+        ],
+    )
+    def test_a_brake_too_weak_stops_a_hoisted_load_but_does_not_hold_it(
+        self, brake: dict[str, Any], scene: dict[str, Any]
+    ) -> None:
+        """Nor does a brake on the drum that would hold behind the losses of a gear: they do not help it."""
+        report = report_of(changed(CRANE, brake=brake, gearbox__efficiency=0.8, scenes=[scene]))
+        said = [one.message for one in report.diagnostics if one.code == "NUM110"]
+        assert said
+        assert all("does not hold the load" in one for one in said)
 
     @pytest.mark.parametrize("gearbox", [{}, {"stiffness": "1.5 MN*m/rad"}, {"backlash": "0.1 deg"}])
     def test_a_brake_on_the_drum_stops_the_load_while_the_rotor_swings_on(self, gearbox: dict[str, Any]) -> None:
@@ -263,26 +279,43 @@ class TestWhatIsWrong:
         assert math.isinf(value(scene, "brake_reserve_static"))
         assert verdict(scene, "HST118") is Verdict.PASS
 
+    def test_a_self_locking_gear_that_jams_stops_the_load_at_once(self) -> None:
+        """A drum so heavy cannot be braked through it: the load swings on its rope from the speed it had."""
+        data = changed(CRANE, gearbox__efficiency=0.4, drum__inertia="9000 kg*m^2", scenes=[{"type": "lower_brake"}])
+        scene = hoist_scene(data)
+        stiffness = 4 * 110e9 * 118e-6 * 2 / (2 * 13.1)
+        assert value(scene, "stop_time") == 0
+        assert value(scene, "stop_distance_lowering") == pytest.approx(0.133 * math.sqrt(12850 / stiffness), rel=1e-6)
+        assert value(scene, "rope_force_max") == pytest.approx(12850 * G + 0.133 * math.sqrt(stiffness * 12850))
+
     def test_a_brake_on_the_drum_gets_no_help_from_the_gear(self) -> None:
         scene = hoist_scene(changed(CRANE, brake__shaft="drum", brake__torque="25 kN*m"))
         down = balanced_falls(12850 * G / 2, 2, 0.985, 1.05 * 13.1 * G, False)[1][0]
         assert value(scene, "brake_torque_static") == pytest.approx(2 * down * 0.1855)
 
     def test_a_motor_that_stalls(self) -> None:
-        scene = hoist_scene(changed(CRANE, motor__mean_starting_torque="100 N*m"))
+        scene = hoist_scene(changed(CRANE, motor__mean_starting_torque="100 N*m"), repairs=True)
         assert verdict(scene, "HST114") is Verdict.FAIL
         assert "stall" in load_of(scene, "starting_reserve").note
         assert check_of(scene, "HST114").repair is not None
 
+    @pytest.mark.parametrize("direction", ["up", "down"])
+    def test_a_start_is_held_against_the_motor_too(self, direction: str) -> None:
+        data = changed(CRANE, motor__mean_starting_torque="100 N*m")
+        scene = hoist_scene(changed(data, scenes=[{"type": "start", "direction": direction}]))
+        judged = [one.verdict for one in scene.checks if one.code == "HST114"]
+        assert judged == ([Verdict.FAIL] if direction == "up" else [])
+        assert value(scene, "starting_reserve") == pytest.approx(value(hoist_scene(data), "starting_reserve"))
+
     def test_a_motor_five_times_too_strong(self) -> None:
-        scene = hoist_scene(changed(CRANE, motor__mean_starting_torque="1200 N*m"))
+        scene = hoist_scene(changed(CRANE, motor__mean_starting_torque="1200 N*m"), repairs=True)
         judged = check_of(scene, "HST115")
         assert judged.verdict is Verdict.FAIL
         assert judged.repair is not None
         assert judged.repair.value == pytest.approx(4 * value(scene, "torque_motor_static_up"), rel=0.02)
 
     def test_a_drum_of_ten_metres(self) -> None:
-        scene = hoist_scene(changed(CRANE, height="280 m", drum__length="10 m"))
+        scene = hoist_scene(changed(CRANE, height="280 m", drum__length="10 m"), repairs=True)
         judged = check_of(scene, "HST109")
         assert judged.verdict is Verdict.FAIL
         assert judged.repair is not None
@@ -290,13 +323,24 @@ class TestWhatIsWrong:
         assert judged.repair.value == pytest.approx(4.0, rel=0.02)
 
     def test_a_drum_too_short_needs_more_layers_than_it_has(self) -> None:
-        scene = hoist_scene(changed(CRANE, drum__length="300 mm"))
+        scene = hoist_scene(changed(CRANE, drum__length="300 mm"), repairs=True)
         assert value(scene, "drum_layers") == 2
         assert verdict(scene, "HST106") is verdict(scene, "HST107") is Verdict.FAIL
         repair = check_of(scene, "HST106").repair
         assert repair is not None
         again = hoist_scene(changed(CRANE, drum__length=f"{repair.value * 1e3:.6f} mm"))
         assert verdict(again, "HST106") is verdict(again, "HST107") is Verdict.PASS
+
+    @pytest.mark.parametrize(("falls", "comes_down"), [(4, True), (8, False)])
+    def test_a_hook_block_comes_down_against_the_friction_of_the_upper_sheaves(
+        self, falls: int, comes_down: bool
+    ) -> None:
+        """Two falls of a rope have none: both pull the block, however light, down with the rope the drum gives."""
+        scene = hoist_scene(changed(CRANE, hook_block="0.2 kg", reeving__falls=falls))
+        lower = balanced_falls(0.2 * G / 2, falls // 2, 0.985, 1.05 * 13.1 * G, False)[0]
+        assert (float(lower.min()) > 0) is comes_down
+        assert value(scene, "rope_pull_empty") == pytest.approx(lower.min(), rel=1e-6)
+        assert (verdict(scene, "HST105") is Verdict.PASS) is comes_down
 
     @pytest.mark.parametrize(
         ("code", "key", "value_"),
@@ -305,7 +349,6 @@ class TestWhatIsWrong:
             ("HST102", "drum__diameter", "260 mm"),
             ("HST103", "reeving__sheave_diameter", "280 mm"),
             ("HST104", "reeving__equaliser_diameter", "200 mm"),
-            ("HST105", "hook_block", "0.2 kg"),
             ("HST110", "drum__dead_wraps", 1),
             ("HST112", "drum__shell_thickness", "9 mm"),
             ("HST117", "duty__starts_per_hour", 300),
@@ -313,7 +356,7 @@ class TestWhatIsWrong:
     )
     def test_what_fails_blames_its_key_and_says_what_passes(self, code: str, key: str, value_: Any) -> None:
         path = tuple(key.split("__"))
-        judged = check_of(hoist_scene(changed(CRANE, **{key: value_})), code)
+        judged = check_of(hoist_scene(changed(CRANE, **{key: value_}), repairs=True), code)
         assert judged.verdict is Verdict.FAIL
         assert judged.blame.path == path
         assert judged.repair is not None
@@ -389,6 +432,12 @@ class TestDisagreement:
         (found,) = report_of(changed(CRANE, gearbox__ratio=90)).diagnostics
         assert found.code == "SPC201"
         assert "turn the drum at 16.22 rpm" in found.message
+
+    @pytest.mark.parametrize("power", ["22 kW", "2200 kW"])
+    def test_a_motor_that_starts_with_less_than_its_rated_torque(self, power: str) -> None:
+        found = report_of(changed(CRANE, motor__power=power)).diagnostics
+        assert [one.code for one in found] == (["SPC201"] if power == "2200 kW" else [])
+        assert all("240 N*m in the mean" in one.message and "14.39 kN*m" in one.message for one in found)
 
     def test_the_modulus_of_wire(self) -> None:
         (found,) = report_of(changed(CRANE, rope__modulus="210 GPa")).diagnostics

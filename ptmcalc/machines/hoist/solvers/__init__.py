@@ -1,7 +1,7 @@
 """Solvers of the hoist, one a file, from the cheapest to the richest."""
 
 from ptmcalc.machines.hoist.solvers.hoist_handbook import HOIST_HANDBOOK
-from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS, HOLDING
+from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS, HOLDING, STARTING
 from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
 from ptmcalc.machines.hoist.solvers.lifting_formulas import FORMULAS
 from ptmcalc.machines.hoist.solvers.two_mass import TWO_MASS
@@ -13,6 +13,7 @@ SOLVERS = (
     HOIST_STATICS,
     HOIST_HANDBOOK,
     HOLDING,
+    STARTING,
     *FORMULAS,
     TWO_MASS,
     TRAIN,

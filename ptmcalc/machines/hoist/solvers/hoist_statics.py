@@ -11,7 +11,7 @@ from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.drive_data import Duty, Motor
 from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Stop
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 Numbers = dict[str, float]
 
@@ -120,7 +120,6 @@ def _part_by_part(spec: Hoist, scene: HoistScene) -> Numbers:
 def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     mass, height = model.hook_mass(spec, scene), scene.hook_height
     loads: Numbers = {}
-    notes: dict[str, str] = {}
     if spec.gearbox is not None:
         up, speed = drive.torque_up(spec, mass, height), drive.motor_speed(spec)
         loads |= {
@@ -130,11 +129,24 @@ def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
             "power_hoisting": up * speed,
         }
         if spec.motor is not None:
-            loads |= _of_the_motor(spec, spec.motor, mass, height, up)
-            if math.isinf(loads["start_time"]):
-                notes["starting_reserve"] = "stall: the motor does not lift the hanging load"
-    found = {name: Found(Estimate.exact(value), note=notes.get(name, "")) for name, value in loads.items()}
-    return found | _of_the_brake(spec, scene)
+            loads |= _of_the_motor(spec, spec.motor, mass, height)
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    return found | _of_the_start(spec, scene) | _of_the_brake(spec, scene)
+
+
+def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
+    """What the motor has over the hanging load, and how long it takes upwards."""
+    if spec.gearbox is None or spec.motor is None:
+        return {}
+    mass, height = model.hook_mass(spec, scene), scene.hook_height
+    up = drive.torque_up(spec, mass, height)
+    reserve = drive.starting_torque(spec.motor) / up if up > 0 else math.inf
+    time = drive.start_time(spec, spec.motor, mass, height, up=True)
+    note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
+    return {
+        "starting_reserve": Found(Estimate.exact(reserve), note=note),
+        "start_time": Found(Estimate.exact(time)),
+    }
 
 
 def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
@@ -154,9 +166,8 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     }
 
 
-def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None, up: float) -> Numbers:
-    loads = {"starting_reserve": drive.starting_torque(motor) / up if up > 0 else math.inf}
-    loads["start_time"] = drive.start_time(spec, motor, mass, height, up=True)
+def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None) -> Numbers:
+    loads: Numbers = {}
     field = drive.field_speed(motor)
     if field is not None:
         loads["start_heat"] = drive.start_heat(spec, motor, field, mass, height)
@@ -221,6 +232,31 @@ HOLDING: Solver[Hoist, HoistScene] = Solver(
     represents=frozenset(),
     gives=frozenset({"brake_torque_static", "brake_reserve_static", "drop_distance", "drop_speed"}),
     run=hold,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="power balance of the gearbox",
+)
+
+
+def start(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
+    """What the motor has over the hanging load in a scene that begins with it.
+
+        reserve = M_mean/(S R n/(u eta));   t = w (J_1 + J_2/(u^2 eta))/(M_mean - M_L/(u eta))
+
+    **Range** as `hoist_statics`.
+    **Error** exact for that model.
+    **Source** power balance of the gearbox (`laws.hoisting`).
+    """
+    return Result(_of_the_start(spec, scene), work=1)
+
+
+STARTING: Solver[Hoist, HoistScene] = Solver(
+    name="starting_reserve",
+    title="the motor over the hanging load",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Start}),
+    represents=frozenset(),
+    gives=frozenset({"starting_reserve", "start_time"}),
+    run=start,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="power balance of the gearbox",
 )

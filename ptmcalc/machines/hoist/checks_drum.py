@@ -1,0 +1,256 @@
+"""The checks of a hoist's drum: room, layers, flanges, fleet angle, shell."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.laws import hoist_class
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.checks import RUNNING, OneCheck, at, blames, loaded, only
+from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+
+_FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
+
+
+def _room(spec: Hoist, scene: Run) -> Estimate:
+    """Length of the wound part of the drum.
+
+    **Range** any drum.
+    **Error** none: a given value.
+    **Source** the file.
+    """
+    return Estimate.exact(spec.drum.length)
+
+
+CAPACITY: OneCheck = only(loaded)(
+    Check(
+        code="HST106",
+        title="too little room for the rope on the drum",
+        scenes=RUNNING,
+        loads=("drum_length_required",),
+        sense=Sense.AT_MOST,
+        limit=_room,
+        needs=no_needs,
+        blame=blames("drum", "length"),
+        repair=at("drum", "length"),
+        what="The rope of the whole lifting height and the turns that stay lie on the drum in the layers of the file.",
+        why="Rope that finds no room climbs over the flange, or piles up and is crushed.",
+        formula="p (l/(2 pi) + lost)/sum R_k <= L",
+        source="geometry of the drum",
+    )
+)
+
+
+def _layers_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Layers of the file, or those of the drum, one in the groups M7 and M8.
+
+    **Range** any drum.
+    **Error** none: a chosen limit.
+    **Source** ISO 4308-1:2003 has no Zp for several layers in M7 and M8; quoted from secondary sources.
+    """
+    if spec.checks.layers is not None:
+        return Estimate.exact(spec.checks.layers)
+    group = spec.classes.mechanism
+    single = group is not None and group not in hoist_class.ROPE_SAFETY_LAYERS
+    return Estimate.exact(1 if single else spec.drum.layers)
+
+
+LAYERS: OneCheck = only(loaded)(
+    Check(
+        code="HST107",
+        title="more layers of rope than allowed",
+        scenes=RUNNING,
+        loads=("drum_layers",),
+        sense=Sense.AT_MOST,
+        limit=_layers_limit,
+        needs=no_needs,
+        blame=blames("drum", "layers"),
+        repair=no_repair,
+        what="With the hook at its highest the rope lies in no more layers than the file, or its group, allows.",
+        why="Each layer crushes the one below, and at every crossover the rope is jolted.",
+        formula="layers(l) <= n",
+        source="geometry of the drum; ISO 4308-1:2003 for the groups M7 and M8",
+    )
+)
+
+
+def _flange_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Least height of the flanges over the last layer, 1.5 rope diameters by default.
+
+    **Range** drums with flanges.
+    **Error** none: a chosen limit.
+    **Source** makers' manuals; EN 14492-2:2006 asks as much.
+    """
+    return Estimate.exact(spec.checks.flange_margin)
+
+
+FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.flange_height is not None)(
+    Check(
+        code="HST108",
+        title="a flange too low for the rope",
+        scenes=RUNNING,
+        loads=("flange_margin",),
+        sense=Sense.AT_LEAST,
+        limit=_flange_limit,
+        needs=no_needs,
+        blame=blames("drum", "flange_height"),
+        repair=at("drum", "flange_height"),
+        what="The flanges stand 1.5 rope diameters above the last layer.",
+        why="A rope that climbs over a flange is cut by it.",
+        formula="(h - (d + (n - 1) step))/d >= 1.5",
+        source="makers' manuals; EN 14492-2:2006",
+    )
+)
+
+
+def _slender_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Largest length of the wound parts over the diameter, 5 by default.
+
+    **Range** drums on two bearings.
+    **Error** none: an engineering rule; above 3 the shell is checked for bending too.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.drum_slenderness)
+
+
+SLENDER: OneCheck = only(loaded)(
+    Check(
+        code="HST109",
+        title="a drum too slender",
+        scenes=RUNNING,
+        loads=("drum_slenderness",),
+        sense=Sense.AT_MOST,
+        limit=_slender_limit,
+        needs=no_needs,
+        blame=blames("drum", "length"),
+        repair=at("drum", "diameter"),
+        what="All wound parts together are no longer than 5 diameters of the drum. A larger drum takes the rope in"
+        " fewer turns; so do fewer falls, more layers, or a second rope.",
+        why="A slender drum bends and its rope leaves it at a large angle.",
+        formula="n L/D <= 5",
+        source="handbooks of lifting machines",
+    )
+)
+
+
+def _wraps_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Fewest turns that stay on the drum, 2 by default.
+
+    **Range** ropes clamped to the drum.
+    **Error** none: a chosen limit.
+    **Source** makers' manuals: 2, some rules 3; Euler's rope friction takes most of the pull from the clamps.
+    """
+    return Estimate.exact(spec.checks.dead_wraps)
+
+
+DEAD_WRAPS: OneCheck = only(loaded)(
+    Check(
+        code="HST110",
+        title="too few turns that stay on the drum",
+        scenes=RUNNING,
+        loads=("dead_wraps",),
+        sense=Sense.AT_LEAST,
+        limit=_wraps_limit,
+        needs=no_needs,
+        blame=blames("drum", "dead_wraps"),
+        repair=at("drum", "dead_wraps"),
+        what="With the hook at its lowest two turns of rope stay on the drum.",
+        why="Their friction holds the rope; the clamps alone do not.",
+        formula="z >= 2",
+        source="makers' manuals; ISO 4308-1",
+    )
+)
+
+
+def _fleet_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Largest fleet angle: 4 deg, 2 deg for rotation-resistant ropes, or what the file says.
+
+    **Range** drums and sheaves with grooves of the usual depth.
+    **Error** none: a chosen limit.
+    **Source** makers' manuals; ISO 16625:2013 as they quote it.
+    """
+    asked = spec.checks.fleet_angle
+    resistant = spec.rope.rotation_resistant == "yes"
+    return Estimate.exact(asked if asked is not None else _FLEET_RESISTANT if resistant else _FLEET)
+
+
+def _fleet_key(spec: Hoist, scene: Run) -> KeyPath:
+    return ("reeving", "lead_length") if spec.reeving.lead_length > 0 else ("least_fall",)
+
+
+def _fleet_wanted(spec: Hoist, scene: HoistScene) -> bool:
+    known = spec.reeving.lead_length > 0 or spec.least_fall > 0
+    return loaded(spec, scene) and (known or spec.checks.fleet_angle is not None)
+
+
+FLEET: OneCheck = only(_fleet_wanted)(
+    Check(
+        code="HST111",
+        title="too large a fleet angle at the drum",
+        scenes=RUNNING,
+        loads=("fleet_angle",),
+        sense=Sense.AT_MOST,
+        limit=_fleet_limit,
+        needs=lambda spec, scene: () if spec.least_fall > 0 else (("reeving", "lead_length"),),
+        blame=lambda spec, scene, loads: _fleet_key(spec, scene),
+        repair=_fleet_key,
+        what="The rope leaves the plane of its turn by no more than 4 deg (2 deg for rotation-resistant ropes): towards"
+        " the first sheave, or towards the hook block at its highest.",
+        why="A rope that runs off at an angle rubs on the groove, untwists, and jumps the groove at last.",
+        formula="tan a = (b/2 + e)/l <= tan 4 deg",
+        source="geometry; makers' manuals after ISO 16625:2013",
+    )
+)
+
+
+def _hoop_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Largest hoop stress of the file.
+
+    **Range** the shell of the drum; half of the yield strength is usual.
+    **Error** none: a given value.
+    **Source** the designer's choice of material.
+    """
+    asked = spec.checks.hoop_stress
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+def _hoop_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
+    needs: tuple[KeyPath, ...] = (("drum", "shell_thickness"), ("checks", "hoop_stress"))
+    unknown = model.layer_factor(spec) is None
+    return (*needs, ("checks", "layer_factor")) if unknown else needs
+
+
+def _hoop_wanted(spec: Hoist, scene: HoistScene) -> bool:
+    given = spec.drum.shell_thickness is not None or spec.checks.hoop_stress is not None
+    return loaded(spec, scene) and given
+
+
+HOOP: OneCheck = only(_hoop_wanted)(
+    Check(
+        code="HST112",
+        title="too much hoop stress in the drum shell",
+        scenes=RUNNING,
+        loads=("hoop_stress",),
+        sense=Sense.AT_MOST,
+        limit=_hoop_limit,
+        needs=_hoop_needs,
+        blame=blames("drum", "shell_thickness"),
+        repair=at("drum", "shell_thickness"),
+        what="The rope wound on the shell presses it together no more than its material bears (DNV 2.22:2011: 1.75"
+        " times as much in two layers as in one; more layers need `checks.layer_factor`).",
+        why="A shell too thin is buckled by the rope that is wound on it.",
+        formula="C S/(p t) <= s",
+        source="balance of a ring; DNV 2.22:2011 for C, quoted from secondary sources, to be confirmed",
+    )
+)
+
+CHECKS_OF_DRUM: tuple[AnyCheck, ...] = (
+    CAPACITY,
+    LAYERS,
+    FLANGE,
+    SLENDER,
+    DEAD_WRAPS,
+    FLEET,
+    HOOP,
+)
