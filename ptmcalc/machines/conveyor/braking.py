@@ -1,51 +1,11 @@
-"""What brings the belt to rest: brakes at the rim over time, and the rigid conveyor under them."""
+"""The rigid conveyor under its brakes."""
 
 import math
-from dataclasses import dataclass
 
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.driving import moving_mass
-from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.model import BeltLine
-from ptmcalc.machines.conveyor.spec import Brake, Conveyor, ConveyorScene, EmergencyStop, Stop
-
-
-@dataclass(frozen=True, slots=True)
-class Braking:
-    """What a brake does at the rim over time: full force [N], delay and rise [s]."""
-
-    force: float
-    delay: float
-    rise: float
-
-    def at(self, time: float) -> float:
-        """Capacity at a time [N]."""
-        if time <= self.delay:
-            return 0.0
-        return self.force * (min((time - self.delay) / self.rise, 1.0) if self.rise > 0 else 1.0)
-
-
-def brakes_of(spec: Conveyor, scene: ConveyorScene) -> dict[str, Brake]:
-    """The brakes that act in a scene."""
-    acts = isinstance(scene, EmergencyStop) or (isinstance(scene, Stop) and scene.brakes == "on")
-    return dict(spec.brakes) if acts else {}
-
-
-def braking(spec: Conveyor, brake: Brake) -> Braking:
-    """A brake at the rim: a brake on the motor shaft is driven through the gear, whose losses add to it.
-
-    F = M/R   (drum shaft)        F = M i/(eta R)   (motor shaft)
-
-    It acts on the last drive there; at a tail without one, on the tail drum.
-    """
-    there = [drive for drive in spec.all_drives.values() if drive.at == brake.at]
-    if not there:
-        diameter = spec.tail_drum.diameter or spec.main_drive.drum.diameter
-        return Braking(brake.torque * 2 / diameter, brake.delay, brake.rise_time)
-    drive = there[-1]
-    force = brake.torque * 2 / drive.drum.diameter
-    if brake.shaft == "motor":
-        force *= drive.gear.ratio / filled(drive.gear.efficiency)
-    return Braking(force, brake.delay, brake.rise_time)
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, line: BeltLine, until: float = 0.0) -> tuple[float, float]:

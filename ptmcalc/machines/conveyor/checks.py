@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.contract.result import of
-from ptmcalc.machines.conveyor.braking import brakes_of, braking
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
 from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
 from ptmcalc.machines.conveyor.driving import moving_mass, running

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.sections import Section
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
@@ -206,7 +207,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
             tuple(spans) if known else (),
         )
 
-    drum = spec.main_drive.drum
+    drum, shafts = spec.main_drive.drum, braked_shafts(spec, scene)
     return BeltLine(
         gravity=g,
         speed=spec.speed,
@@ -215,7 +216,7 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
         carry=strand(carries=True),
         back=strand(carries=False),
         tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
-        drive_mass=sum(drive_mass(drive) for drive in spec.all_drives.values()),
+        drive_mass=sum(drive_mass(drive, driven=name in shafts) for name, drive in spec.all_drives.items()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
         fixed_length=spec.takeup.type == "rigid",
         takeup_tension=spec.takeup.tension,
@@ -353,13 +354,21 @@ def breaking_force(spec: Conveyor) -> float | None:
     return belt.breaking_force
 
 
-def drive_mass(drive: Drive) -> float:
-    """Motors, couplings and drum of a drive reduced to the rim [kg]."""
+def drive_mass(drive: Drive, driven: bool = False) -> float:
+    """Motors, couplings and drum of a drive reduced to the rim [kg].
+
+        m = J i^2 eta/R^2 + ...   where the motor drives        J i^2/(eta R^2) + ...   where the belt drives it
+
+    With a brake on its shaft the motor is `driven`: the torque through the gear is what the brake takes less what the
+    rotor gives, M - J e. Before the brake is closed the rotor still drives: the belt is then braked by more than this
+    says, by a part (1/eta - eta) J i^2/R^2 of the moving mass at most, and comes to rest the earlier.
+    """
     per_motor = drive.motor.inertia + filled(drive.coupling_inertia)
+    efficiency = filled(drive.gear.efficiency)
     return inertia.reduced_drive_mass(
         drive.motor.count * per_motor,
         drive.gear.ratio,
-        filled(drive.gear.efficiency),
+        1 / efficiency if driven else efficiency,
         filled(drive.drum.inertia),
         drive.drum.diameter / 2,
     )

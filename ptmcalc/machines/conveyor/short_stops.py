@@ -35,7 +35,8 @@ from ptmcalc.contract.result import family, of
 from ptmcalc.laws import loop_bounds, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.braking import brakes_of, braking, rigid_stop
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.braking import rigid_stop
 from ptmcalc.machines.conveyor.driving import running
 from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses

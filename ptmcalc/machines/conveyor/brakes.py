@@ -1,0 +1,56 @@
+"""Brakes: which act in a scene, where, and with what force at the rim over time."""
+
+from dataclasses import dataclass
+
+from ptmcalc.machines.conveyor.forces import filled
+from ptmcalc.machines.conveyor.spec import Brake, Conveyor, ConveyorScene, EmergencyStop, Stop
+
+
+@dataclass(frozen=True, slots=True)
+class Braking:
+    """What a brake does at the rim over time: full force [N], delay and rise [s]."""
+
+    force: float
+    delay: float
+    rise: float
+
+    def at(self, time: float) -> float:
+        """Capacity at a time [N]."""
+        if time <= self.delay:
+            return 0.0
+        return self.force * (min((time - self.delay) / self.rise, 1.0) if self.rise > 0 else 1.0)
+
+
+def brakes_of(spec: Conveyor, scene: ConveyorScene) -> dict[str, Brake]:
+    """The brakes that act in a scene."""
+    acts = isinstance(scene, EmergencyStop) or (isinstance(scene, Stop) and scene.brakes == "on")
+    return dict(spec.brakes) if acts else {}
+
+
+def braking(spec: Conveyor, brake: Brake) -> Braking:
+    """A brake at the rim: a brake on the motor shaft is driven through the gear, whose losses add to it.
+
+    F = M/R   (drum shaft)        F = M i/(eta R)   (motor shaft)
+
+    It acts on the last drive there; at a tail without one, on the tail drum.
+    """
+    name = _drive_of(spec, brake)
+    if name is None:
+        diameter = spec.tail_drum.diameter or spec.main_drive.drum.diameter
+        return Braking(brake.torque * 2 / diameter, brake.delay, brake.rise_time)
+    drive = spec.all_drives[name]
+    force = brake.torque * 2 / drive.drum.diameter
+    if brake.shaft == "motor":
+        force *= drive.gear.ratio / filled(drive.gear.efficiency)
+    return Braking(force, brake.delay, brake.rise_time)
+
+
+def _drive_of(spec: Conveyor, brake: Brake) -> str | None:
+    """The drive a brake acts on; none at a drum that is not driven."""
+    there = [name for name, drive in spec.all_drives.items() if drive.at == brake.at]
+    return there[-1] if there else None
+
+
+def braked_shafts(spec: Conveyor, scene: ConveyorScene) -> set[str | None]:
+    """Drives with a brake on the motor shaft that acts in a scene: the belt drives their gears."""
+    return {_drive_of(spec, brake) for brake in brakes_of(spec, scene).values() if brake.shaft == "motor"}
