@@ -467,6 +467,21 @@ def test_brake_torque_and_overload_are_those_of_st_02(lift: float, expected: flo
     scene = scene_of(report_of(rig.data({"type": "stop"}, checks={"stop_distance": "0.1 m"})))
     assert load_of(scene, "brake_torque_required").estimate.value == pytest.approx(expected, rel=1e-4)
     assert load_of(scene, "tension_overload_braking").estimate.value == pytest.approx(23700.3, rel=1e-5)
+    formula = load_of(scene, "brake_torque_required").formula
+    assert formula is not None
+    textbook = (rig.mass() * 0.5**2 / (2 * 0.1) + abs(rig.resistance())) * rig.drives["head"].diameter / 2
+    assert formula.value == pytest.approx(textbook, rel=1e-9)
+
+
+@pytest.mark.parametrize("brakes", [(), (Brake(20e3),)])
+def test_without_a_limit_the_overload_is_that_of_the_brakes_there_are(brakes: tuple[Brake, ...]) -> None:
+    rig = _chain(12.0, 0.05, rotor=0.35, brakes=brakes)
+    scene = scene_of(report_of(rig.data({"type": "stop"})))
+    drive = rig.drives["head"]
+    force = rig.resistance() + sum(20e3 / (drive.diameter / 2) for _ in brakes)
+    belt = rig.mass() - drive.mass
+    found = load_of(scene, "tension_overload_braking").estimate.value
+    assert found == pytest.approx(belt * force / rig.mass(), rel=1e-9)
 
 
 def test_the_brake_of_st_02_stops_the_rigid_body_in_that_way() -> None:

@@ -8,6 +8,7 @@ from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP
@@ -26,26 +27,50 @@ def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: 
 
         M = (m v^2/(2 s) - W) R,  not below 0;   S_ov = m_belt v^2/(2 s)
 
-    W > 0 opposes the motion and helps; downhill it may drive. m holds everything that moves, rotors included.
+    W > 0 opposes the motion and helps; downhill it may drive. m holds everything that moves, rotors included. Without
+    a way in the file the pull is that of the brakes it has, S_ov = m_belt (W + B)/m.
 
     **Range** uniform deceleration, the brake at full torque from the first moment.
     **Error** exact for the rigid conveyor; delay, rise and waves are in the simulated way.
     **Source** lecture notes Kramatorsk 2007, signed form.
     """
-    key = "emergency_stop_distance" if isinstance(scene, EmergencyStop) else "stop_distance"
-    way = getattr(spec.checks, key)
+    way, line = _allowed_way(spec, scene), running(spec, scene)
+    resistance, belt = line.static_resistance + line.tail_pull, moving_mass(line) - line.drive_mass
     if way is None:
-        return Result({}, work=1)
-    line = running(spec, scene)
-    resistance = line.static_resistance + line.tail_pull
+        held = sum(braking(spec, one).force for one in brakes_of(spec, scene).values())
+        return _exactly({"tension_overload_braking": belt * max(resistance + held, 0.0) / moving_mass(line)})
     force = float(stopping.braking_force(moving_mass(line), line.speed, way)) - resistance
-    belt = moving_mass(line) - line.drive_mass
     return _exactly(
         {
             "brake_torque_required": max(force, 0.0) * spec.main_drive.drum.diameter / 2,
             "tension_overload_braking": float(stopping.braking_force(belt, line.speed, way)),
         }
     )
+
+
+def _allowed_way(spec: Conveyor, scene: ConveyorScene) -> float | None:
+    """The way in which the file wants a scene to stop [m]."""
+    return spec.checks.emergency_stop_distance if isinstance(scene, EmergencyStop) else spec.checks.stop_distance
+
+
+def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """The brake torque of the textbook, on the drum shaft.
+
+        M = (|W| + m v^2/(2 s)) R
+
+    **Range** as `brake`; it equals the signed form where the load drives the conveyor.
+    **Error** none bound: uphill it adds the resistance to what the brake must do instead of crediting it.
+    **Source** lecture notes Kramatorsk 2007, M, M_st and M_T in turn.
+    """
+    way = _allowed_way(spec, scene)
+    if way is None:
+        return Result({}, work=1)
+    line = running(spec, scene)
+    torque = stopping.brake_torque_for_distance(
+        moving_mass(line), line.static_resistance + line.tail_pull, line.speed, way, spec.main_drive.drum.diameter,
+        ratio=1.0, efficiency=1.0, rotor_inertia=0.0, form=stopping.NOTES,
+    )  # fmt: skip
+    return _exactly({"brake_torque_required": torque})
 
 
 def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) -> Result:
@@ -156,6 +181,15 @@ BRAKING = _formula(
     {Stop, EmergencyStop},
     {"brake_torque_required", "tension_overload_braking"},
     f"{_NOTES}, signed form",
+)
+BRAKING_NOTES = _formula(
+    "brake_notes",
+    "textbook brake torque for the way of the file",
+    brake_notes,
+    {Stop, EmergencyStop},
+    {"brake_torque_required"},
+    _NOTES,
+    decides=False,
 )
 IDENTIFY = _formula(
     "run_out",
