@@ -60,7 +60,7 @@ SETTINGS = {
     "slip": (LINEAR | {"slip"}, _slippery),
     "sag": (LINEAR | {"slip", "sag"}, _as_drawn),
 }
-BOUNDED = [("straight", 11_001, 50), ("slip", 11_002, 40), ("sag", 11_033, 10)]
+BOUNDED = [("straight", 11_001, 40), ("slip", 11_002, 30), ("sag", 11_033, 10)]
 STUDY = [
     pytest.param(name, 12_000 + k, 200, marks=pytest.mark.study, id=f"{name}-{k}")
     for k in range(4)
