@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ptmcalc.numerics import panels
 from ptmcalc.numerics.panels import FloatArray
@@ -28,8 +29,11 @@ class Extremes:
     def of(cls, signals: int, sign: int) -> "Extremes":
         return cls(sign, np.full(signals, -np.inf), np.zeros(signals))
 
-    def see(self, starts: FloatArray, lengths: FloatArray, watch: FloatArray) -> None:
-        """Take in signals at the nodes of panels, shape (panels, nodes, signals)."""
+    def see(
+        self, starts: FloatArray, lengths: FloatArray, watch: FloatArray, smooth: NDArray[np.bool_] | None = None
+    ) -> None:
+        """Take in signals at the nodes of panels, shape (panels, nodes, signals); between the nodes only where they
+        are smooth, shape (panels, signals), if that is given."""
         heights, depths = watch.max(axis=1), watch.min(axis=1)
         if self.sign < 0:
             heights, depths = -depths, -heights
@@ -39,7 +43,8 @@ class Extremes:
         place = panels.NODES[(self.sign * watch[where, :, better]).argmax(axis=1)]
         self.at[better] = starts[where] + lengths[where] * place
         self.best[better] = peak[better]
-        index, signal = np.nonzero(heights + _OVERSHOOT * (heights - depths) > self.best)
+        likely = heights + _OVERSHOOT * (heights - depths) > self.best
+        index, signal = np.nonzero(likely if smooth is None else likely & smooth)
         nodes = self.sign * watch[index, :, signal]
         steps = np.abs(np.diff(nodes, axis=1)).max(axis=1)
         limits = heights[index, signal] + _OVERSHOOT * steps

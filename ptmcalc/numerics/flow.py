@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ptmcalc.numerics import expm, panels
+from ptmcalc.numerics.components import Components, components
 from ptmcalc.numerics.motion import DUST, NOISE
 from ptmcalc.numerics.panels import COUNT, NODES, FloatArray
 
@@ -15,12 +14,9 @@ RESOLVED = 0.8
 """Largest frequency times panel: the polynomial through the nodes is then exact to 3e-12 of the amplitude."""
 FADED = 1e-11
 """Share of a signal below which a fast component no longer has to be resolved, unless a flow says otherwise."""
-_WELL_POSED = 1e-6
 WORTH_A_LOOK = 400.0
 """Radians to come of the fastest component above which it is worth asking whether it has faded."""
 MOST_PANELS = 32
-_NOT_THERE = 8 * float(np.finfo(float).eps)
-"""Share of what it adds up below which a component is rounding."""
 _FEW = 4
 _ROUNDING = 1e-12
 _POWER_OF_TWO = 0.5
@@ -58,7 +54,7 @@ class Flow:
         self._powers = expm.Powers(rate)
         speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
         self._largest = max(float(speeds.max(initial=0.0)), input_speed)
-        self._components: _Components | None = None
+        self._components: Components | None = None
         self._chunks: dict[float, Chunk] = {}
 
     def panel(self, state: FloatArray, longest: float, sizes: Callable[[], FloatArray]) -> float:
@@ -66,12 +62,22 @@ class Flow:
         longest one that is asked for."""
         fastest = self._largest
         if fastest * longest > self.worth:
-            if self._components is None:
-                self._components = _components(self.rate, np.concatenate([self.guards, self.watch]), self.own)
-            fastest = max(self._components.fastest(state, self.faded, sizes()), self.input_speed)
+            fastest = max(self.components.fastest(state, self.faded, sizes()), self.input_speed)
         if fastest * longest <= self.resolved:
             return longest
         return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / fastest))
+
+    @property
+    def components(self) -> Components:
+        """What moves in it, told apart."""
+        if self._components is None:
+            self._components = components(self.rate, np.concatenate([self.guards, self.watch]), self.own)
+        return self._components
+
+    @property
+    def finest(self) -> float:
+        """A panel that resolves every component: a power of two in units."""
+        return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / self._largest))
 
     def lattice(self, panel: float) -> float:
         """The shortest panel not below this one of those that can come again."""
@@ -196,55 +202,3 @@ class Chunk:
                 filled += more
             self._powers = powers
         return (self._powers[: count + 1].reshape(-1, n) @ state).reshape(count + 1, n)
-
-
-@dataclass(frozen=True, slots=True)
-class _Components:
-    """The components of a motion that can be told apart: how fast each is, what finds it, and who sees it.
-
-    What is no more than rounding of the state is not there: a stiff link under a slow load never shows less.
-
-    Eigenvectors only say which panel is short enough, never how the state moves. A component whose eigenvector is not
-    well separated (a free mass, coinciding frequencies) counts as always there.
-    """
-
-    speeds: FloatArray
-    shares: NDArray[np.complex128]
-    shapes: FloatArray
-    posed: NDArray[np.bool_]
-    magnitudes: FloatArray
-    """of what the guards and, last, the signals add up"""
-
-    def fastest(self, state: FloatArray, faded: float, sizes: FloatArray) -> float:
-        """Speed of the fastest component of a state that any guard or signal sees as more than a share of its size."""
-        if not len(self.speeds):
-            return 0.0
-        limits = self.magnitudes @ np.abs(state)
-        watched = limits[len(limits) - len(sizes) :]
-        np.maximum(watched, sizes, out=watched)
-        share = np.abs(self.shares @ state)
-        share[share <= _NOT_THERE * (np.abs(self.shares) @ np.abs(state))] = 0.0
-        seen = share[:, None] * self.shapes > faded * limits + 1e-290
-        there = ~self.posed | seen.any(axis=1)
-        return float(self.speeds[there].max(initial=0.0))
-
-
-def _components(rate: FloatArray, rows: FloatArray, own: int) -> _Components:
-    """Components of the first `own` states, which nothing after them depends on.
-
-    The left eigenvector w of the block goes on as w C (lambda - S)^-1 over the inputs, C their effect, S their rates.
-    """
-    block, effect, inputs = rate[:own, :own], rate[:own, own:], rate[own:, own:]
-    values, right = np.linalg.eig(block)
-    twins, left = np.linalg.eig(block.T)
-    match = np.abs(values[:, None] - twins).argmin(axis=1) if own else np.empty(0, int)
-    left = left[:, match].T
-    overlap = np.einsum("ij,ji->i", left, right)
-    posed = (np.abs(overlap) > _WELL_POSED) & (np.bincount(match, minlength=own)[match] == 1)
-    posed &= np.abs(values) > 1e-6 * np.abs(values).max(initial=0.0)
-    left = left / np.where(posed, overlap, 1.0)[:, None]
-    gap = values[:, None, None] * np.eye(len(inputs)) - inputs
-    gap[~posed] = np.eye(len(inputs))
-    beyond = np.linalg.solve(gap.transpose(0, 2, 1), (left @ effect)[:, :, None])[:, :, 0]
-    shapes = np.abs(rows[:, :own] @ right).T
-    return _Components(np.abs(values), np.hstack([left, beyond]), shapes, posed, np.abs(rows))

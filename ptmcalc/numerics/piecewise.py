@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import panels
 from ptmcalc.numerics.flow import MOST_PANELS, RESOLVED, Chunk, Flow
+from ptmcalc.numerics.glide import Band, Glide
 from ptmcalc.numerics.motion import Mode, System
 from ptmcalc.numerics.panels import FloatArray
 from ptmcalc.numerics.record import Record
@@ -29,6 +30,12 @@ _EPS = float(np.finfo(float).eps)
 _POLISHES = 3
 _FIRST_PANELS = 8
 _EARLY = 0.01
+_GLIDES = 64
+"""Panels that one long panel has to be worth, and that go by before another is tried."""
+_STEADY = 8
+"""Long panels after which a length that was too long is tried again."""
+_SHOWN = 1e-3
+"""Share of a signal that a curve over time must not leave out."""
 _MOST_AT_ONCE = 200
 """Events in a row without any progress in time."""
 
@@ -70,6 +77,7 @@ class _March:
         """guard that crosses without changing anything: too flat for its sign to be told; not heard for one panel"""
         self.products = np.array(system.products, dtype=np.intp).reshape(-1, 2)
         self.pieces: dict[Mode, Piece] = {}
+        self.glides: dict[Flow, Glide] = {}
         self.reach = math.inf
 
     def go(self, mode: Mode, state: FloatArray, end: float, keep: bool) -> Record:
@@ -132,8 +140,14 @@ class _March:
         """Along a linear flow to the first crossing of a guard or to `stop`."""
         unheard, self.unheard = self.unheard, None
         count, soon = _FIRST_PANELS if unheard is None else 1, flow.soonest(state)
+        before = 0
         while (left := stop - record.time) > 4 * _EPS * abs(stop):
             panel = flow.panel(state, min(left, soon), record.sizes)
+            if before >= _GLIDES and left >= _GLIDES * panel:
+                before, passed = 0, self._glide(record, flow, state, panel, stop)
+                if passed is not state:
+                    state = passed
+                    continue
             soon = math.inf
             wanted = max(1, min(count, int(left / panel)))
             chunk = flow.chunk(panel)
@@ -151,9 +165,37 @@ class _March:
                 return self._land(record, flow, starts[index], place * panel, guard), guard
             record.see(flow, record.time, panel, starts[:-1])
             record.time += wanted * panel
+            before += wanted
             state = starts[-1]
             count = min(2 * count, MOST_PANELS)
         return state, None
+
+    def _glide(self, record: Record, flow: Flow, state: FloatArray, panel: float, stop: float) -> FloatArray:
+        """On by panels far longer than this one, as long as no guard can be reached; the state from which to go on."""
+        glide = self.glides.setdefault(flow, Glide(flow))
+        length, steady = _GLIDES * panel, 1
+        while length >= _GLIDES * panel:
+            if length > stop - record.time:
+                length /= 2
+                continue
+            bands = glide.bands(length, state[None])
+            after = flow.chunk(length).at_nodes[-1] @ state
+            if bands is None or not self._clear(record, glide, bands[0], np.array([state, after])):
+                length, steady = length / 2, _STEADY
+                continue
+            record.see_long(glide, length, state, glide.watched(bands[0]))
+            record.time += length
+            state, steady = after, steady - 1
+            if steady <= 0:
+                length, steady = length * 2, 1
+        return state
+
+    @staticmethod
+    def _clear(record: Record, glide: Glide, band: Band, states: FloatArray) -> bool:
+        """Whether a long panel passes over no event, nor over what a curve over time has to show."""
+        if not glide.clear(band, states):
+            return False
+        return record.samples is None or bool((glide.watched(band).envelope <= _SHOWN * record.sizes()).all())
 
     @staticmethod
     def _land(record: Record, flow: Flow, start: FloatArray, length: float, guard: int) -> FloatArray:

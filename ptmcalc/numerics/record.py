@@ -6,14 +6,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ptmcalc.base.errors import NumericsError
+
 from ptmcalc.numerics.extremes import Extremes
 from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 
 if TYPE_CHECKING:
     from ptmcalc.numerics.flow import Flow
+    from ptmcalc.numerics.glide import Band, Glide
 
 _BATCH = 256
 """Panels that are worked off at once."""
+_PARTS = 4
+"""A long panel that tells too little is looked at in so many."""
+_MOST_LOOKS = 100_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +49,27 @@ class _Panels(NamedTuple):
     states: FloatArray
 
 
+class _Long(NamedTuple):
+    """A long panel, and the band its signals lie in."""
+
+    glide: "Glide"
+    start: float
+    panel: float
+    state: FloatArray
+    band: "Band"
+
+    def divided(self) -> list["_Long"]:
+        """Its parts."""
+        part = self.panel / _PARTS
+        states = self.glide.flow.chunk(part).starts(self.state, _PARTS)[:-1]
+        bands = self.glide.bands(part, states)
+        assert bands is not None  # what a panel resolves, its parts do
+        return [
+            _Long(self.glide, self.start + k * part, part, state, self.glide.watched(band))
+            for k, (state, band) in enumerate(zip(states, bands, strict=True))
+        ]
+
+
 @dataclass(slots=True)
 class Record:
     """What a march found: extremes of the watched signals with their times, integrals of products, events."""
@@ -67,6 +94,9 @@ class Record:
     _count: int = 0
     _sizes: FloatArray = field(default_factory=lambda: np.empty(0))
     _sized: int = 0
+    _passed: list["_Long"] = field(default_factory=list)
+    _kept: list["_Long"] = field(default_factory=list)
+    """long panels in which some signal could still have an extreme"""
 
     @classmethod
     def starting(cls, first: FloatArray, products: NDArray[np.intp], keep: bool) -> "Record":
@@ -119,6 +149,71 @@ class Record:
         self._waiting.clear()
         self._count = self._sized = 0
 
+    # -- long panels --------------------------------------------------------------------------------------------
+
+    def see_long(self, glide: "Glide", panel: float, state: FloatArray, band: "Band") -> None:
+        """Take in a long panel from now and from a state on, with the band its signals lie in; it is read later."""
+        self.settle()
+        self._passed.append(_Long(glide, self.time, panel, state, band))
+        self._sizes = np.maximum(self._sizes, np.abs(band.nodes[-1]))
+        if len(self.products):
+            self.integrals += glide.works(panel, self.products, state)
+        self.last = band.nodes[-1]
+        self.steps += 1
+        if self.samples is not None:
+            self.samples.times.append(self.time + panel * NODES)
+            self.samples.values.append(band.nodes)
+        if len(self._passed) >= _BATCH:
+            self._look()
+
+    def _look(self) -> None:
+        """Extremes in the long panels that were passed: at their nodes; between them at once where a signal has no
+        fast part, and later where it has one that could make it an extreme."""
+        passed, self._passed = self._passed, []
+        if not passed:
+            return
+        starts, lengths = np.array([one.start for one in passed]), np.array([one.panel for one in passed])
+        nodes, low, high, envelope = (np.array(parts) for parts in zip(*(one.band for one in passed), strict=True))
+        smooth = envelope <= self._least(passed[0].glide)
+        self.top.see(starts, lengths, nodes, smooth)
+        self.bottom.see(starts, lengths, nodes, smooth)
+        high[smooth], low[smooth] = -np.inf, np.inf
+        promising = self._promising(low, high, self._least(passed[0].glide)).any(axis=1)
+        self._kept += [
+            one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed) if promising[k]
+        ]
+
+    def _least(self, glide: "Glide") -> FloatArray:
+        """What an extreme may be missed by: what may be left out of a signal anyway."""
+        return glide.flow.faded * np.maximum(self.top.best, self.bottom.best)
+
+    def _promising(self, low: FloatArray, high: FloatArray, least: FloatArray) -> FloatArray:
+        """By how much signals in bands, shape (panels, signals), could lie beyond their extremes; 0 where they cannot."""
+        beyond: FloatArray = np.maximum(high - self.top.best, -low - self.bottom.best)
+        return np.where(beyond > least, beyond, 0.0)
+
+    def _look_again(self) -> None:
+        """The extremes in long panels, best first: of each signal the panel that promises most is divided, until none
+        promises more than what has been found."""
+        self._look()
+        looks = 0
+        while self._kept:
+            self.top.settle()
+            self.bottom.settle()
+            low, high = np.array([one.band.low for one in self._kept]), np.array([one.band.high for one in self._kept])
+            beyond = self._promising(low, high, self._least(self._kept[0].glide))
+            best = set(beyond.argmax(axis=0).tolist())
+            kept, self._kept = self._kept, []
+            for one, promises, k in zip(kept, beyond.any(axis=1).tolist(), range(len(kept)), strict=True):
+                if promises and k in best:
+                    self._passed += one.divided()
+                    looks += 1
+                elif promises:
+                    self._kept.append(one)
+            self._look()
+            if looks > _MOST_LOOKS:
+                raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be told apart")
+
     def _watched(self, lengths: FloatArray) -> FloatArray:
         """Signals at the nodes of all that waits, shape (nodes, panels, signals): all panels of a flow at once."""
         alike: dict[tuple[Flow, float], tuple[list[int], list[FloatArray]]] = {}
@@ -138,5 +233,6 @@ class Record:
     def close(self) -> None:
         """Nothing more comes."""
         self.settle()
+        self._look_again()
         self.top.settle()
         self.bottom.settle()

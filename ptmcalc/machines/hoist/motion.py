@@ -42,6 +42,8 @@ _UNSEEN = FADED + 3e-12
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 _CLOSES = 1e-9
 _FADES = 25.0
+_GLIDED = 200.0
+"""Radians of a vibration beyond which long panels go over it."""
 _LONGER = 4
 """How often a stop that is not over is looked at twice as long."""
 _FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
@@ -276,13 +278,19 @@ def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> floa
 
 
 def cost(case: Case, level: int) -> float:
-    """Seconds predicted: panels of the fastest component over the window or until it has faded, a few events."""
+    """Seconds predicted: the panels of each vibration over the window or until it has faded, and a few events.
+
+    A linear motion goes over what rings fast by long panels, so that no vibration takes more than some hundred; a smooth
+    torque curve has to follow the fastest one.
+    """
     values = frequencies(case.train)
     if not len(values):
         return 4e-3
     damped = min((one.damping / one.stiffness for one in case.train.springs if one.stiffness), default=0.0)
     radians = values * np.minimum(case.window, _FADES / (values**2 * damped / 2) if damped else case.window)
-    return 4e-3 + 2 * (2e-5 * float(radians.max()) + 5e-3) * (1 + level / 2)
+    if case.smooth:
+        return 4e-3 + 2 * (2e-5 * float(radians.max()) + 5e-3) * (1 + level / 2)
+    return 4e-3 + 2 * (5e-5 * float(np.minimum(radians, _GLIDED).sum()) + 5e-3)
 
 
 # -- a whole solver run ---------------------------------------------------------------------------------------------

@@ -1,0 +1,87 @@
+"""The components of a linear motion: how fast each is, how large it is in a state, and who sees it."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.numerics.panels import FloatArray
+
+_WELL_POSED = 1e-6
+_NOT_THERE = 64 * float(np.finfo(float).eps)
+"""Share of what it adds up below which a component is rounding, which every step stirs anew."""
+
+
+@dataclass(frozen=True, slots=True)
+class Components:
+    """The components of a motion that can be told apart.
+
+    What is no more than rounding of the state is not there: a stiff link under a slow load never shows less.
+
+    Eigenvectors only say what lies between the nodes of a panel, never how the state moves. A component whose
+    eigenvector is not well separated (a free mass, coinciding frequencies) counts as always there.
+    """
+
+    values: NDArray[np.complex128]
+    """eigenvalues, in pairs [1/s]"""
+    shares: NDArray[np.complex128]
+    """what finds each in a state"""
+    shapes: NDArray[np.complex128]
+    """what guards and, behind them, signals see of each, shape (components, rows)"""
+    posed: NDArray[np.bool_]
+    magnitudes: FloatArray
+    """of what the rows add up"""
+    speeds: FloatArray = field(init=False)
+    """how fast each moves or fades [rad/s]"""
+    share_sizes: FloatArray = field(init=False)
+    sights: FloatArray = field(init=False)
+    """magnitudes of the shapes"""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "speeds", np.abs(self.values))
+        object.__setattr__(self, "share_sizes", np.abs(self.shares).T)
+        object.__setattr__(self, "sights", np.abs(self.shapes))
+
+    def amplitudes(self, states: FloatArray) -> NDArray[np.complex128]:
+        """The components of states, shape (states, components), or (components,) of one state."""
+        found: NDArray[np.complex128] = states @ self.shares.T
+        found[np.abs(found) <= _NOT_THERE * (np.abs(states) @ self.share_sizes)] = 0.0
+        return found
+
+    def fastest(self, state: FloatArray, faded: float, sizes: FloatArray) -> float:
+        """Speed of the fastest component of a state that any guard or signal sees as more than a share of its size."""
+        if not len(self.values):
+            return 0.0
+        limits = self.magnitudes @ np.abs(state)
+        watched = limits[len(limits) - len(sizes) :]
+        np.maximum(watched, sizes, out=watched)
+        seen = np.abs(self.amplitudes(state))[:, None] * self.sights > faded * limits + 1e-290
+        there = ~self.posed | seen.any(axis=1)
+        return float(self.speeds[there].max(initial=0.0))
+
+
+def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
+    """Components of the first `own` states, which nothing after them depends on.
+
+    The left eigenvector w of the block goes on as w C (lambda - S)^-1 over the inputs, C their effect, S their rates.
+
+    Args:
+        rate: A, shape (n, n).
+        rows: what sees the state, shape (rows, n).
+        own: states that are no inputs.
+    """
+    block, effect, inputs = rate[:own, :own], rate[:own, own:], rate[own:, own:]
+    values, right = np.linalg.eig(block)
+    twins, left = np.linalg.eig(block.T)
+    match = np.abs(values[:, None] - twins).argmin(axis=1) if own else np.empty(0, int)
+    left = left[:, match].T
+    overlap = np.einsum("ij,ji->i", left, right)
+    posed = (np.abs(overlap) > _WELL_POSED) & (np.bincount(match, minlength=own)[match] == 1)
+    posed &= np.abs(values) > 1e-6 * np.abs(values).max(initial=0.0)
+    left = left / np.where(posed, overlap, 1.0)[:, None]
+    gap = values[:, None, None] * np.eye(len(inputs)) - inputs
+    gap[~posed] = np.eye(len(inputs))
+    beyond = np.linalg.solve(gap.transpose(0, 2, 1), (left @ effect)[:, :, None])[:, :, 0]
+    shapes = (rows[:, :own] @ right).T
+    shares = np.hstack([left, beyond])
+    return Components(*(part.astype(complex) for part in (values, shares, shapes)), posed, np.abs(rows))

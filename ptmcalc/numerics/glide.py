@@ -1,0 +1,120 @@
+"""Long panels over what moves fast: the slow part is resolved, the fast one lies within its envelope.
+
+A gear as stiff as a wall rings at 1e5 times the frequency of the rope behind it and is heard long after it has ceased
+to matter. Where no guard can reach 0 with the whole envelope against it, a panel may be as long as the slow part
+allows; a summit is looked for only where the slow part and the envelope could top the highest value found.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.numerics.flow import Flow
+from ptmcalc.numerics.panels import NODES, TO_BERNSTEIN, WEIGHTS, FloatArray
+
+
+class Band(NamedTuple):
+    """Where guards and signals lie in a panel."""
+
+    nodes: FloatArray
+    """at its nodes, shape (nodes, rows)"""
+    low: FloatArray
+    high: FloatArray
+    """bounds of all they come to in between, shape (rows,)"""
+    envelope: FloatArray
+    """how much of the bounds is the fast part"""
+
+
+class Glide:
+    """The long panels of a flow."""
+
+    def __init__(self, flow: Flow) -> None:
+        self.flow = flow
+        self._rows = np.concatenate([flow.guards, flow.watch])
+        self._lengths: dict[float, _Length | None] = {}
+        self._works: dict[float, FloatArray] = {}
+
+    def bands(self, panel: float, states: FloatArray) -> list[Band] | None:
+        """Where all rows lie in panels of one length from these states on; None where the length is too long for a
+        component that cannot be told from the others.
+
+            row(t) = slow(t) + Re sum_j a_j e^(lambda_j t) s_j,   |row - slow| <= sum_j |a_j| |s_j| max(1, |e^(lambda_j h)|)
+
+        with j over the components that the panel does not resolve; the slow part lies between the Bernstein
+        coefficients of its polynomial.
+        """
+        length = self._length(panel)
+        if length is None:
+            return None
+        nodes = np.matmul(states, length.seen).transpose(1, 0, 2)
+        found = self.flow.components.amplitudes(states)[:, length.fast]
+        fast = np.matmul(found[:, None, :] * length.turned, length.shapes).real
+        envelope = (np.abs(found) * length.growth) @ length.sights
+        coefficients = np.matmul(TO_BERNSTEIN, nodes - fast)
+        low, high = coefficients.min(axis=1) - envelope, coefficients.max(axis=1) + envelope
+        return [Band(*parts) for parts in zip(nodes, low, high, envelope, strict=True)]
+
+    def clear(self, band: Band, states: FloatArray) -> bool:
+        """Whether no guard can reach 0 in a band, along which the motion passes through these states."""
+        count = len(self.flow.guards)
+        return bool((band.low[:count] >= -self.flow.noise(states)).all())
+
+    def watched(self, band: Band) -> Band:
+        """The signals of a band, without the guards."""
+        first = len(self.flow.guards)
+        return Band(*(part[..., first:] for part in band))
+
+    def _length(self, panel: float) -> "_Length | None":
+        if panel not in self._lengths:
+            self._lengths[panel] = self._measured(panel)
+        return self._lengths[panel]
+
+    def _measured(self, panel: float) -> "_Length | None":
+        components = self.flow.components
+        fast = components.speeds * panel > self.flow.resolved * (1 + 1e-9)
+        if (fast & ~components.posed).any() or self.flow.input_speed * panel > self.flow.resolved * (1 + 1e-9):
+            return None
+        seen = (self._rows @ self.flow.chunk(panel).at_nodes).transpose(0, 2, 1)
+        turned = np.exp(components.values[fast] * panel * NODES[:, None])
+        growth = np.maximum(1.0, np.abs(turned[-1]))
+        return _Length(fast, seen, turned, growth, components.shapes[fast], components.sights[fast])
+
+    def works(self, panel: float, products: NDArray[np.intp], state: FloatArray) -> FloatArray:
+        """Integrals of products of signals over one panel, shape (products,).
+
+            W(h) = h sum_i w_i (r_a E_i)^T (r_b E_i),   W(2 h) = W(h) + E^T W(h) E
+
+        from the quadrature of a panel that resolves everything, doubled.
+        """
+        found: FloatArray = np.matmul(np.matmul(self._doubled(panel, products), state), state)
+        return found
+
+    def _doubled(self, panel: float, products: NDArray[np.intp]) -> FloatArray:
+        length, waiting = panel, []
+        finest = min(self.flow.finest, panel)
+        while length not in self._works and length > finest:
+            waiting.append(length)
+            length /= 2
+        if length not in self._works:
+            seen = np.matmul(self.flow.watch, self.flow.chunk(length).at_nodes)
+            first, second = seen[:, products[:, 0]], seen[:, products[:, 1]]
+            weights = length * WEIGHTS
+            self._works[length] = np.einsum("i,ipn,ipm->pnm", weights, first, second, optimize=True)
+        for longer in reversed(waiting):
+            works, change = self._works[longer / 2], self.flow.chunk(longer / 2).at_nodes[-1]
+            self._works[longer] = works + np.matmul(change.T, np.matmul(works, change))
+        return self._works[panel]
+
+
+@dataclass(frozen=True, slots=True)
+class _Length:
+    """What panels of one length need: which components they do not resolve, and how those turn."""
+
+    fast: NDArray[np.bool_]
+    seen: FloatArray
+    turned: NDArray[np.complex128]
+    growth: FloatArray
+    shapes: NDArray[np.complex128]
+    sights: FloatArray
