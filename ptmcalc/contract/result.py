@@ -82,6 +82,8 @@ class History:
 class Result:
     """Loads of one solver run. `work` counts what the run evaluated; `window` is the time it covers, in s.
 
+    `spent` is the seconds that what was counted comes to, where that can be much more than what was predicted.
+
     `histories` gives, by the name of a load, the quantity it is the extreme or end of, over time; it is only called
     where someone asks for it.
     """
@@ -93,3 +95,4 @@ class Result:
     findings: tuple[Finding, ...] = ()
     events: tuple[Event, ...] = ()
     histories: Callable[[], Mapping[str, History]] = dict
+    spent: float = 0.0

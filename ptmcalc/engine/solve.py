@@ -156,7 +156,7 @@ def _clearance(
 def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int, finest: int, purse: _Purse) -> float:
     scene = plan_scene(kind, spec, spec.all_scenes[index])
     settled = settle(kind, spec, scene, only=check, until=lambda rung: rung.level <= finest)
-    purse.pay(sum(run.rung.seconds for run in settled.runs))
+    purse.pay(sum(max(run.rung.seconds, run.result.spent) for run in settled.runs))
     return min((_of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
 

@@ -83,5 +83,5 @@ def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
     gap[~posed] = np.eye(len(inputs))
     beyond = np.linalg.solve(gap.transpose(0, 2, 1), (left @ effect)[:, :, None])[:, :, 0]
     shapes = (rows[:, :own] @ right).T
-    shares = np.hstack([left, beyond])
-    return Components(*(part.astype(complex) for part in (values, shares, shapes)), posed, np.abs(rows))
+    found, seen = np.hstack([left, beyond]).astype(complex), shapes.astype(complex)
+    return Components(values.astype(complex), found, seen, posed, np.abs(rows))

@@ -40,7 +40,8 @@ class Glide:
         """Where all rows lie in panels of one length from these states on; None where the length is too long for a
         component that cannot be told from the others.
 
-            row(t) = slow(t) + Re sum_j a_j e^(lambda_j t) s_j,   |row - slow| <= sum_j |a_j| |s_j| max(1, |e^(lambda_j h)|)
+            row(t) = slow(t) + Re sum_j a_j e^(lambda_j t) s_j
+            |row - slow| <= sum_j |a_j| |s_j| max(1, |e^(lambda_j h)|)
 
         with j over the components that the panel does not resolve; the slow part lies between the Bernstein
         coefficients of its polynomial.

@@ -102,6 +102,8 @@ class _March:
             fired = self._advance(record, stop)
             if fired is None:
                 record.time = stop
+            else:
+                record.crossings += 1
             still = still + 1 if record.time <= before else 0
             if still > _MOST_AT_ONCE:
                 raise NumericsError("NUM101", f"contacts change without end at {record.time:.6g} s")

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-
 from ptmcalc.numerics.extremes import Extremes
 from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 
@@ -90,6 +89,8 @@ class Record:
     finished: bool = False
     events: list[Event] = field(default_factory=list)
     steps: int = 0
+    crossings: int = 0
+    """guards that were crossed, also where that is no event worth a name"""
     _waiting: list["_Panels"] = field(default_factory=list)
     _count: int = 0
     _sizes: FloatArray = field(default_factory=lambda: np.empty(0))
@@ -174,23 +175,24 @@ class Record:
             return
         starts, lengths = np.array([one.start for one in passed]), np.array([one.panel for one in passed])
         nodes, low, high, envelope = (np.array(parts) for parts in zip(*(one.band for one in passed), strict=True))
-        smooth = envelope <= self._least(passed[0].glide)
+        smooth: NDArray[np.bool_] = np.less_equal(envelope, self._least(passed))
         self.top.see(starts, lengths, nodes, smooth)
         self.bottom.see(starts, lengths, nodes, smooth)
-        high[smooth], low[smooth] = -np.inf, np.inf
-        promising = self._promising(low, high, self._least(passed[0].glide)).any(axis=1)
-        self._kept += [
-            one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed) if promising[k]
-        ]
+        low[smooth], high[smooth] = np.inf, -np.inf
+        read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
+        promising = self._promising(read).any(axis=1).tolist()
+        self._kept += [one for one, promises in zip(read, promising, strict=True) if promises]
 
-    def _least(self, glide: "Glide") -> FloatArray:
-        """What an extreme may be missed by: what may be left out of a signal anyway."""
-        return glide.flow.faded * np.maximum(self.top.best, self.bottom.best)
+    def _least(self, panels: list["_Long"]) -> FloatArray:
+        """What an extreme in panels may be missed by: what may be left out of a signal anyway."""
+        return min(one.glide.flow.faded for one in panels) * np.maximum(self.top.best, self.bottom.best)
 
-    def _promising(self, low: FloatArray, high: FloatArray, least: FloatArray) -> FloatArray:
-        """By how much signals in bands, shape (panels, signals), could lie beyond their extremes; 0 where they cannot."""
+    def _promising(self, panels: list["_Long"]) -> FloatArray:
+        """By how much signals could lie beyond their extremes in panels, shape (panels, signals); 0 where they cannot."""
+        low, high = np.array([one.band.low for one in panels]), np.array([one.band.high for one in panels])
         beyond: FloatArray = np.maximum(high - self.top.best, -low - self.bottom.best)
-        return np.where(beyond > least, beyond, 0.0)
+        beyond[beyond <= self._least(panels)] = 0.0
+        return beyond
 
     def _look_again(self) -> None:
         """The extremes in long panels, best first: of each signal the panel that promises most is divided, until none
@@ -200,15 +202,16 @@ class Record:
         while self._kept:
             self.top.settle()
             self.bottom.settle()
-            low, high = np.array([one.band.low for one in self._kept]), np.array([one.band.high for one in self._kept])
-            beyond = self._promising(low, high, self._least(self._kept[0].glide))
+            beyond = self._promising(self._kept)
             best = set(beyond.argmax(axis=0).tolist())
             kept, self._kept = self._kept, []
-            for one, promises, k in zip(kept, beyond.any(axis=1).tolist(), range(len(kept)), strict=True):
-                if promises and k in best:
+            for k, one in enumerate(kept):
+                if not beyond[k].any():
+                    continue
+                if k in best:
                     self._passed += one.divided()
                     looks += 1
-                elif promises:
+                else:
                     self._kept.append(one)
             self._look()
             if looks > _MOST_LOOKS:

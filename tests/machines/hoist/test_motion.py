@@ -293,31 +293,41 @@ def stiff(rope: float, gear: float) -> motion.Course:
     spec = hoist_of(data)
     case = moving.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     assert case.stiffness == pytest.approx(rope, rel=1e-9)
-    return motion.play(case, 1e-6, keep=True)
+    return motion.play(case, 1e-6)
 
 
 class TestStiffness:
     """Rope from 1e5 to 1e9 N/m, gear to 1e12 N/m: the same code, at no more than bounded cost."""
 
-    @pytest.mark.parametrize("gear", [1e10, 1e12])
-    def test_energy_cost_and_a_rope_that_never_pushes(self, gear: float) -> None:
+    @pytest.mark.parametrize("gear", [1e8, 1e10, 1e12, 1e14])
+    def test_energy_closes_and_a_rope_that_never_pushes(self, gear: float) -> None:
         for rope in (1e5, 1e6, 1e7, 1e8, 1e9):
             course = stiff(rope, gear)
             assert course.ledger.residual <= 1e-9
             index = course.case.named("link", "rope")
             assert index is not None
-            place = course.system.watched["link", index]
-            assert course.record.samples is not None
-            forces = np.concatenate(course.record.samples.values)[:, place]
-            assert forces.min() >= -1e-9 * forces.max()
+            assert course.bottom("link", index)[0] >= -1e-9 * course.top("link", index)[0]
 
     def test_a_stiffer_gear_costs_no_more(self) -> None:
-        """What rings fast has faded before it must be resolved again. Panels are powers of two, so frequencies a power
-        of two apart are compared: steps over ropes for 1e12 N/m against those for a gear 64 times as soft."""
-        ropes = (1e5, 1e6, 1e7)
-        stiffest, softer = (sum(stiff(rope, gear).record.steps for rope in ropes) for gear in (1e12, 1e12 / 64))
-        assert stiffest <= 1.3 * softer
-        assert max(stiff(rope, 1e12).record.steps for rope in (1e8, 1e9)) <= 4 * stiffest  # snatches excite it anew
+        """What rings fast is passed over by long panels: seconds, by counted panels and crossings, are flat within 30 %
+        over gears from 1e8 to 1e14 N/m and ropes from 1e5 to 1e7 N/m; stiffer ropes let the load jump, and every jump
+        costs some panels and no more, however stiff the gear."""
+        spent = {
+            (rope, gear): motion.spent(stiff(rope, gear))
+            for rope in (1e5, 1e6, 1e7)
+            for gear in (1e8, 1e10, 1e12, 1e14)
+        }
+        assert max(spent.values()) <= 1.3 * min(spent.values())
+        for rope in (1e8, 1e9):
+            for gear in (1e10, 1e12, 1e14):
+                record = stiff(rope, gear).record
+                assert record.steps <= 450 + 25 * record.crossings
+
+    def test_what_is_counted_is_what_is_predicted(self) -> None:
+        """Within a factor 3, also where nothing but the gear is fast."""
+        for gear in (1e8, 1e10, 1e12, 1e14):
+            course = stiff(1e6, gear)
+            assert 1 / 3 <= motion.cost(course.case, 0) / (2 * motion.spent(course)) <= 3
 
 
 @pytest.mark.parametrize("seed", range(6))
