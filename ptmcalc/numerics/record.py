@@ -180,15 +180,15 @@ class Record:
         self.bottom.see(starts, lengths, nodes, smooth)
         low[smooth], high[smooth] = np.inf, -np.inf
         read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
-        promising = self._promising(read).any(axis=1).tolist()
-        self._kept += [one for one, promises in zip(read, promising, strict=True) if promises]
+        promising = self._promising(read)
+        self._kept += [one for one, beyond in zip(read, promising, strict=True) if beyond.any()]
 
     def _least(self, panels: list["_Long"]) -> FloatArray:
         """What an extreme in panels may be missed by: what may be left out of a signal anyway."""
         return min(one.glide.flow.faded for one in panels) * np.maximum(self.top.best, self.bottom.best)
 
     def _promising(self, panels: list["_Long"]) -> FloatArray:
-        """By how much signals could lie beyond their extremes in panels, shape (panels, signals); 0 where they cannot."""
+        """By how much signals could lie beyond their extremes in panels, shape (panels, signals), or 0."""
         low, high = np.array([one.band.low for one in panels]), np.array([one.band.high for one in panels])
         beyond: FloatArray = np.maximum(high - self.top.best, -low - self.bottom.best)
         beyond[beyond <= self._least(panels)] = 0.0
