@@ -128,8 +128,8 @@ def settle(
             )
             return settled
         waiting.remove(following)
-        spent += following.seconds
-        _climb(settled, spec, following)
+        result = _climb(settled, spec, following)
+        spent += max(following.seconds, result.spent if result is not None else 0.0)
 
 
 def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
@@ -142,11 +142,11 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
         return None
 
 
-def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
-    """Run a rung and keep every load it knows better."""
+def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
+    """Run a rung and keep every load it knows better; its result, if there is one."""
     scene, result = settled.plan.scene, _made(settled, spec, rung)
     if result is None:
-        return
+        return None
     estimates = widen(settled.plan, spec, rung, result)
     settled.runs.append(Run(rung, result, estimates))
     for name, estimate in estimates.items():
@@ -158,6 +158,7 @@ def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
         known = settled.loads.get(name)
         if known is None or _better(estimate, known.estimate):
             settled.loads[name] = Best(replace(result.loads[name], estimate=estimate), rung, result)
+    return result
 
 
 def _better(new: Estimate, old: Estimate) -> bool:

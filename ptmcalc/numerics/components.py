@@ -1,5 +1,6 @@
 """The components of a linear motion: how fast each is, how large it is in a state, and who sees it."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -48,16 +49,16 @@ class Components:
         found[np.abs(found) <= _NOT_THERE * (np.abs(states) @ self.share_sizes)] = 0.0
         return found
 
-    def fastest(self, state: FloatArray, faded: float, sizes: FloatArray) -> float:
-        """Speed of the fastest component of a state that any guard or signal sees as more than a share of its size."""
-        if not len(self.values):
-            return 0.0
+    def span(self, state: FloatArray, faded: float, sizes: FloatArray) -> tuple[float, float]:
+        """Speeds of the slowest that moves and of the fastest component of a state among those that any guard or
+        signal sees as more than a share of its size; (inf, 0) where there is none."""
         limits = self.magnitudes @ np.abs(state)
         watched = limits[len(limits) - len(sizes) :]
         np.maximum(watched, sizes, out=watched)
         seen = np.abs(self.amplitudes(state))[:, None] * self.sights > faded * limits + 1e-290
         there = ~self.posed | seen.any(axis=1)
-        return float(self.speeds[there].max(initial=0.0))
+        speeds = self.speeds[there]
+        return float(speeds[speeds > 0].min(initial=math.inf)), float(speeds.max(initial=0.0))
 
 
 def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:

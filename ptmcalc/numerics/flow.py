@@ -62,7 +62,7 @@ class Flow:
         longest one that is asked for."""
         fastest = self._largest
         if fastest * longest > self.worth:
-            fastest = max(self.components.fastest(state, self.faded, sizes()), self.input_speed)
+            fastest = max(self.components.span(state, self.faded, sizes())[1], self.input_speed)
         if fastest * longest <= self.resolved:
             return longest
         return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / fastest))
@@ -73,6 +73,12 @@ class Flow:
         if self._components is None:
             self._components = components(self.rate, np.concatenate([self.guards, self.watch]), self.own)
         return self._components
+
+    def longest(self, state: FloatArray, sizes: Callable[[], FloatArray]) -> float:
+        """The longest panel worth a look: one that resolves the slowest component still seen, a power of two in
+        units. What swings alone tops itself again and again, and each summit would have to be looked at anyway."""
+        slowest = self.components.span(state, self.faded, sizes())[0]
+        return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / slowest)) if slowest < math.inf else math.inf
 
     @property
     def finest(self) -> float:

@@ -57,10 +57,14 @@ class Glide:
         low, high = coefficients.min(axis=1) - envelope, coefficients.max(axis=1) + envelope
         return [Band(*parts) for parts in zip(nodes, low, high, envelope, strict=True)]
 
-    def clear(self, band: Band, states: FloatArray) -> bool:
-        """Whether no guard can reach 0 in a band, along which the motion passes through these states."""
+    def clear(self, bands: list[Band], states: FloatArray) -> int:
+        """How many panels in a row no guard can reach 0 in; `states` are those between them, both ends among them."""
         count = len(self.flow.guards)
-        return bool((band.low[:count] >= -self.flow.noise(states)).all())
+        if not count:
+            return len(bands)
+        low = np.array([band.low[:count] for band in bands])
+        reached = (low < -self.flow.noise(states)).any(axis=1)
+        return int(reached.argmax()) if reached.any() else len(bands)
 
     def watched(self, band: Band) -> Band:
         """The signals of a band, without the guards."""
@@ -82,14 +86,14 @@ class Glide:
         growth = np.maximum(1.0, np.abs(turned[-1]))
         return _Length(fast, seen, turned, growth, components.shapes[fast], components.sights[fast])
 
-    def works(self, panel: float, products: NDArray[np.intp], state: FloatArray) -> FloatArray:
-        """Integrals of products of signals over one panel, shape (products,).
+    def works(self, panel: float, products: NDArray[np.intp], states: FloatArray) -> FloatArray:
+        """Integrals of products of signals over panels of one length from these states on, shape (products,).
 
             W(h) = h sum_i w_i (r_a E_i)^T (r_b E_i),   W(2 h) = W(h) + E^T W(h) E
 
         from the quadrature of a panel that resolves everything, doubled.
         """
-        found: FloatArray = np.matmul(np.matmul(self._doubled(panel, products), state), state)
+        found: FloatArray = (np.matmul(states, self._doubled(panel, products)) * states).sum(axis=(1, 2))
         return found
 
     def _doubled(self, panel: float, products: NDArray[np.intp]) -> FloatArray:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import panels
 from ptmcalc.numerics.flow import MOST_PANELS, RESOLVED, Chunk, Flow
-from ptmcalc.numerics.glide import Band, Glide
+from ptmcalc.numerics.glide import Glide
 from ptmcalc.numerics.motion import Mode, System
 from ptmcalc.numerics.panels import FloatArray
 from ptmcalc.numerics.record import Record
@@ -175,29 +175,39 @@ class _March:
     def _glide(self, record: Record, flow: Flow, state: FloatArray, panel: float, stop: float) -> FloatArray:
         """On by panels far longer than this one, as long as no guard can be reached; the state from which to go on."""
         glide = self.glides.setdefault(flow, Glide(flow))
-        length, steady = _GLIDES * panel, 1
+        length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
         while length >= _GLIDES * panel:
-            if length > stop - record.time:
+            if length > min(stop - record.time, longest):
                 length /= 2
                 continue
-            bands = glide.bands(length, state[None])
-            after = flow.chunk(length).at_nodes[-1] @ state
-            if bands is None or not self._clear(record, glide, bands[0], np.array([state, after])):
-                length, steady = length / 2, _STEADY
-                continue
-            record.see_long(glide, length, state, glide.watched(bands[0]))
-            record.time += length
-            state, steady = after, steady - 1
-            if steady <= 0:
-                length, steady = length * 2, 1
+            starts = flow.chunk(length).starts(state, min(tries, int((stop - record.time) / length)))
+            passed = self._passed(record, glide, length, starts)
+            if passed:
+                record.time += passed * length
+                state = starts[passed]
+            longest = flow.longest(state, record.sizes)
+            if passed < len(starts) - 1:
+                length, tries = length / 2, _STEADY
+            elif tries == 1 and 2 * length <= longest:
+                length *= 2
+            else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
+                tries = _STEADY if 2 * length > longest else 1
         return state
 
     @staticmethod
-    def _clear(record: Record, glide: Glide, band: Band, states: FloatArray) -> bool:
-        """Whether a long panel passes over no event, nor over what a curve over time has to show."""
-        if not glide.clear(band, states):
-            return False
-        return record.samples is None or bool((glide.watched(band).envelope <= _SHOWN * record.sizes()).all())
+    def _passed(record: Record, glide: Glide, length: float, starts: FloatArray) -> int:
+        """How many long panels in a row pass over no event, nor over what a curve over time has to show; taken in."""
+        bands = glide.bands(length, starts[:-1])
+        if bands is None:
+            return 0
+        passed = glide.clear(bands, starts)
+        signals = [glide.watched(band) for band in bands[:passed]]
+        if record.samples is not None:
+            shown = _SHOWN * record.sizes()
+            passed = next((k for k, band in enumerate(signals) if (band.envelope > shown).any()), passed)
+        if passed:
+            record.see_long(glide, length, starts[:passed], signals[:passed])
+        return passed
 
     @staticmethod
     def _land(record: Record, flow: Flow, start: FloatArray, length: float, guard: int) -> FloatArray:

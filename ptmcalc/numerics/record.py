@@ -1,5 +1,6 @@
 """What a march finds on its way: extremes, works, events, and the signals over time where they are kept."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +19,7 @@ _BATCH = 256
 """Panels that are worked off at once."""
 _PARTS = 4
 """A long panel that tells too little is looked at in so many."""
-_MOST_LOOKS = 100_000
+_LOOKS_ONE_BY_ONE, _MOST_LOOKS = 4_000, 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,16 +58,18 @@ class _Long(NamedTuple):
     state: FloatArray
     band: "Band"
 
-    def divided(self) -> list["_Long"]:
-        """Its parts."""
-        part = self.panel / _PARTS
-        states = self.glide.flow.chunk(part).starts(self.state, _PARTS)[:-1]
-        bands = self.glide.bands(part, states)
+
+def _divided(panels: list[_Long]) -> Iterator[_Long]:
+    """The parts of long panels: all that belong together at once."""
+    alike: dict[tuple[Glide, float], list[_Long]] = {}
+    for one in panels:
+        alike.setdefault((one.glide, one.panel / _PARTS), []).append(one)
+    for (glide, part), ones in alike.items():
+        states = np.concatenate([glide.flow.chunk(part).starts(one.state, _PARTS)[:-1] for one in ones])
+        bands = glide.bands(part, states)
         assert bands is not None  # what a panel resolves, its parts do
-        return [
-            _Long(self.glide, self.start + k * part, part, state, self.glide.watched(band))
-            for k, (state, band) in enumerate(zip(states, bands, strict=True))
-        ]
+        for k, (state, band) in enumerate(zip(states, bands, strict=True)):
+            yield _Long(glide, ones[k // _PARTS].start + (k % _PARTS) * part, part, state, glide.watched(band))
 
 
 @dataclass(slots=True)
@@ -89,6 +92,8 @@ class Record:
     finished: bool = False
     events: list[Event] = field(default_factory=list)
     steps: int = 0
+    long: int = 0
+    """of the steps, the long ones"""
     crossings: int = 0
     """guards that were crossed, also where that is no event worth a name"""
     _waiting: list["_Panels"] = field(default_factory=list)
@@ -152,18 +157,21 @@ class Record:
 
     # -- long panels --------------------------------------------------------------------------------------------
 
-    def see_long(self, glide: "Glide", panel: float, state: FloatArray, band: "Band") -> None:
-        """Take in a long panel from now and from a state on, with the band its signals lie in; it is read later."""
+    def see_long(self, glide: "Glide", panel: float, states: FloatArray, bands: list["Band"]) -> None:
+        """Take in long panels from now and from these states on, with the bands signals lie in; they are read later."""
         self.settle()
-        self._passed.append(_Long(glide, self.time, panel, state, band))
-        self._sizes = np.maximum(self._sizes, np.abs(band.nodes[-1]))
+        for k, (state, band) in enumerate(zip(states, bands, strict=True)):
+            start = self.time + k * panel
+            self._passed.append(_Long(glide, start, panel, state, band))
+            self._sizes = np.maximum(self._sizes, np.abs(band.nodes[-1]))
+            if self.samples is not None:
+                self.samples.times.append(start + panel * NODES)
+                self.samples.values.append(band.nodes)
         if len(self.products):
-            self.integrals += glide.works(panel, self.products, state)
-        self.last = band.nodes[-1]
-        self.steps += 1
-        if self.samples is not None:
-            self.samples.times.append(self.time + panel * NODES)
-            self.samples.values.append(band.nodes)
+            self.integrals += glide.works(panel, self.products, states)
+        self.last = bands[-1].nodes[-1]
+        self.steps += len(bands)
+        self.long += len(bands)
         if len(self._passed) >= _BATCH:
             self._look()
 
@@ -196,23 +204,20 @@ class Record:
 
     def _look_again(self) -> None:
         """The extremes in long panels, best first: of each signal the panel that promises most is divided, until none
-        promises more than what has been found."""
+        promises more than what has been found; all of them where that takes long."""
         self._look()
         looks = 0
         while self._kept:
             self.top.settle()
             self.bottom.settle()
             beyond = self._promising(self._kept)
-            best = set(beyond.argmax(axis=0).tolist())
+            chosen: NDArray[np.bool_] = np.any(beyond, axis=1)
+            if looks < _LOOKS_ONE_BY_ONE:
+                chosen &= np.isin(np.arange(len(chosen)), beyond.argmax(axis=0))
             kept, self._kept = self._kept, []
-            for k, one in enumerate(kept):
-                if not beyond[k].any():
-                    continue
-                if k in best:
-                    self._passed += one.divided()
-                    looks += 1
-                else:
-                    self._kept.append(one)
+            self._passed = list(_divided([kept[k] for k in np.flatnonzero(chosen)]))
+            self._kept = [kept[k] for k in np.flatnonzero(np.any(beyond, axis=1) & ~chosen)]
+            looks += len(self._passed)
             self._look()
             if looks > _MOST_LOOKS:
                 raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be told apart")
