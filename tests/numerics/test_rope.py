@@ -135,9 +135,7 @@ def chain_forces(structure: Structure | None, share: float, pieces: int, end: fl
 @pytest.mark.parametrize("share", [0.1, 0.5])
 def test_a_slow_rise_agrees_with_finite_elements(structure: Structure | None, share: float) -> None:
     law = Course((0.0, 0.8), (Q, 1.5 * Q), (0.5 * Q / 0.8, 0.0))
-    haul = lifting(
-        lifts=False, speed=0.0, structure=structure, set_speed=Course(values=(1e3,)), capacity=Tripped(law), motor_brake=Tripped()
-    )  # fmt: skip
+    haul = lifting(lifts=False, speed=0.0, structure=structure, set_speed=Course(values=(1e3,)), capacity=Tripped(law))
     found = played(haul, Rod(K, share * M), 1.5)
     top, bottom, bridge = chain_forces(structure, share, 60, 1.5)
     assert most(found, "top") == pytest.approx(top, rel=2e-5)
@@ -216,14 +214,22 @@ def test_the_longer_rope_the_more_it_is_a_spring() -> None:
 
 # -- drives, brakes, losses -----------------------------------------------------------------------------------------
 
+
+def step(force: float, **until: float) -> Stage:
+    return Stage(Lines(np.zeros(1), np.array([force * Q])), **until)
+
+
 DRIVES = {
     "line": {"stages": (Stage(Lines(np.array([0.0, V0]), np.array([3 * Q, 0.0]), True)),)},
-    "stages": {"stages": (Stage(Lines(np.zeros(1), np.array([1.2 * Q])), until=0.1), Stage(Lines(np.zeros(1), np.array([1.6 * Q]))))},
-    "by time": {"stages": (Stage(Lines(np.zeros(1), np.array([0.8 * Q])), until_time=0.3), Stage(Lines(np.zeros(1), np.array([1.6 * Q]))))},
+    "stages": {"stages": (step(1.2, until=0.1), step(1.6))},
+    "by time": {"stages": (step(0.8, until_time=0.3), step(1.6))},
     "smooth": {"stages": (Stage(Smooth(lambda w: 2.5 * Q * (1 - (w / V0) ** 3))),)},
     "governed": {"stages": (Stage(Governed(Course((0.0, 0.5), (0.0, V0), (V0 / 0.5, 0.0)), 40 * Q, 2 * Q)),)},
     "limited speed": {"set_speed": Course(values=(V0,)), "capacity": Tripped(Course(values=(1.5 * Q,)))},
-    "ramp of speed": {"set_speed": Course((0.0, 0.4), (0.0, V0), (V0 / 0.4, 0.0)), "capacity": Tripped(Course(values=(1.5 * Q,)))},
+    "ramp of speed": {
+        "set_speed": Course((0.0, 0.4), (0.0, V0), (V0 / 0.4, 0.0)),
+        "capacity": Tripped(Course(values=(1.5 * Q,))),
+    },
     "limiter": {
         "set_speed": Course(values=(V0,)),
         "capacity": Tripped(Course(values=(1.5 * Q,)), Course((0.0, 0.05), (1.5 * Q, 0.0), (0.0, 0.0))),

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.parts import Haul
+from ptmcalc.numerics.rope.parts import Governed, Haul, Lines
 
 FloatArray = NDArray[np.float64]
 
@@ -170,12 +170,13 @@ class March:
         return min(longest, self.rod.transit if self.rod is not None else math.inf) / self.finer
 
     def _pull_slope(self) -> float:
+        """Steepest fall of the drive's force over its speed; a smooth curve finds out by itself."""
         steepest = 0.0
         for stage in self.haul.stages:
             law = stage.law
-            if hasattr(law, "knots") and len(law.knots) > 1:
+            if isinstance(law, Lines) and len(law.knots) > 1:
                 steepest = max(steepest, float(np.abs(np.diff(law.values) / np.diff(law.knots)).max()))
-            elif hasattr(law, "stiffness"):
+            elif isinstance(law, Governed):
                 steepest = max(steepest, law.stiffness)
         return steepest
 
@@ -495,7 +496,7 @@ class March:
         fall = self.haul.weight / self.haul.load_mass * h
         found[_SPEEDS] = max(float(found[_SPEEDS].max()), fall)
         found[_WAYS] = max(float(found[_WAYS].max()), fall * h)
-        return found
+        return np.asarray(found)
 
     def _take(self, done: Played, panel: Panel) -> None:
         done.panels.append(panel)
@@ -510,8 +511,8 @@ class March:
     def _through(
         self, y: FloatArray, t: FloatArray, begin: float, mode: Mode, top: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
-        """Force through the gear on the drum's side, at rest without losses, as they have no direction there; what is put in, and lost in gear, tackle, brakes, dashpots and by
-        the strain that is wound onto the drum [W]."""
+        """Force through the gear on the drum's side, at rest without losses, as they have no direction there; what is
+        put in, and lost in gear, tackle, brakes, dashpots and by the strain that is wound onto the drum [W]."""
         haul, w = self.haul, y[:, W]
         put_in = np.zeros(len(t)) if mode.ground else -haul.weight * y[:, V]
         lost = np.zeros(len(t))
