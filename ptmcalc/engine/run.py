@@ -17,7 +17,7 @@ from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
 """Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
-_GOOD_PART, _SOME_PART = 0.25, 0.01
+_GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ def settle(
         settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
         if only is not None:
             settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
-        following = _next(settled, waiting, _wanted(kind, spec, settled, whole=only is None))
+        following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=only is None))
         settled.next_rung = following
         if following is None:
             settled.findings += _unreached(kind, spec, settled) if only is None else ()
@@ -229,7 +229,7 @@ def _accurate(estimate: Estimate, asked: float | None) -> bool:
     return estimate.bar <= asked * abs(estimate.value)
 
 
-def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung | None:
+def _next(settled: Settled, spec: MachineSpec, waiting: Iterable[Rung], wanted: set[str]) -> Rung | None:
     """The cheapest waiting rung that can improve a wanted load, or that carries what the file insists on.
 
     What makes up a good part of a bar is tackled first: the grid by a finer setting, the model by a richer run.
@@ -237,15 +237,16 @@ def _next(settled: Settled, waiting: Iterable[Rung], wanted: set[str]) -> Rung |
     forced = {planned.effect.name for planned in settled.plan.effects if planned.must_run} - settled.carried
     for share in (_GOOD_PART, _SOME_PART, 0.0):
         for rung in waiting:
-            helps = any(_helps(settled, rung, name, share) for name in wanted)
+            helps = any(_helps(settled, spec, rung, name, share) for name in wanted)
             if not settled.runs or forced & rung.carried or helps:
                 return rung
     return None
 
 
-def _helps(settled: Settled, rung: Rung, name: str, share: float) -> bool:
+def _helps(settled: Settled, spec: MachineSpec, rung: Rung, name: str, share: float) -> bool:
     """Whether a rung can narrow the bar of a load: by an effect no run has carried for it, where the model makes up
-    so much of the bar, or by a finer setting of a run where the grid does."""
+    so much of the bar, or by a finer setting of a run where the grid does. One that leaves out what the best run
+    carries helps where the bounds of all it leaves out come to much less than the bar."""
     if family(name) not in rung.solver.gives:
         return False
     same = [run for run in settled.runs if run.rung.solver is rung.solver and run.rung.carried == rung.carried]
@@ -253,13 +254,21 @@ def _helps(settled: Settled, rung: Rung, name: str, share: float) -> bool:
     if best is None:
         return not same
     if not rung.carried >= best.rung.carried:
-        return False
+        return not same and _promises_less(settled.plan, spec, rung, name, best)
     ran = {effect for run in settled.runs if name in run.estimates for effect in run.rung.carried}
     bar = best.estimate
     model = not bar.bounded or bar.bar - bar.numerical >= share * bar.bar
     coarser = [run for run in same if run.rung.level < rung.level and name in run.estimates]
     finer = any(_worth_refining(run, rung, name, bar, share) for run in coarser)
     return finer or (model and bool(rung.carried - best.rung.carried - ran))
+
+
+def _promises_less(plan: ScenePlan, spec: MachineSpec, rung: Rung, name: str, best: Best) -> bool:
+    """Whether a rung brings effects the best run left out, and a bar of much less by what it leaves out itself."""
+    if not rung.carried - best.rung.carried or not best.estimate.bounded:
+        return False
+    promised = widen(plan, spec, rung, best.result).get(name)
+    return promised is not None and promised.bounded and promised.bar <= _MUCH_LESS * best.estimate.bar
 
 
 def _worth_refining(run: Run, finer: Rung, name: str, best: Estimate, share: float) -> bool:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 _STEPS = 60
+_HALVINGS = 1200
 _EPS = float(np.finfo(float).eps)
 _FAR = 30.0
 """Argument of a Bessel function from which its asymptotic series has all digits."""
@@ -132,6 +133,55 @@ def free_rod_frequency(stiffness: float, rope_mass: float, drive_mass: float, lo
         return light
     root = free_rod_root(drive_mass / rope_mass, load_mass / rope_mass)
     return root / math.sqrt(rope_mass / drive_mass + rope_mass / load_mass) * light
+
+
+def framed_rod_frequency(
+    stiffness: float,
+    rope_mass: float,
+    drive_mass: float,
+    load_mass: float,
+    structure_stiffness: float,
+    structure_mass: float,
+) -> float:
+    """Lowest natural frequency of drive and load on a rope with mass, the drum on a structure that gives.
+
+        w (m_r/K)^(1/2) = atan(Z/(M w)) + atan(Z w (1/(m_1 w^2) - 1/(K_b - m_b w^2))),   Z = (K m_r)^(1/2)
+
+    Args:
+        stiffness: K [N/m].
+        rope_mass: m_r, of the hanging rope [kg].
+        drive_mass: m_1, at the hook [kg].
+        load_mass: M [kg].
+        structure_stiffness: K_b, infinite where it stands fast [N/m].
+        structure_mass: m_b, that moves with the drum, 0 for a spring alone [kg].
+
+    Returns:
+        w [rad/s].
+
+    **Range** a uniform taut rope, m_r >= 0, a drive that is free, a structure of one mode.
+    **Error** rounding: the left side rises and the right one falls up to (K_b/m_b)^(1/2), so they cross there once.
+    **Source** derived: cos(k (l - x) - phi) with the compliance of drive and structure at its top; for K_b infinite
+    `free_rod_frequency`.
+    """
+    share = math.sqrt(rope_mass / load_mass)
+    frame, beside = structure_stiffness / stiffness, structure_mass / load_mass
+
+    def angle(value: float) -> float:
+        return math.atan(share * value) / share if share > 0 else value
+
+    def short(x: float) -> bool:
+        gives = x / (frame - beside * x * x)
+        return x - angle(1 / x) < angle(load_mass / drive_mass / x - gives)
+
+    low, high = 0.0, math.sqrt(frame / beside) if beside > 0 and math.isfinite(frame) else 1.0
+    while not (beside > 0 and math.isfinite(frame)) and short(high):
+        low, high = high, 2 * high
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        if not low < middle < high:
+            break
+        low, high = (middle, high) if short(middle) else (low, middle)
+    return high * math.sqrt(stiffness / load_mass)
 
 
 def third_mass_frequency(stiffness: float, rope_mass: float, load_mass: float) -> float:

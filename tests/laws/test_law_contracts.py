@@ -554,6 +554,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rope_rod.rod_frequency: [(1.4e5, 180.0, 3e3, 1), (1.4e5, 180.0, 3e3, 2), (1.4e5, 0.0, 3e3, 1)],
     rope_rod.third_mass_frequency: [(1.4e5, 180.0, 3e3)],
     rope_rod.free_rod_root: [(60.0, 17.0), (0.4, 0.0)],
+    rope_rod.framed_rod_frequency: [(1.4e5, 180.0, 1e4, 3e3, 6e5, 2e3), (1.4e5, 0.0, 1e4, 3e3, 6e5, 0.0)],
     rope_rod.free_rod_frequency: [(1.4e5, 180.0, 1e4, 3e3), (1.4e5, 0.0, 1e4, 3e3)],
     rope_rod.snatch_wave_force: [(0.4, 1.4e5, 180.0)],
     rope_rod.hauling_gain: [(120.0, 15.0)],

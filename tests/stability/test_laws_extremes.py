@@ -844,6 +844,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "rod_root": (rope_rod.rod_root, lambda d: (*d.positive(1), int(d.rng.integers(1, 9)))),
     "rod_frequency": (rope_rod.rod_frequency, lambda d: (*d.positive(3), int(d.rng.integers(1, 9)))),
     "free_rod_root": (rope_rod.free_rod_root, lambda d: tuple(d.positive(2))),
+    "framed_rod_frequency": (rope_rod.framed_rod_frequency, lambda d: tuple(d.positive(6))),
     "free_rod_frequency": (rope_rod.free_rod_frequency, lambda d: tuple(d.positive(4))),
     "third_mass_frequency": (rope_rod.third_mass_frequency, lambda d: tuple(d.positive(3))),
     "snatch_wave_force": (rope_rod.snatch_wave_force, lambda d: tuple(d.positive(3))),

@@ -1,7 +1,7 @@
 """A scene of a hoist played through, and the loads read from it with their bars."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -192,7 +192,14 @@ def _of_the_stop(course: Course) -> Readings:
 
 
 def loads(scene: Moving, course: Course, others: tuple[Course, ...]) -> dict[str, Found]:
-    """The loads of a run, with bars from others that divide time otherwise.
+    """The loads of a run, with bars from others that divide time otherwise."""
+    return with_bars(scene, course.case, readings(scene, course), [readings(scene, other) for other in others])
+
+
+def with_bars(
+    scene: Moving, case: Case, own: Readings, compared: Sequence[Readings], unseen: float = _UNSEEN
+) -> dict[str, Found]:
+    """Loads with bars from those of runs that divide time otherwise.
 
         bar = 3 max |x - x'| over the other runs, and over the loads of one kind as shares of the largest of them
 
@@ -200,7 +207,6 @@ def loads(scene: Moving, course: Course, others: tuple[Course, ...]) -> dict[str
     as long have errors 25 and 4 times as small or as large (the ninth power), so two runs differ by nearly the larger
     error. Added is what reading a signal may miss.
     """
-    own, compared = readings(scene, course), [readings(scene, other) for other in others]
     apart: dict[str, float] = {}
     for name, (value, _) in own.items():
         differences = [abs(value - other[name][0]) for other in compared if math.isfinite(other[name][0])]
@@ -216,9 +222,9 @@ def loads(scene: Moving, course: Course, others: tuple[Course, ...]) -> dict[str
             continue
         kind = next((kind for kind in shares if name in kind), None)
         size = max(abs(own[other][0]) for other in kind if other in apart) if kind is not None else abs(value)
-        bar = _MARGIN * max(apart[name], shares[kind] * size if kind is not None else 0.0) + _UNSEEN * size
-        found[name] = Found(Estimate.within(value, bar if bar > 0 or not value else _UNSEEN * abs(value)), at)
-    weight = course.case.weight
+        bar = _MARGIN * max(apart[name], shares[kind] * size if kind is not None else 0.0) + unseen * size
+        found[name] = Found(Estimate.within(value, bar if bar > 0 or not value else unseen * abs(value)), at)
+    weight = case.weight
     for factor, force in (("lift_off_factor", "rope_force_max"), ("bridge_factor", "bridge_force_max")):
         found[factor] = _over(found[force], weight)
     if not isinstance(scene, Lift):

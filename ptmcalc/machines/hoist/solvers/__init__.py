@@ -4,6 +4,8 @@ from ptmcalc.machines.hoist.solvers.hoist_handbook import HOIST_HANDBOOK
 from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS, HOLDING, STARTING
 from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
 from ptmcalc.machines.hoist.solvers.lifting_formulas import FORMULAS
+from ptmcalc.machines.hoist.solvers.rope_hauled import ROPE_HAULED
+from ptmcalc.machines.hoist.solvers.rope_waves import ROPE_WAVES
 from ptmcalc.machines.hoist.solvers.two_mass import TWO_MASS
 from ptmcalc.machines.hoist.solvers.winding_corrected import WINDING_CORRECTED
 from ptmcalc.machines.hoist.solvers.winding_map import WINDING_MAP
@@ -17,6 +19,8 @@ SOLVERS = (
     *FORMULAS,
     TWO_MASS,
     TRAIN,
+    ROPE_HAULED,
+    ROPE_WAVES,
     WINDING_PAPER,
     WINDING_CORRECTED,
     WINDING_MAP,

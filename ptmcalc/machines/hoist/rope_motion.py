@@ -1,0 +1,233 @@
+"""A scene of a hoist on a rope with mass or of changing length, played through, and the loads read from it."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Event, Finding, Found, History, Result
+from ptmcalc.machines.hoist import motion, rope_case
+from ptmcalc.machines.hoist.moving import Case, Moving
+from ptmcalc.machines.hoist.reduced import travel
+from ptmcalc.machines.hoist.spec import Hoist, Lift
+from ptmcalc.numerics.rope import rule
+from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy
+from ptmcalc.numerics.rope.parts import Haul
+
+FINENESS = (1.0, 1.6)
+"""How finely time is divided at each refinement."""
+_COMPARED = 1.37
+"""How much finer the run beside the one that counts divides it."""
+_MARGIN, _UNSEEN = 3.0, 1e-10
+_CLOSES, _NOTHING = 1e-9, 1e-6
+_LONGER = 4
+_SECONDS = 8e-4
+"""Of a panel."""
+_EVENTS = 12
+"""Corners that go to and fro along a rope with mass, in a prediction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """One run."""
+
+    haul: Haul
+    rope: Rod | Hauled
+    arm: float
+    """way of the hook for a radian of the drum [m]"""
+    played: Played
+    residual: float
+
+    def first(self, event: str) -> float:
+        """When something first happened; infinite where it never did [s]."""
+        return next((time for time, what in self.played.events if what == event), math.inf)
+
+    def top(self, values: np.ndarray) -> tuple[float, float]:
+        """Largest value of a signal of all panels and its time."""
+        value, panel, place = rule.largest(values)
+        one = self.played.panels[panel]
+        return value, one.start + place * one.length
+
+    def bottom(self, values: np.ndarray) -> tuple[float, float]:
+        """Smallest value of a signal of all panels and its time."""
+        value, time = self.top(-values)
+        return -value, time
+
+    def largest(self, values: np.ndarray) -> tuple[float, float]:
+        """Largest magnitude and its time."""
+        return max(self.top(values), self.top(-values))
+
+
+def play(spec: Hoist, scene: Moving, rope: Rod | Hauled, window: float, finer: float) -> Course:
+    """One run over a window."""
+    haul = rope_case.haul(spec, scene)
+    march = March(haul, rope, finer)
+    played = march.play(window)
+    left, scale = energy(march, played)
+    return Course(haul, rope, travel(spec, scene), played, left / scale)
+
+
+# -- what is read ---------------------------------------------------------------------------------------------------
+
+
+def _rope_forces(course: Course) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
+    """(smallest, largest) force with their times, at both ends and inside the rope.
+
+    Inside it F = f + g of waves that left the ends at times no further apart than two transits: an extreme there is
+    one of either by itself.
+    """
+    played = course.played
+    for what in ("top", "bottom"):
+        values = played.stack(what)
+        yield course.bottom(values), course.top(values)
+    if isinstance(course.rope, Rod):
+        for sign in (1, -1):
+            inside = _inside(played.panels, course.rope.transit, sign)
+            if inside is not None:
+                yield (inside, inside)
+
+
+def _inside(panels: list[Panel], transit: float, sign: int) -> tuple[float, float] | None:
+    """Largest (sign 1) or smallest sum of an extreme of either wave that meet inside the rope, and the time."""
+    down, up = (_turns(panels, what, sign) for what in ("down", "up"))
+    best: tuple[float, float] | None = None
+    for value, left in down:
+        for other, gone in up:
+            # the wave down leaves the drum at `left` and is at the load at left + transit; the wave up leaves the load
+            if abs(gone - left) < transit:
+                total = value + other
+                if best is None or sign * total > sign * best[0]:
+                    best = total, (left + gone + transit) / 2
+    return best
+
+
+def _turns(panels: list[Panel], what: str, sign: int) -> list[tuple[float, float]]:
+    """Local extremes of a wave, in panels and at their ends: (value, time)."""
+    values = sign * np.array([getattr(panel, what) for panel in panels]) @ rule.DENSE.T
+    starts, lengths = (np.array([getattr(panel, one) for panel in panels]) for one in ("start", "length"))
+    times = (starts[:, None] + lengths[:, None] * rule.PLACES).ravel()
+    flat = values.ravel()
+    before, after = np.append(-np.inf, flat[:-1]), np.append(flat[1:], -np.inf)
+    places = np.flatnonzero((flat >= before) & (flat >= after))
+    return [(sign * float(flat[k]), float(times[k])) for k in places]
+
+
+def readings(scene: Moving, case: Case, course: Course) -> motion.Readings:
+    """The loads of a run."""
+    played, haul = course.played, course.haul
+    lows, highs = zip(*_rope_forces(course), strict=True)
+    found: motion.Readings = {"rope_force_max": max(highs)}
+    at_top = played.stack("top")
+    if haul.structure is not None and haul.structure.mass > 0:
+        states = played.stack("states")
+        on_it = haul.structure.stiffness * states[:, :, Z] + haul.structure.damping * states[:, :, ZD]
+    else:
+        on_it = at_top
+    found["bridge_force_max"] = course.top(on_it)
+    if isinstance(scene, Lift):
+        lifted = course.first("lift")
+        if not math.isfinite(lifted) or case.weak:
+            found |= {
+                "lift_off_speed": (0.0, None),
+                "lift_off_time": (math.inf, None),
+                "tension_time": (math.inf, None),
+            }
+        else:
+            taut = course.first("taut")
+            panel = next(one for one in played.panels if one.start + one.length >= lifted * (1 - 1e-12))
+            found |= {
+                "lift_off_speed": (float(panel.states[-1, W]), lifted),
+                "lift_off_time": (lifted, None),
+                "tension_time": (lifted - (taut if taut <= lifted else 0.0), None),
+            }
+    else:
+        found["rope_force_min"] = min(lows)
+        found["bridge_force_min"] = course.bottom(on_it)
+    peak, time = course.largest(played.stack("gear"))
+    found |= {
+        "backlash_torque_peak": (peak * course.arm, time),
+        "gear_impact_factor": (peak * course.arm / case.even_torque, time),
+    }
+    if case.stops:
+        at_rest = played.mode.turn == 0 and played.rests
+        heights = played.stack("states")[:, :, U]
+        edge = course.bottom(heights) if case.lowers else course.top(heights)
+        found["stop_time"] = (played.rests[0], None) if at_rest else (math.inf, None)
+        name = "stop_distance_lowering" if case.lowers else "stop_distance"
+        found[name] = (abs(edge[0]), edge[1]) if at_rest else (math.inf, None)
+    return found
+
+
+def _slack_at(course: Course) -> float:
+    """When a rope with mass first carries less than nothing, at an end or inside; infinite where it never does [s]."""
+    if not isinstance(course.rope, Rod) or math.isfinite(course.played.slack_at):
+        return course.played.slack_at
+    least, time = min(low for low, _ in _rope_forces(course))
+    return time if least < -_NOTHING * course.haul.weight else math.inf
+
+
+# -- a whole solver run ---------------------------------------------------------------------------------------------
+
+
+def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result:
+    """Loads, findings and histories of a scene."""
+    case = rope_case.case(spec, scene)
+    window, finer = case.window, FINENESS[level]
+    course = play(spec, scene, rope, window, finer)
+    for _ in range(_LONGER if case.holds else 0):
+        if course.played.mode.turn == 0 or math.isfinite(course.played.slack_at):
+            break
+        window *= 2
+        course = play(spec, scene, rope, window, finer)
+    other = play(spec, scene, rope, window, _COMPARED * finer)
+    own, beside = readings(scene, case, course), readings(scene, case, other)
+    found = motion.with_bars(scene, case, own, [beside], _UNSEEN)
+    findings = []
+    slack, residual = _slack_at(course), max(course.residual, other.residual)
+    if math.isfinite(slack):
+        findings.append(
+            Finding(
+                "NUM104",
+                f"scene `{scene.label}`: the rope goes slack at {slack:.4g} s; a slack rope with mass is not followed",
+            )
+        )
+    if residual > _CLOSES:
+        findings.append(
+            Finding(
+                "NUM101",
+                f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over, more than {_CLOSES:.0e}; the"
+                " numbers are not trusted",
+            )
+        )
+    if findings:
+        found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
+    if isinstance(rope, Rod):
+        found["natural_frequency"] = Found(rope_case.frequency(spec, scene))
+    found["energy_residual"] = Found(Estimate.exact(course.residual))
+    return Result(
+        found,
+        work=len(course.played.panels) + len(other.played.panels),
+        window=(0.0, course.played.time),
+        health={"energy_residual": course.residual, "steps": float(len(course.played.panels))},
+        findings=tuple(findings),
+        events=tuple(Event(time, "drive and load", "", what) for time, what in course.played.events),
+        histories=lambda: histories(course),
+    )
+
+
+def histories(course: Course) -> Mapping[str, History]:
+    """Forces over time."""
+    played = course.played
+    times = np.maximum.accumulate(np.concatenate([one.start + one.length * rule.NODES for one in played.panels]))
+    signals = {"rope_force_max": played.stack("bottom"), "bridge_force_max": played.stack("top")}
+    return {name: History(units.FORCE, times.tolist(), values.ravel().tolist()) for name, values in signals.items()}
+
+
+def cost(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> float:
+    """Seconds predicted: the panels of two runs, each as long as approximation or the corners of a rod allow."""
+    longest = March(rope_case.haul(spec, scene), rope, FINENESS[level]).longest
+    panels = rope_case.case(spec, scene).window / longest * (1 + _COMPARED)
+    return 1e-3 + _SECONDS * panels * (_EVENTS if isinstance(rope, Rod) else 1)

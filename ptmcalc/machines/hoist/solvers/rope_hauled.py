@@ -1,0 +1,42 @@
+"""Drive and load on a rope that gets shorter or longer as the drum turns."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist import rope_case, rope_motion
+from ptmcalc.machines.hoist.effects_motion import ALWAYS
+from ptmcalc.machines.hoist.loads_motion import MOVING
+from ptmcalc.machines.hoist.moving import Moving
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
+
+
+def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene with the strained rope taken in by the drum, or given.
+
+        F = K l e + b (stretch rate),   e = (D - s)/s,   s' = -w/(1 + e) hauling,   s' = -w/(1 + e_0) paying out
+
+    s is the unstrained rope between drum and load, D their distance, w the speed of the drum at the hook; what is paid
+    out was wound with the strain e_0 of the load at rest.
+
+    **Range** a rigid gear that does not lock itself; a rope without mass; no slip on the drum, the layer and the
+    number of falls kept.
+    **Error** collocation by its tail of 1e-12; the bar comes from a run that divides time otherwise. The numbers are
+    trusted only if the energy ledger, with the strain wound onto the drum, closes to 1e-9.
+    **Source** derived in `numerics.rope.march`; its adiabatic limit is `laws.rope_rod.hauling_gain`.
+    """
+    return rope_motion.result(spec, scene, rope_case.hauled(spec, scene), level)
+
+
+ROPE_HAULED: Solver[Hoist, Moving] = Solver(
+    name="rope_hauled",
+    title="drive and load on a rope that gets shorter or longer",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({Lift, Start, Stop, LowerBrake}),
+    represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_shortening"},
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: rope_motion.cost(spec, scene, rope_case.hauled(spec, scene), level),
+    source="strained rope taken in by the drum; derived in ptmcalc.numerics.rope",
+    valid=rope_case.has_rigid_gear,
+    always=ALWAYS | {"rope_shortening"},
+    levels=len(rope_motion.FINENESS),
+)

@@ -1,0 +1,43 @@
+"""Drive and load on a rope with mass of its own: waves along it, exact from event to event."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.hoist import rope_case, rope_motion
+from ptmcalc.machines.hoist.effects_motion import ALWAYS
+from ptmcalc.machines.hoist.loads_motion import MOVING
+from ptmcalc.machines.hoist.moving import Moving
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
+
+
+def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene with the rope as a rod between drum and load.
+
+        F = f(t - x/c) + g(t + x/c),   v = (f - g)/Z,   Z = (K m_r)^(1/2),   transit (m_r/K)^(1/2)
+        F_top = Z (v_drum - z') + 2 g,   F_load = 2 f - Z v_load;   forces are the largest and smallest of the rope
+
+    As a lift begins the rope is at rest and the drum runs, so that its end starts the first wave. The rope's inertia
+    is in it, not its weight, which the loads of even motion have.
+
+    **Range** a rigid gear that does not lock itself; a rope of constant length without damping that stays taut: where
+    it goes slack a finding says so and the numbers are not used.
+    **Error** waves and corners exact, in between collocation by its tail of 1e-12; the bar comes from a run that
+    divides time otherwise. The numbers are trusted only if the energy ledger, waves under way in it, closes to 1e-9.
+    **Source** J. d'Alembert's solution; derived in `numerics.rope.march`.
+    """
+    return rope_motion.result(spec, scene, rope_case.rod(spec, scene), level)
+
+
+ROPE_WAVES: Solver[Hoist, Moving] = Solver(
+    name="rope_waves",
+    title="drive and load on a rope with mass, waves exact from event to event",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({Lift, Start, Stop, LowerBrake}),
+    represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_mass"},
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: rope_motion.cost(spec, scene, rope_case.rod(spec, scene), level),
+    source="d'Alembert's waves between drive and load; derived in ptmcalc.numerics.rope",
+    valid=rope_case.has_rigid_gear_and_no_damping,
+    always=ALWAYS | {"rope_mass"},
+    levels=len(rope_motion.FINENESS),
+)
