@@ -1,0 +1,94 @@
+"""What a slewing crane's file comes to: inertias, resistances and torques about the slewing axis."""
+
+import math
+
+from ptmcalc.laws import bodies, inertia
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+_FLOWS = {"eta": "drive", "one": "energy", "inverse": "brake"}
+
+
+def hanging_mass(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Load and hook block on the rope [kg]."""
+    if spec.load is None:
+        return 0.0
+    return spec.load.hook_block + (spec.load.mass if scene.load == "full" else 0.0)
+
+
+def structure_inertia(spec: SlewingCrane) -> float:
+    """All that slews without what hangs, about the slewing axis [kg*m^2]."""
+    load = spec.load
+    if spec.inertia is not None:
+        return spec.inertia - ((load.mass + load.hook_block) * load.radius**2 if load is not None else 0.0)
+    total = 0.0
+    for body in (spec.slewing_part, spec.counterweight):
+        if body is not None:
+            total += bodies.parallel_axis(body.inertia, body.mass, body.radius)
+    if spec.jib is not None:
+        total += bodies.rod_radial(spec.jib.mass, spec.jib.length, spec.jib.foot_radius)
+    return total
+
+
+def slew_inertia(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """All that slews, the load at the radius of its rope [kg*m^2]."""
+    if spec.load is None:
+        return structure_inertia(spec)
+    return structure_inertia(spec) + bodies.point_mass(hanging_mass(spec, scene), spec.load.radius)
+
+
+def rotor_inertia(spec: SlewingCrane) -> float:
+    """All rotating parts of the drive, on the motor shaft [kg*m^2]."""
+    return spec.gear.rotating_factor * spec.motor.rotating_inertia
+
+
+def rotor_at_column(spec: SlewingCrane, rule: str = "eta") -> float:
+    """The rotating parts of the drive about the slewing axis [kg*m^2]."""
+    return inertia.inertia_on_slow_shaft(rotor_inertia(spec), spec.gear.ratio, spec.gear.efficiency, _FLOWS[rule])
+
+
+def unbalance(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Mass times radius of all parts, towards the load [kg*m]."""
+    total = hanging_mass(spec, scene) * spec.load.radius if spec.load is not None else 0.0
+    return total + structure_unbalance(spec)
+
+
+def structure_unbalance(spec: SlewingCrane) -> float:
+    """Mass times radius of the parts without what hangs, towards the load [kg*m]."""
+    total = 0.0
+    if spec.slewing_part is not None:
+        total += spec.slewing_part.mass * spec.slewing_part.radius
+    if spec.counterweight is not None:
+        total -= spec.counterweight.mass * spec.counterweight.radius
+    if spec.jib is not None:
+        total += spec.jib.mass * (spec.jib.foot_radius + spec.jib.length / 2)
+    return total
+
+
+def slope_torque(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Largest torque of the weights about a slewing axis that is not vertical [N*m]."""
+    return abs(unbalance(spec, scene)) * spec.gravity * math.sin(spec.slope)
+
+
+def steady_torque(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """What steady slewing takes at the slewing axis: friction, steady wind, slope [N*m]."""
+    return spec.friction + spec.wind.steady_torque + slope_torque(spec, scene)
+
+
+def driving_wind(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """What drives a crane that is to be stopped or held: the largest wind, slope [N*m]."""
+    return spec.wind.maximum_torque + slope_torque(spec, scene)
+
+
+def motor_torque(spec: SlewingCrane) -> float | None:
+    """Mean starting torque of all motors on their shaft, None where the file does not say [N*m]."""
+    return spec.motor.mean_torque(spec.speed * spec.gear.ratio)
+
+
+def at_column(spec: SlewingCrane, motor_torque: float) -> float:
+    """A torque of the motors, carried to the slewing axis [N*m]."""
+    return motor_torque * spec.gear.ratio * spec.gear.efficiency
+
+
+def start_time_of(time: float | None, angle: float | None, speed: float) -> float | None:
+    """A start as its time, be it given by its time or its angle [s]."""
+    return time if time is not None else 2 * angle / speed if angle is not None else None
