@@ -262,7 +262,7 @@ def show_solvers(kind: str, as_json: bool) -> str:
     )
     cells = [
         [
-            row["kind"],
+            f"{row['kind']} {row.get('type', '')}".strip(),
             row["scene"],
             row["solver"],
             row["fidelity"] + ("" if row["decides"] else ", shown only"),
@@ -289,7 +289,8 @@ def _solver_rows(kind: AnyKind) -> Iterator[Row]:
             scene = scenes.get(scene_type)
             fits = scene is not None and solver.usable_for(template, scene)
             yield {
-                "kind": kind.label,
+                "kind": kind.name,
+                **({"type": kind.type} if kind.type else {}),
                 "scene": scene_type.model_fields["type"].default,
                 "solver": solver.name,
                 "fidelity": solver.fidelity.value,

@@ -33,7 +33,8 @@ def fatigue_torque(shares: Numbers, torques: Numbers, exponent: float = 3.0) -> 
     largest = float(np.max(sizes, initial=0.0))
     if largest == 0:
         return 0.0
-    return largest * float(np.sum(np.asarray(shares, float) * (sizes / largest) ** exponent)) ** (1 / exponent)
+    damage = np.sum(np.asarray(shares, float) * (sizes / largest) ** exponent)
+    return largest * float(damage ** (1 / exponent))
 
 
 def uniform_start_time(inertia: ArrayLike, speed: ArrayLike, torque: ArrayLike, resistance: ArrayLike) -> FloatArray:
