@@ -14,6 +14,7 @@ from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.words import quote
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
+from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
@@ -58,7 +59,7 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
     notes = tuple(
         Diagnostic(
             finding.code,
-            finding.message,
+            _with_lines(finding, document),
             document.value_span(finding.path),
             finding.path,
             finding.hint,
@@ -67,6 +68,15 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
         for finding in kind.inspect(spec)
     )
     return Loaded(document, kind, spec, assumed, notes)
+
+
+def _with_lines(finding: Finding, document: Document) -> str:
+    """What a finding says; of one about two keys, with the lines they stand in."""
+    if not finding.other:
+        return finding.message
+    lines = [document.key_span(path).line for path in (finding.path, finding.other)]
+    keys = [quote(dotted(path)) for path in (finding.path, finding.other)]
+    return f"{finding.message} ({keys[0]} in line {lines[0]}, {keys[1]} in line {lines[1]})"
 
 
 def _read(

@@ -81,23 +81,150 @@ def torque_for_start(inertia: ArrayLike, speed: ArrayLike, time: ArrayLike, resi
     return np.asarray(np.asarray(inertia, float) * np.asarray(speed) / np.asarray(time) + np.asarray(resistance))
 
 
-def ring_moment(weights: Numbers, radii: Numbers, sideways: Numbers, heights: Numbers) -> float:
-    """Tilting moment of a slewing ring: weights beside the axis and horizontal forces above the ring.
+def geared_stop(
+    inertia: float,
+    rotor: float,
+    efficiency: float,
+    reverse_efficiency: float,
+    speed: float,
+    motor_brake: float,
+    crane_brake: float,
+    resistance: float,
+    delay: float,
+    rise_time: float,
+) -> tuple[float, float]:
+    """Time and angle in which a brake with delay and rise stops a rigid crane through its gear.
 
-        M = |sum G_i r_i + sum H_j h_j|
+        J w' = -M_c(t) - R - T,   T = (M_b(t) + J_r w') k,   k = 1/eta_r for T > 0, the load drives, else eta
+
+    w' is a broken line over the torque of the brake, so w(t) is a row of parabolas.
 
     Args:
-        weights: G_i, shape (n,) [N].
-        radii: r_i, of each weight from the axis, towards the load, negative behind, shape (n,) [m].
-        sideways: H_j, horizontal forces outwards along the jib, shape (k,) [N].
-        heights: h_j, of each over the ring, shape (k,) [m].
+        inertia: J, of the crane without its drive, about the slewing axis [kg*m^2].
+        rotor: J_r = J_1 u^2, of the drive, brought to the slewing axis by the ratio alone [kg*m^2].
+        efficiency: eta, from motor to crane [1].
+        reverse_efficiency: eta_r, from crane to motor; 0 or less where self-locking [1].
+        speed: w_0, when the command is given [rad/s].
+        motor_brake: M_b, of the closed brake on the motor shaft, times the ratio [N*m].
+        crane_brake: M_c, of a closed brake on the slewing axis [N*m].
+        resistance: R, friction less the wind that drives; below 0 the wind wins [N*m].
+        delay: from the command until the brake acts; the motor is off [s].
+        rise_time: from then until its full torque, in a straight line [s].
 
     Returns:
-        M [N*m].
+        (time since the command [s], angle [rad]); both infinite where the brake does not stop it. A self-locking gear
+        that jams (`gearing.jams`) ends at once.
 
-    **Range** a rigid crane, its parts in the plane of the jib.
+    **Range** a rigid crane; friction that stays as long as it turns.
     **Error** exact for that model.
-    **Source** balance of moments; catalogues of slewing rings.
+    **Source** derived: power balance of the mesh (`gearing`), phase by phase.
     """
-    standing = np.sum(np.asarray(weights, float) * np.asarray(radii, float))
-    return abs(float(standing + np.sum(np.asarray(sideways, float) * np.asarray(heights, float))))
+
+    def acceleration(share: float) -> float:
+        free, held = -crane_brake * share - resistance, motor_brake * share
+        if held + rotor * free / inertia <= 0:
+            return (free - held * efficiency) / (inertia + rotor * efficiency)
+        if reverse_efficiency == 0:
+            return -held / rotor if rotor > 0 else -math.inf
+        behind = inertia + rotor / reverse_efficiency
+        return (free - held / reverse_efficiency) / behind if behind * reverse_efficiency > 0 else -math.inf
+
+    def turns(share: float) -> float:
+        return motor_brake * share + rotor * (-crane_brake * share - resistance) / inertia
+
+    shares = [0.0]
+    if turns(0.0) * turns(1.0) < 0:
+        shares.append(turns(0.0) / (turns(0.0) - turns(1.0)))
+    shares.append(1.0)
+    times = [0.0, *(delay + rise_time * share for share in shares), math.inf]
+    at = [0.0, *shares, 1.0]
+    time = angle = 0.0
+    for start, end, first, last in zip(times, times[1:], at, at[1:], strict=False):
+        span, a0, a1 = end - start, acceleration(first), acceleration(last)
+        if -math.inf in (a0, a1):
+            return time, angle
+        if span <= 0:
+            continue
+        jerk = (a1 - a0) / span
+        stop = _first_standstill(speed, a0, jerk)
+        if stop <= span:
+            return time + stop, angle + speed * stop + a0 * stop**2 / 2 + jerk * stop**3 / 6
+        if math.isinf(span):
+            return math.inf, math.inf
+        angle += speed * span + a0 * span**2 / 2 + jerk * span**3 / 6
+        speed += a0 * span + jerk * span**2 / 2
+        time += span
+    return math.inf, math.inf
+
+
+def _first_standstill(speed: float, acceleration: float, jerk: float) -> float:
+    """First time at which speed + acceleration t + jerk t^2/2 is 0, infinite where there is none [s]."""
+    if speed <= 0:
+        return 0.0
+    below = acceleration**2 - 2 * jerk * speed
+    if below < 0:
+        return math.inf
+    root = -acceleration + math.sqrt(below)
+    return 2 * speed / root if root > 0 else math.inf
+
+
+def swing_reach(
+    inertia: float, mass: float, radius: float, rope: float, speed: float, gravity: float
+) -> tuple[float, float]:
+    """How far out and how inclined a load can hang that a jib has brought to its speed, however it was driven.
+
+        2 g L (1 - cos(theta)) <= w^2 (rho^2 + J/m),   rho <= R + L sin(theta)
+
+    In a frame that turns with w the work of the drive, at most w times the angular momentum it gives, cancels: what is
+    left of the energy is that of the jib, J w^2/2, and w^2 rho^2/2 of the load.
+
+    Args:
+        inertia: J, of the jib with its drive, without the load, about the slewing axis [kg*m^2].
+        mass: m, of the load [kg].
+        radius: R, from the axis to the head of the jib [m].
+        rope: L, from there to the load [m].
+        speed: w, that the jib reaches and does not exceed [rad/s].
+        gravity: g [m/s^2].
+
+    Returns:
+        (rho, largest distance of the load from the axis [m], theta, largest angle of the rope [rad]); theta is pi and
+        rho R + L where the bound allows any angle.
+
+    **Range** a start from rest under a drive that never pulls back, then steady slewing; a rope that stays taut.
+    **Error** a bound, derived: never exceeded in that model.
+    **Source** derived: Jacobi's integral of the load in the turning frame.
+    """
+    reach = radius
+    for _ in range(200):
+        share = speed**2 * (reach**2 + inertia / mass) / (2 * gravity * rope)
+        if share >= 1:
+            return radius + rope, math.pi
+        angle = math.acos(1 - share)
+        further = radius + rope * math.sin(angle)
+        if further <= reach * (1 + 1e-12):
+            return further * (1 + 1e-9), angle * (1 + 1e-9) + 1e-9
+        reach = further
+    return radius + rope, math.pi
+
+
+def momentum_range(inertia: float, mass: float, reach: float, speed: float) -> tuple[float, float]:
+    """Angular momentum of a swinging load about the slewing axis as its jib comes to the speed.
+
+        h = m rho w (rho -+ (rho^2 + J/m)^(1/2))
+
+    Args:
+        inertia: J, of the jib with its drive, without the load, about the slewing axis [kg*m^2].
+        mass: m, of the load [kg].
+        reach: rho, its largest distance from the axis, of `swing_reach` [m].
+        speed: w, of the jib [rad/s].
+
+    Returns:
+        (smallest, largest) [N*m*s].
+
+    **Range** as `swing_reach`.
+    **Error** a bound, derived.
+    **Source** derived: the load's speed in the turning frame is at most w (rho^2 + J/m)^(1/2).
+    """
+    root = math.sqrt(reach**2 + inertia / mass)
+    least = -speed * inertia * reach / (reach + root)  # rho (rho - root) without its cancellation
+    return least, mass * reach * speed * (reach + root)

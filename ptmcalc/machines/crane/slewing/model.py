@@ -2,7 +2,8 @@
 
 import math
 
-from ptmcalc.laws import bodies, inertia
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.laws import bodies, inertia, slewing
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 _FLOWS = {"eta": "drive", "one": "energy", "inverse": "brake"}
@@ -79,9 +80,45 @@ def driving_wind(spec: SlewingCrane, scene: SlewingScene) -> float:
     return spec.wind.maximum_torque + slope_torque(spec, scene)
 
 
-def motor_torque(spec: SlewingCrane) -> float | None:
-    """Mean starting torque of all motors on their shaft, None where the file does not say [N*m]."""
+def motor_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
+    """Mean starting torque of all motors on their shaft, None where the file does not say [N*m].
+
+    A converter gives what its ramp takes, up to its limit.
+    """
+    curve = spec.motor.curve
+    if isinstance(curve, ConverterMotor):
+        total = slew_inertia(spec, scene) + rotor_at_column(spec)
+        limit = spec.motor.count * curve.torque_limit
+        if curve.ramp_time == 0:
+            return limit
+        wanted = slewing.torque_for_start(total, spec.speed, curve.ramp_time, steady_torque(spec, scene))
+        return min(float(wanted) / (spec.gear.ratio * spec.gear.efficiency), limit)
     return spec.motor.mean_torque(spec.speed * spec.gear.ratio)
+
+
+def rotor_at_axis(spec: SlewingCrane) -> float:
+    """The rotating parts of the drive, brought to the slewing axis by the ratio alone [kg*m^2]."""
+    return rotor_inertia(spec) * spec.gear.ratio**2
+
+
+def stop(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float] | None:
+    """Time [s] and angle [rad] of a stop of the rigid crane by its brake, None without a brake."""
+    brake = spec.brake
+    if brake is None:
+        return None
+    on_motor = brake.shaft == "motor"
+    return slewing.geared_stop(
+        slew_inertia(spec, scene),
+        rotor_at_axis(spec),
+        spec.gear.efficiency,
+        spec.gear.back,
+        spec.speed,
+        brake.torque * spec.gear.ratio if on_motor else 0.0,
+        0.0 if on_motor else brake.torque,
+        spec.friction - driving_wind(spec, scene),
+        brake.delay,
+        brake.rise_time,
+    )
 
 
 def at_column(spec: SlewingCrane, motor_torque: float) -> float:

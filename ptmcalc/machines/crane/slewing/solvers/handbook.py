@@ -1,5 +1,7 @@
 """The handbook's chain of a rotation, as course projects print it."""
 
+import math
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -22,24 +24,21 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     other.
     **Source** design of slewing cranes on a fixed column, course notes (3.5.2.2 to 3.5.2.13), the lost ones rebuilt.
     """
-    given, torque = spec.handbook, model.motor_torque(spec)
+    given, torque = spec.handbook, model.motor_torque(spec, scene)
     start = model.start_time_of(given.start_time, given.start_angle, spec.speed)
     if start is None:
         start = model.start_time_of(spec.cycle.start_time, spec.cycle.start_angle, spec.speed)
     if start is None:
         start = chain.start_time(spec, scene, given.rotor_eta_rule)
+    if not math.isfinite(start):
+        return Result({}, work=1)
     if torque is not None:
         at_column = model.at_column(spec, torque)
     else:
         at_column = chain.start_torque(spec, scene, start, given.rotor_eta_rule)
-    loads = chain.of_rotation(
-        spec,
-        scene,
-        start_time=start,
-        torque_start=at_column,
-        rule=given.rotor_eta_rule,
-        rounded=given.shares == "rounded",
-    )
+    times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
+    at = chain.torques(spec, scene, at_column, given.rotor_eta_rule, by_direction=False)
+    loads = chain.loads(spec, scene, times, at, rounded=given.shares == "rounded")
     return Result({name: Found(Estimate.unknown(value)) for name, value in loads.items()}, work=1)
 
 
