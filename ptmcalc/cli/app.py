@@ -288,11 +288,16 @@ def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when le
 
 
 @app.command()
-def new(kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")]) -> None:
+def new(
+    kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")],
+    type_of_it: Annotated[
+        str, typer.Argument(metavar="[TYPE]", help="A type of the kind, where it has several; the first when left out.")
+    ] = "",
+) -> None:
     """Print a commented design file to start from."""
-    from ptmcalc.engine.registry import load_kind
+    from ptmcalc.cli.listing import starting_file
 
-    say(load_kind(kind).template)
+    say(starting_file(kind, type_of_it))
 
 
 @app.command()

@@ -27,6 +27,7 @@ from ptmcalc.engine.run import settle
 from ptmcalc.engine.solve import solve
 from ptmcalc.report import Format, json, render, words
 from ptmcalc.report.table import listing
+from ptmcalc.spec.shape import did_you_mean
 
 Row = dict[str, Any]
 
@@ -138,7 +139,7 @@ def explanation(name: str) -> str:
 def _everything() -> Iterator[tuple[str, str]]:
     for code, text in CODES.items():
         yield code, f"{code}: is there {text.title}?\n\n{text.why}\n\nWhat to do: {text.fix}"
-    for kind in map(load_kind, kind_names()):
+    for kind in (one for name in kind_names() for one in load_kind(name).manifests):
         for check in kind.checks:
             yield check.code, _explained_check(kind, check)
         for effect in kind.effects:
@@ -155,7 +156,7 @@ def _explained_check(kind: AnyKind, check: AnyCheck) -> str:
     scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
     loads = ", ".join(check.loads)
     return (
-        f"{check.code}: is there {check.title}?   ({kind.name}; scenes: {scenes})\n\n{check.what}\n\n{check.why}\n\n"
+        f"{check.code}: is there {check.title}?   ({kind.label}; scenes: {scenes})\n\n{check.what}\n\n{check.why}\n\n"
         f"Formula\n{textwrap.indent(check.formula, '    ')}\n\nReads: {loads}\n\nLimit: {_doc(check.limit)}\n\n"
         f"Source: {check.source}"
     )
@@ -164,7 +165,7 @@ def _explained_check(kind: AnyKind, check: AnyCheck) -> str:
 def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
     inside = f"\nPart of: {effect.part_of}" if effect.part_of else ""
     return (
-        f"{effect.name}: {effect.title}   ({kind.name}){inside}\n\n"
+        f"{effect.name}: {effect.title}   ({kind.label}){inside}\n\n"
         f"When it matters\n{textwrap.indent(_doc(effect.criterion), '    ')}\n\n"
         f"What leaving it out can change{' (calibrated)' * effect.calibrated}\n"
         f"{textwrap.indent(_doc(effect.bound), '    ')}"
@@ -175,7 +176,7 @@ def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
     carried = ", ".join(sorted(solver.represents)) or "none"
     decides = "" if solver.decides else "\nIt is shown beside the reported load and never decides."
     return (
-        f"{solver.name}: {solver.title}   ({kind.name})\nEffects it carries: {carried}{decides}\n\n{_doc(solver.run)}"
+        f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{decides}\n\n{_doc(solver.run)}"
     )
 
 
@@ -184,8 +185,10 @@ def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
 
 def json_schema(kind: str) -> str:
     """JSON Schema of one kind, or of any design file."""
-    names = [kind] if kind else list(kind_names())
-    schemas = [load_kind(name).spec.model_json_schema() for name in names]
+    chosen = [kind] if kind else list(kind_names())
+    manifests = [one for name in chosen for one in load_kind(name).manifests]
+    names = [one.label.replace(" ", ".") for one in manifests]
+    schemas = [one.spec.model_json_schema() for one in manifests]
     top: Row = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     if len(schemas) == 1:
         return json.dump(top | schemas[0])
@@ -211,8 +214,35 @@ def _renamed(node: Any, kind: str) -> Any:
 
 def show_kinds(as_json: bool) -> str:
     """The list of kinds."""
-    rows = [{"kind": kind.name, "title": kind.title} for kind in map(load_kind, kind_names())]
-    return json.rows(rows) if as_json else _table(("kind", "what it checks"), [list(row.values()) for row in rows])
+    kinds = [load_kind(name) for name in kind_names()]
+    rows = [
+        {"kind": kind.name, "title": kind.title} | ({"types": [one.type for one in kind.types]} if kind.types else {})
+        for kind in kinds
+    ]
+    if as_json:
+        return json.rows(rows)
+    cells = [(kind.name, ", ".join(one.type for one in kind.types), kind.title) for kind in kinds]
+    return _table(("kind", "types", "what it checks"), cells)
+
+
+def starting_file(kind: str, type_of_it: str) -> str:
+    """A commented design file to start from: of a type of the kind, of its first one when none is named.
+
+    Raises:
+        UsageError: the kind has no such type.
+    """
+    chosen = load_kind(kind)
+    types = {one.type: one for one in chosen.types}
+    if type_of_it and type_of_it not in types:
+        if not types:
+            raise UsageError(f"a {kind} is of no type", f"write `ptmcalc new {kind}`")
+        raise UsageError(f"no type of {kind} is called `{type_of_it}`", did_you_mean(type_of_it, types, "types: "))
+    shown = types.get(type_of_it, chosen)
+    others = [name for name in types if name != (type_of_it or next(iter(types)))]
+    if not others or type_of_it:
+        return shown.template
+    commands = ", ".join(f"`ptmcalc new {kind} {name}`" for name in others)
+    return f"# The first of several types of {kind}; the others: {commands}\n{shown.template}"
 
 
 def show_solvers(kind: str, as_json: bool) -> str:
@@ -232,7 +262,7 @@ def show_solvers(kind: str, as_json: bool) -> str:
     )
     cells = [
         [
-            row["kind"],
+            f"{row['kind']} {row.get('type', '')}".strip(),
             row["scene"],
             row["solver"],
             row["fidelity"] + ("" if row["decides"] else ", shown only"),
@@ -247,6 +277,10 @@ def show_solvers(kind: str, as_json: bool) -> str:
 
 
 def _solver_rows(kind: AnyKind) -> Iterator[Row]:
+    if kind.types:
+        for one in kind.types:
+            yield from _solver_rows(one)
+        return
     template = load_text(kind.template.encode(), kind.name).spec
     assert template is not None, "a template passes its own check"
     scenes = {type(scene): scene for scene in reversed(template.all_scenes)}
@@ -256,6 +290,7 @@ def _solver_rows(kind: AnyKind) -> Iterator[Row]:
             fits = scene is not None and solver.usable_for(template, scene)
             yield {
                 "kind": kind.name,
+                **({"type": kind.type} if kind.type else {}),
                 "scene": scene_type.model_fields["type"].default,
                 "solver": solver.name,
                 "fidelity": solver.fidelity.value,
@@ -284,7 +319,7 @@ def show_solution(path: str, code: str, key: str, scene: str, as_json: bool) -> 
     check = next((check for check in loaded.kind.checks if check.code == code.upper()), None)
     if check is None:
         codes = ", ".join(check.code for check in loaded.kind.checks)
-        raise UsageError(f"a {loaded.kind.name} has no check `{code}`", f"checks: {codes}")
+        raise UsageError(f"a {loaded.kind.label} has no check `{code}`", f"checks: {codes}")
     if loaded.spec.settings.switched_off(check.code):
         raise UsageError(f"{check.code} is switched off in this file", f"delete `{check.code}` under `checks`")
     if scene:

@@ -56,6 +56,22 @@ class MachineKind(Generic[S]):
     assumed: Callable[[S], Iterable[Assumption[S]]] | None = None
     """for a kind with parts that a machine has several times: the assumptions of one machine, instead of the list"""
 
+    type: str = ""
+    """for the manifest of one of several types of a kind: the word its files write behind `type`"""
+
+    types: "tuple[MachineKind[Any], ...]" = ()
+    """for a kind with several types: their manifests, of which a file's `type` chooses one"""
+
+    @property
+    def manifests(self) -> "tuple[MachineKind[Any], ...]":
+        """What describes one machine each: the types of the kind, or the kind itself."""
+        return self.types or (self,)
+
+    @property
+    def label(self) -> str:
+        """The kind in words, with its type."""
+        return f"{self.name} {self.type}".strip()
+
     def assumptions_of(self, spec: S) -> Iterable[Assumption[S]]:
         """What may be filled in for a machine."""
         return self.assumed(spec) if self.assumed else self.assumptions
@@ -70,3 +86,22 @@ class MachineKind(Generic[S]):
 
 
 AnyKind = MachineKind[Any]
+
+
+def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
+    """A kind whose files choose one of several types of machine, each with a manifest of its own.
+
+    What the types have in common by name is one load; effects, solvers and checks are those of all types.
+    """
+    loads = {load.name: load for one in reversed(types) for load in reversed(one.loads)}
+    return MachineKind(
+        name=name,
+        title=title,
+        spec=MachineSpec,
+        loads=tuple(reversed(loads.values())),
+        effects=tuple(effect for one in types for effect in one.effects),
+        solvers=tuple(solver for one in types for solver in one.solvers),
+        checks=tuple(check for one in types for check in one.checks),
+        template=types[0].template,
+        types=types,
+    )

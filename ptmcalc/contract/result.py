@@ -56,6 +56,8 @@ class Finding:
     message: str
     path: tuple[str | int, ...] = ()
     hint: str = ""
+    other: tuple[str | int, ...] = ()
+    """a second key it is about: its line is named too"""
 
 
 @dataclass(frozen=True, slots=True)

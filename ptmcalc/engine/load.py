@@ -14,6 +14,7 @@ from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.words import quote
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
+from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
@@ -58,7 +59,7 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
     notes = tuple(
         Diagnostic(
             finding.code,
-            finding.message,
+            _with_lines(finding, document),
             document.value_span(finding.path),
             finding.path,
             finding.hint,
@@ -69,6 +70,15 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
     return Loaded(document, kind, spec, assumed, notes)
 
 
+def _with_lines(finding: Finding, document: Document) -> str:
+    """What a finding says; of one about two keys, with the lines they stand in."""
+    if not finding.other:
+        return finding.message
+    lines = [document.key_span(path).line for path in (finding.path, finding.other)]
+    keys = [quote(dotted(path)) for path in (finding.path, finding.other)]
+    return f"{finding.message} ({keys[0]} in line {lines[0]}, {keys[1]} in line {lines[1]})"
+
+
 def _read(
     document: Document, effects: Mapping[str, str], accuracy: str
 ) -> tuple[AnyKind | None, MachineSpec | None, list[Diagnostic]]:
@@ -77,6 +87,8 @@ def _read(
         return None, None, []
     data = dict(document.data)
     kind, problems = _kind_of(document, data)
+    if kind is not None and kind.types:
+        kind, problems = _type_of(kind, document, data)
     if kind is None:
         return None, None, problems
     if effects and isinstance(data.get("effects", {}), dict):
@@ -126,6 +138,25 @@ def _kind_of(document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | Non
         return None, [Diagnostic("SPC102", error.message, place, ("kind",), error.hint)]
 
 
+def _type_of(kind: AnyKind, document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | None, list[Diagnostic]]:
+    """The manifest of the type a file names, of a kind that has several."""
+    types = {one.type: one for one in kind.types}
+    named, place = data.get("type"), document.value_span(("type",))
+    if named is Unread.VALUE:
+        return None, []
+    choice = ", ".join(f"`{name}`" for name in types)
+    if "type" not in data:
+        slip = next((key for key in data if meant(key, ("type",))), "")
+        hint = f"is {quote(slip)} meant for it? " * bool(slip) + f"add `type: {next(iter(types))}`"
+        reason = f"`type` is missing: a {kind.name} is one of {choice}"
+        return None, [Diagnostic("SPC103", reason, document.key_span(("kind",)), ("type",), hint)]
+    if named not in types:
+        reason = f"`type` is {describe(named)}, not one of {choice}"
+        hint = did_you_mean(named if isinstance(named, str) else "", types, "write one of ")
+        return None, [Diagnostic("SPC112", reason, place, ("type",), hint)]
+    return types[named], []
+
+
 def _in_file_order(problems: Iterable[Diagnostic]) -> list[Diagnostic]:
     unique = {(p.code, p.span, p.path, p.message): p for p in problems}
     return sorted(unique.values(), key=lambda p: (p.span.line if p.span else 0, p.span.column if p.span else 0, p.code))
@@ -136,7 +167,7 @@ def _open_key_problems(kind: AnyKind, data: Mapping[str, Any], document: Documen
     effects = [effect.name for effect in kind.effects]
     for name in _keys(data, "effects"):
         if name not in effects:
-            hint = did_you_mean(name, effects, f"effects of a {kind.name}: ")
+            hint = did_you_mean(name, effects, f"effects of a {kind.label}: ")
             path = ("effects", name)
             yield Diagnostic("SPC104", f"unknown effect {quote(name)}", document.key_span(path), path, hint)
     codes, limits = [check.code for check in kind.checks], keys_at(kind.spec, ("checks",), data)
@@ -144,7 +175,7 @@ def _open_key_problems(kind: AnyKind, data: Mapping[str, Any], document: Documen
         if key not in codes and key not in limits:
             path = ("checks", key)
             if _LIKE_A_CODE.fullmatch(key):
-                reason, hint = f"no check has the code {quote(key)}", f"codes of a {kind.name}: {', '.join(codes)}"
+                reason, hint = f"no check has the code {quote(key)}", f"codes of a {kind.label}: {', '.join(codes)}"
             else:
                 reason = f"unknown key {quote(dotted(path))}"
                 hint = did_you_mean(key, limits, "keys here: the codes of checks, ")

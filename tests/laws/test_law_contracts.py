@@ -45,6 +45,7 @@ from ptmcalc.laws import (
     lift_off_standard,
     loop_bounds,
     motor,
+    pendulum,
     polygon,
     reeving,
     resistance,
@@ -55,6 +56,7 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    slewing,
     slider_crank,
     slip_heat,
     sprocket,
@@ -254,6 +256,21 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.stray: SECTIONS,
     loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
+    pendulum.swing_frequency: [(7.0, 9.81)],
+    pendulum.swing_period: [(7.0, 9.81, 0.0), (7.0, 9.81, 1.2)],
+    pendulum.driven_frequency: [(7.0, 9.81, 5e3, 2e3)],
+    pendulum.steady_lean: [(0.4, 9.81)],
+    pendulum.largest_lean: [(0.4, 9.81)],
+    pendulum.swing_force: [(5e3, 0.4, 9.81), (5e3, 9.0, 9.81)],
+    pendulum.driven_slow_down: [(0.4, 1.2, 0.7)],
+    pendulum.ramp_residual: [(0.4, 9.81, 1.2, 3.0)],
+    pendulum.ramp_swing: [(0.4, 9.81, 7.0, t) for t in (0.3, 2.0, 4.0, 9.0)],
+    pendulum.start_stop_residual: [(0.7, 9.81, 1.2, 3.0, 4.0, 2.0), (0.7, 9.81, 1.2, 7.0, 0.0, 2.0)],
+    pendulum.cancelling_ramp: [(1.3, 0.2, 5.3), (1.3, 9.0, 5.3)],
+    pendulum.hoisted_angle: [(0.1, 12.0, 3.0)],
+    pendulum.hoisted_angle_bounds: [(0.1, 12.0, 3.0, -0.6, 9.81)],
+    pendulum.slewing_lean: [(0.2, 12.0, 8.0, 9.81), (2.0, 0.0, 8.0, 9.81)],
+    pendulum.small_angle_error: [(0.1, 6.0, 0.1), (0.9, 60.0, 1.0)],
     motor.mean_starting_torque: [(900.0, 500.0)],
     motor.rim_force: [(700.0, 20.0, 0.94, 0.4)],
     motor.rated_torque: [(22e3, 150.0)],
@@ -529,6 +546,18 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         (mean, 4e3, 0.5, 130.0, 101.0, 40.0, 0.9, 0.89, up) for mean in (90.0, 200.0) for up in (True, False)
     ],
     hoisting.load_frequency: [(4e6, 12850.0, kb, mb) for kb in (6e6, np.inf) for mb in (0.0, 6500.0)],
+    slewing.fatigue_torque: [(np.array([0.4, 0.5, 0.1]), np.array([1e4, 3e3, 8e3]), 3.0)],
+    slewing.uniform_start_time: [(6.5e4, 0.21, 1e4, 3e3), (6.5e4, 0.21, 3e3, 1e4)],
+    slewing.torque_for_start: [(6.5e4, 0.21, 8.0, 3e3)],
+    slewing.geared_stop: [
+        (6e4, 6.5e3, 0.7, back, 0.21, on_motor, on_crane, against, 0.2, rise)
+        for back in (0.57, -0.2, 0.0)
+        for on_motor, on_crane in ((5e3, 0.0), (0.0, 6e3))
+        for against in (1e3, -2e3)
+        for rise in (0.0, 0.4)
+    ],
+    slewing.swing_reach: [(4e4, 1e3, 5.0, 6.0, 0.21, 9.81), (4e4, 1e3, 5.0, 6.0, 9.0, 9.81)],
+    slewing.momentum_range: [(4e4, 1e3, 5.2, 0.21)],
     hoist_class.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
     hoist_class.equivalent_load: [(0.28, 3.0)],
     hoist_class.use_of_cycles: [(1e5,)],

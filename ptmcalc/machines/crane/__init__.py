@@ -1,0 +1,9 @@
+"""Crane: what turns, travels or stacks. A file's `type` says which; each type has a manifest in a folder of its own.
+
+A new type is one folder with a manifest and one name in the list below.
+"""
+
+from ptmcalc.contract.machine import of_types
+from ptmcalc.machines.crane.slewing import SLEWING
+
+KIND = of_types("crane", "crane: what slews", SLEWING)

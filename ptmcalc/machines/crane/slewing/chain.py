@@ -1,0 +1,116 @@
+"""The chain of a rotation: times, shares, torques of its phases, and what they are worth."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ptmcalc.laws import brake, slewing
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.loads import OF_THE_CHAIN
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+GIVEN = frozenset(info.name for info in OF_THE_CHAIN)
+"""Loads of the chain."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phases:
+    """Times [s] and angles [rad] of start, steady slewing and stop."""
+
+    start: tuple[float, float]
+    steady: tuple[float, float]
+    brake: tuple[float, float]
+
+    @property
+    def whole(self) -> float:
+        """Time of the rotation [s]."""
+        return self.start[0] + self.steady[0] + self.brake[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Torques:
+    """At the slewing axis, and on the fast shaft of the gearbox [N*m]."""
+
+    start: float
+    steady: float
+    inertia_brake: float
+    brake: float
+    fast: tuple[float, float, float]
+    """of start, steady slewing and stop"""
+
+
+def start_time(spec: SlewingCrane, scene: SlewingScene, rule: str = "eta") -> float:
+    """Time of a start with the motor's mean torque; infinite where it stalls [s]."""
+    torque = model.motor_torque(spec, scene)
+    assert torque is not None
+    total = model.slew_inertia(spec, scene) + model.rotor_at_column(spec, rule)
+    at_column, resistance = model.at_column(spec, torque), model.steady_torque(spec, scene)
+    return float(slewing.uniform_start_time(total, spec.speed, at_column, resistance))
+
+
+def start_torque(spec: SlewingCrane, scene: SlewingScene, time: float, rule: str = "eta") -> float:
+    """Torque at the column that a start of a given time takes [N*m]."""
+    total = model.slew_inertia(spec, scene) + model.rotor_at_column(spec, rule)
+    return float(slewing.torque_for_start(total, spec.speed, time, model.steady_torque(spec, scene)))
+
+
+def phases(spec: SlewingCrane, start: tuple[float, float], stop: tuple[float, float]) -> Phases:
+    """A rotation whose start and stop are known: steady slewing fills what is left of the angle."""
+    steady = max(spec.cycle.rotation - start[1] - stop[1], 0.0)
+    return Phases(start, (steady / spec.speed, steady), stop)
+
+
+def allowed_stop(spec: SlewingCrane) -> tuple[float, float]:
+    """An even stop over the allowed angle: time [s] and angle [rad]."""
+    return brake.uniform_stop_time(spec.cycle.brake_angle, spec.speed), spec.cycle.brake_angle
+
+
+def torques(
+    spec: SlewingCrane, scene: SlewingScene, torque_start: float, rule: str = "eta", *, by_direction: bool
+) -> Torques:
+    """Torques of the phases: as the handbook carries rotor and losses, or `by_direction` of the power in the gear.
+
+    In an even stop over the allowed angle the brake holds the rotor, so that the gear carries what the crane alone
+    needs, and its losses help the brake.
+    """
+    gear, steady = spec.gear, model.steady_torque(spec, scene)
+    braked = model.slew_inertia(spec, scene)
+    if not by_direction:
+        braked += model.rotor_at_column(spec, rule)
+    inertia = float(slewing.torque_for_start(braked, spec.speed, allowed_stop(spec)[0], 0.0))
+    stop = inertia + model.driving_wind(spec, scene) - spec.friction
+    forward = gear.ratio * gear.efficiency
+    back = gear.back / gear.ratio if by_direction and stop > 0 else 1 / forward
+    return Torques(torque_start, steady, inertia, stop, (torque_start / forward, steady / forward, stop * back))
+
+
+def loads(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques, *, rounded: bool) -> Mapping[str, float]:
+    """All loads of the chain."""
+    shares = [time / times.whole for time in (times.start[0], times.steady[0], times.brake[0])]
+    if rounded:
+        shares = [round(share, 3) for share in shares]
+    exponent = spec.cycle.exponent
+    equivalent = slewing.fatigue_torque(shares, [at.start, at.steady, at.brake], exponent)
+    worm = slewing.fatigue_torque(shares, at.fast, exponent)
+    found = {
+        "slew_inertia": model.slew_inertia(spec, scene),
+        "start_time": times.start[0],
+        "start_angle": times.start[1],
+        "steady_time": times.steady[0],
+        "steady_angle": times.steady[1],
+        "brake_time": times.brake[0],
+        "brake_angle": times.brake[1],
+        "cycle_time": times.whole,
+        "share_start": shares[0],
+        "share_steady": shares[1],
+        "share_brake": shares[2],
+        "torque_start": at.start,
+        "torque_steady": at.steady,
+        "torque_inertia_brake": at.inertia_brake,
+        "torque_brake": at.brake,
+        "torque_equivalent": equivalent,
+        "torque_worm": worm,
+        "power_gearbox": worm * spec.gear.ratio * spec.speed,
+    }
+    if spec.gear.open is not None:
+        found["torque_pinion"] = equivalent / (spec.gear.open.ratio * spec.gear.open.efficiency)
+    return found

@@ -1,0 +1,463 @@
+"""The checks of a slewing crane's drive: what starts it, what stops it, what holds it."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+
+Loads = Mapping[str, Estimate]
+OneCheck = Check[SlewingCrane, SlewingScene]
+SLEWING = frozenset({Slew})
+
+
+def only(wanted: Callable[[SlewingCrane, SlewingScene], bool]) -> Callable[[OneCheck], OneCheck]:
+    """A check that is made of some cranes, and with some loads, only."""
+
+    def of(check: OneCheck) -> OneCheck:
+        def each(spec: SlewingCrane, scene: SlewingScene) -> Iterable[OneCheck]:
+            return (check,) if wanted(spec, scene) else ()
+
+        return replace(check, each=each)
+
+    return of
+
+
+def at(*path: str) -> Callable[[SlewingCrane, SlewingScene], KeyPath]:
+    """Always the same key."""
+    return lambda spec, scene: path
+
+
+def blames(*path: str) -> Callable[[SlewingCrane, SlewingScene, Loads], KeyPath]:
+    """Always the same key."""
+    return lambda spec, scene, loads: path
+
+
+def needs(*paths: KeyPath) -> Callable[[SlewingCrane, SlewingScene], tuple[KeyPath, ...]]:
+    """Always the same keys."""
+    return lambda spec, scene: paths
+
+
+def starts(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the rigid crane starts: of one that stalls (CRN101) no stop is asked."""
+    return math.isfinite(start_of(spec, scene)[0])
+
+
+def turns(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the rigid crane starts and stops: of one that stalls (CRN101), or that no brake stops (CRN105), nothing
+    more is asked."""
+    return math.isfinite(start_of(spec, scene)[0]) and math.isfinite((model.stop(spec, scene) or (0.0, 0.0))[0])
+
+
+# -- start ----------------------------------------------------------------------------------------------------------
+
+
+def torque_key(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
+    """What says how strongly it starts, or in which time."""
+    if spec.motor.mean_torque(1.0) is not None:
+        return ("motor", spec.motor.torque_key)
+    return ("cycle", "start_time" if spec.cycle.start_time is not None else "start_angle")
+
+
+def _torque_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
+    key = torque_key(spec, scene)
+    return key if key[-1] != "curve" else ()
+
+
+def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Least mean starting torque over that of steady slewing, 1.1 by default.
+
+    **Range** motors that start against friction, steady wind and slope.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.starting_reserve)
+
+
+STALL: OneCheck = Check(
+    code="CRN101",
+    title="a start torque below friction and wind: a stall",
+    scenes=SLEWING,
+    loads=("starting_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_reserve_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: torque_key(spec, scene),
+    repair=_torque_repair,
+    what="The mean starting torque, carried to the slewing axis, exceeds friction, steady wind and slope by the reserve"
+    " asked.",
+    why="A motor below the resistance does not turn the crane: it stalls and burns.",
+    formula="M_m u eta/(M_fr + M_w) >= 1.1",
+    source="balance of torques about the slewing axis; handbooks of lifting machines",
+)
+
+
+def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Longest start, 10 s by default.
+
+    **Range** slewing cranes in service.
+    **Error** none: an engineering rule; 4 to 10 s are usual.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.start_time)
+
+
+SLOW: OneCheck = Check(
+    code="CRN102",
+    title="a start that takes too long",
+    scenes=SLEWING,
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=_longest_start,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: torque_key(spec, scene),
+    repair=_torque_repair,
+    what="The crane comes to its speed within the time asked.",
+    why="A crane that creeps to its speed holds up the work, and its motor heats.",
+    formula="t_s = J w/(M_start - M_steady) <= 10 s",
+    source="change of angular momentum; handbooks of lifting machines",
+)
+
+
+def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Shortest start, 1 s by default.
+
+    **Range** slewing cranes in service.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.least_start_time)
+
+
+HARSH: OneCheck = only(turns)(
+    Check(
+        code="CRN103",
+        title="a start that is too harsh",
+        scenes=SLEWING,
+        loads=("start_time",),
+        sense=Sense.AT_LEAST,
+        limit=_shortest_start,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: torque_key(spec, scene),
+        repair=_torque_repair,
+        what="The crane takes at least the time asked to come to its speed.",
+        why="A motor far too strong throws the load about, and jerks gear and jib.",
+        formula="t_s >= 1 s",
+        source="handbooks of lifting machines",
+    )
+)
+
+
+def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """The whole rotation.
+
+    **Range** any rotation.
+    **Error** none: a definition.
+    **Source** start and stop end in one rotation.
+    """
+    return Estimate.exact(1.0)
+
+
+SHORT: OneCheck = only(turns)(
+    Check(
+        code="CRN106",
+        title="a rotation too short for start and stop",
+        scenes=SLEWING,
+        loads=("rotation_used",),
+        sense=Sense.AT_MOST,
+        limit=_whole_rotation,
+        needs=no_needs,
+        blame=blames("cycle", "rotation"),
+        repair=at("cycle", "rotation"),
+        what="Start and stop together take no more than the angle of the rotation.",
+        why="A crane that never reaches its speed has another cycle than the one computed here.",
+        formula="(beta_s + beta_b)/beta <= 1",
+        source="course notes on the slewing crane on a fixed column (3.5.2.3)",
+    )
+)
+
+# -- stop -----------------------------------------------------------------------------------------------------------
+
+
+def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Allowed angle of a stop, of the file.
+
+    **Range** 15 deg in light duty.
+    **Error** none: a given value.
+    **Source** course notes on the slewing crane on a fixed column (3.5.2.2).
+    """
+    return Estimate.exact(spec.cycle.brake_angle)
+
+
+BRAKE_ANGLE: OneCheck = only(starts)(
+    Check(
+        code="CRN104",
+        title="a stop over too large an angle",
+        scenes=SLEWING,
+        loads=("brake_angle",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_angle,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The brake, with its delay, stops the crane within the allowed angle against the largest wind.",
+        why="A jib that runs on hits what stands in its way, and the operator cannot place the load.",
+        formula="beta_b <= beta",
+        source="power balance of the gear (laws.slewing.geared_stop); course notes on the slewing crane",
+    )
+)
+
+
+def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Longest stop, 10 s by default.
+
+    **Range** slewing cranes in service.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.brake_time)
+
+
+BRAKE_TIME: OneCheck = only(starts)(
+    Check(
+        code="CRN105",
+        title="a stop that takes too long",
+        scenes=SLEWING,
+        loads=("brake_time",),
+        sense=Sense.AT_MOST,
+        limit=_longest_stop,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The brake, with its delay, stops the crane within the time asked against the largest wind.",
+        why="What takes long to stop is not stopped in time; a brake below the wind does not stop it at all.",
+        formula="t_b <= 10 s",
+        source="power balance of the gear (laws.slewing.geared_stop)",
+    )
+)
+
+# -- motor and gear -------------------------------------------------------------------------------------------------
+
+
+def _rating(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
+    return ("motor", "power" if spec.motor.power is not None else "rated_torque")
+
+
+def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """All that the rating allows.
+
+    **Range** ratings of the maker.
+    **Error** none: a definition.
+    **Source** IEC 60034-1; catalogues.
+    """
+    return Estimate.exact(1.0)
+
+
+HEATING: OneCheck = only(turns)(
+    Check(
+        code="CRN107",
+        title="a motor that gets too hot",
+        scenes=SLEWING,
+        loads=("heating_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_all_of_it,
+        needs=lambda spec, scene: () if spec.motor.rated is not None else (("motor", "rated_torque"),),
+        blame=lambda spec, scene, loads: _rating(spec, scene),
+        repair=_rating,
+        what="Start and steady slewing heat the motor no more than its rated torque does at the duty of the cycle.",
+        why="The life of the winding's insulation is halved by every ten degrees.",
+        formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
+        source="IEC 60034-1",
+    )
+)
+
+
+def _largest_torque(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Most the motors may be loaded with for a short time, all of them.
+
+    **Range** the maker's overload limit.
+    **Error** none: a given value.
+    **Source** the maker's data.
+    """
+    most = spec.motor.largest_torque
+    return Estimate.exact(math.inf if most is None else spec.motor.count * most)
+
+
+OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not None)(
+    Check(
+        code="CRN108",
+        title="a motor overloaded by the start",
+        scenes=SLEWING,
+        loads=("torque_motor_start",),
+        sense=Sense.AT_MOST,
+        limit=_largest_torque,
+        needs=no_needs,
+        blame=blames("motor", "largest_torque"),
+        repair=at("motor", "largest_torque"),
+        what="The start takes no more torque than the motors may give for a short time.",
+        why="Beyond its breakdown torque a motor stalls.",
+        formula="M_m <= M_max",
+        source="the maker's data",
+    )
+)
+
+
+def _gearbox_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Torque that the gearbox bears on its fast shaft, in its group of the mechanism.
+
+    **Range** the catalogue's rating at the speed of the motor.
+    **Error** none: a given value.
+    **Source** the maker's catalogue.
+    """
+    rated = spec.gear.rated_torque
+    return Estimate.exact(math.inf if rated is None else rated)
+
+
+GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)(
+    Check(
+        code="CRN109",
+        title="too much torque in the gearbox",
+        scenes=SLEWING,
+        loads=("torque_worm",),
+        sense=Sense.AT_MOST,
+        limit=_gearbox_rating,
+        needs=no_needs,
+        blame=blames("gear", "rated_torque"),
+        repair=at("gear", "rated_torque"),
+        what="The torque that tires the gearbox as much as the cycle does is within its rating.",
+        why="Teeth of a worm wheel pit and wear out with the cube of their load.",
+        formula="M_eq/(u eta) <= M_N",
+        source="course notes on the slewing crane on a fixed column (3.5.2.13); Palmgren 1924, Miner 1945",
+    )
+)
+
+
+def _pinion_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Torque that the open pinion bears for its life.
+
+    **Range** of the designer's own calculation of the teeth.
+    **Error** none: a given value.
+    **Source** the file.
+    """
+    rated = spec.gear.pinion_torque
+    return Estimate.exact(math.inf if rated is None else rated)
+
+
+PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)(
+    Check(
+        code="CRN116",
+        title="too much torque of the open pinion",
+        scenes=SLEWING,
+        loads=("torque_pinion",),
+        sense=Sense.AT_MOST,
+        limit=_pinion_rating,
+        needs=needs(("gear", "open")),
+        blame=blames("gear", "pinion_torque"),
+        repair=at("gear", "pinion_torque"),
+        what="The torque that tires the open pinion as much as the cycle does is within what it bears.",
+        why="The open stage carries the largest torque of the drive, in dirt and without oil.",
+        formula="M_eq/(u_o eta_o) <= M_p",
+        source="course notes on the slewing crane on a fixed column (3.5.2.12)",
+    )
+)
+
+LOCKS: OneCheck = only(
+    lambda spec, scene: spec.gear.back < 0 and spec.brake is not None and spec.brake.shaft == "motor"
+)(
+    Check(
+        code="CRN114",
+        title="a self-locking gear that jams as it is braked",
+        scenes=SLEWING,
+        loads=("gear_locks",),
+        sense=Sense.AT_MOST,
+        limit=_all_of_it,
+        needs=no_needs,
+        blame=blames("gear", "efficiency"),
+        repair=no_repair,
+        what="The rotor of a self-locking drive has enough inertia to be slowed together with the crane.",
+        why="A crane that drives a worm that cannot be driven stops at once: gear, jib and load take the blow.",
+        formula="-eta_r J/(J_1 u^2) <= 1",
+        source="derived: laws.gearing.jams",
+    )
+)
+
+# -- wind -----------------------------------------------------------------------------------------------------------
+
+
+def _holding(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Least torque over that of the largest wind in service, 1 by default.
+
+    **Range** wind in service; out of service cranes turn freely or are locked.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines; FEM 1.001 and EN 13001-2 for the wind itself.
+    """
+    return Estimate.exact(spec.checks.holding_reserve)
+
+
+def _blown(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    return model.driving_wind(spec, scene) > 0
+
+
+def _wind_key(spec: SlewingCrane) -> KeyPath:
+    for key in ("maximum", "maximum_pressure", "steady", "steady_pressure"):
+        if getattr(spec.wind, key) is not None:
+            return ("wind", key)
+    return ("slope",)
+
+
+WIND_MOTOR: OneCheck = only(_blown)(
+    Check(
+        code="CRN112",
+        title="a motor that cannot hold against the wind",
+        scenes=SLEWING,
+        loads=("wind_reserve_motor",),
+        sense=Sense.AT_LEAST,
+        limit=_holding,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _wind_key(spec),
+        repair=_torque_repair,
+        what="The starting torque turns the crane against friction and the largest wind in service.",
+        why="A crane that the wind turns while its motor is on is out of the operator's hands.",
+        formula="M_m u eta/(M_fr + M_w,max) >= 1",
+        source="balance of torques about the slewing axis",
+    )
+)
+WIND_BRAKE: OneCheck = only(_blown)(
+    Check(
+        code="CRN113",
+        title="a brake that cannot hold against the wind",
+        scenes=SLEWING,
+        loads=("wind_reserve_brake",),
+        sense=Sense.AT_LEAST,
+        limit=_holding,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The closed brake, with the friction of the bearings, holds the crane against the largest wind in"
+        " service.",
+        why="A jib that the wind turns with the brake closed strikes what is beside it.",
+        formula="(M_B u + M_fr)/M_w,max >= 1, losses of the gear left out",
+        source="balance of torques about the slewing axis",
+    )
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (
+    STALL,
+    SLOW,
+    HARSH,
+    BRAKE_ANGLE,
+    BRAKE_TIME,
+    SHORT,
+    HEATING,
+    OVERLOAD,
+    GEARBOX,
+    WIND_MOTOR,
+    WIND_BRAKE,
+    LOCKS,
+    PINION,
+)

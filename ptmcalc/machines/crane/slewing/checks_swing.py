@@ -1,0 +1,128 @@
+"""The checks of a slewing crane's load and ring: how far it swings, what the ring bears, what the crane is used for."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_repair
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only, turns
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+
+def _allowed_sway(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Largest angle of the load's rope, 10 deg by default.
+
+    **Range** an agreement between maker and user; grabs and containers ask less.
+    **Error** none: an engineering rule.
+    **Source** practice of cranes: 3 to 10 deg in service.
+    """
+    return Estimate.exact(spec.checks.sway)
+
+
+_ROPE = (("load",), ("load", "rope_length"))
+
+
+def _swings(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether something hangs on the rope of a crane that moves, and its swing is not left out by the file."""
+    nothing = spec.load is not None and model.hanging_mass(spec, scene) == 0
+    return turns(spec, scene) and not nothing and spec.effects.get("load_swing") != "off"
+
+
+RADIAL: OneCheck = only(_swings)(
+    Check(
+        code="CRN110",
+        title="too much swing of the load outwards",
+        scenes=SLEWING,
+        loads=("sway_radial_max",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_sway,
+        needs=needs(*_ROPE),
+        blame=blames("speed"),
+        repair=at("speed"),
+        what="In the start, the rotation and the stop the rope hangs no further from the plumb line outwards or inwards"
+        " than allowed.",
+        why="A load that swings out adds to the tilting moment, and hits what is beside its way.",
+        formula="theta_r <= 10 deg",
+        source="spherical pendulum on a slewing jib",
+    )
+)
+TANGENTIAL: OneCheck = only(_swings)(
+    Check(
+        code="CRN111",
+        title="too much swing of the load along its way",
+        scenes=SLEWING,
+        loads=("sway_tangential_max",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_sway,
+        needs=needs(*_ROPE),
+        blame=blames("speed"),
+        repair=at("speed"),
+        what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
+        why="The rope then pulls the jib sideways, and the load cannot be put down.",
+        formula="theta_t <= 10 deg",
+        source="spherical pendulum on a slewing jib",
+    )
+)
+
+
+def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """What the limiting load curve of the catalogue allows at this axial force.
+
+    **Range** straight between the points of the curve; nothing beyond the last one.
+    **Error** none: a given curve.
+    **Source** the maker's catalogue.
+    """
+    return Estimate.exact(1.0)
+
+
+RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
+    Check(
+        code="CRN115",
+        title="too much tilting moment of the slewing ring",
+        scenes=SLEWING,
+        loads=("ring_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_curve,
+        needs=lambda spec, scene: (
+            (("load",),) if spec.inertia is None else (("load",), ("ring", "mass_above"), ("ring", "unbalance"))
+        ),
+        blame=blames("ring", "curve"),
+        repair=no_repair,
+        what="With the load times its factor, the tilting moment is within what the ring bears at that axial force.",
+        why="A ring beyond its curve dents its raceways; its bolts fatigue.",
+        formula="M(1.25 Q) <= M_ring(F_a)",
+        source="catalogues of slewing rings: limiting load curves",
+    )
+)
+
+
+def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """The declared group of the crane.
+
+    **Range** A1 to A8.
+    **Error** none: a given class.
+    **Source** ISO 4301-1.
+    """
+    group = spec.classes.group
+    return Estimate.exact(math.inf if group is None else float(group[1]))
+
+
+GROUP: OneCheck = only(lambda spec, scene: spec.classes.cycles is not None)(
+    Check(
+        code="CRN117",
+        title="more use of the crane than its group allows",
+        scenes=SLEWING,
+        loads=("crane_group",),
+        sense=Sense.AT_MOST,
+        limit=_group,
+        needs=needs(("class", "group")),
+        blame=blames("class", "cycles"),
+        repair=no_repair,
+        what="Cycles and load spectrum of the life ask no higher group than the declared one.",
+        why="A crane used more than it was made for is worn out before its time.",
+        formula="A = U + Q - 2 <= declared",
+        source="ISO 4301-1",
+    )
+)
+
+CHECKS_OF_SWING: tuple[AnyCheck, ...] = (RADIAL, TANGENTIAL, RING, GROUP)

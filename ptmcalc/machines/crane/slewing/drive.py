@@ -1,0 +1,57 @@
+"""Motor, brake and gear of a slewing crane against what they have to do."""
+
+import math
+
+from ptmcalc.laws import duty
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.chain import Phases, Torques
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+
+def ratio_to(value: float, limit: float) -> float:
+    """How often a value holds what is asked of it; infinite where nothing is asked."""
+    return value / limit if limit > 0 else math.inf
+
+
+def held_by_brake(spec: SlewingCrane) -> float:
+    """What the closed brake holds at the slewing axis, the gear's losses left out: on the safe side [N*m]."""
+    if spec.brake is None:
+        return 0.0
+    return spec.brake.torque * (spec.gear.ratio if spec.brake.shaft == "motor" else 1.0)
+
+
+def required_brake(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Torque on the motor shaft that stops the crane evenly in the allowed angle, 0 where it stops by itself [N*m]."""
+    deceleration = spec.speed**2 / (2 * spec.cycle.brake_angle)
+    of_crane = model.slew_inertia(spec, scene) * deceleration + model.driving_wind(spec, scene) - spec.friction
+    loss = spec.gear.back if of_crane > 0 else 1 / spec.gear.efficiency
+    own = model.rotor_inertia(spec) * spec.gear.ratio * deceleration
+    return max(of_crane * loss / spec.gear.ratio + own, 0.0)
+
+
+def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques) -> dict[str, float]:
+    """Reserves, heat and whatever the drive is asked."""
+    gear, motor = spec.gear, spec.motor
+    against = spec.friction + model.driving_wind(spec, scene)
+    loads = {
+        "torque_motor_start": at.fast[0],
+        "torque_brake_required": required_brake(spec, scene),
+        "starting_reserve": ratio_to(at.start, at.steady),
+        "wind_reserve_motor": ratio_to(at.start, against),
+        "rotation_used": (times.start[1] + times.brake[1]) / spec.cycle.rotation,
+        "gear_locks": max(-gear.back, 0.0) * model.slew_inertia(spec, scene) / model.rotor_at_axis(spec),
+    }
+    if spec.brake is not None:
+        held = held_by_brake(spec) + spec.friction
+        loads["wind_reserve_brake"] = ratio_to(held, model.driving_wind(spec, scene))
+    if math.isfinite(times.whole):
+        pieces = [times.start[0], times.steady[0]]
+        heating = duty.rms_torque([at.fast[0] / motor.count, at.fast[1] / motor.count], pieces)
+        loads["torque_motor_rms"] = heating
+        if motor.rated is not None:
+            on = sum(pieces) / (times.whole + spec.cycle.pause)
+            cooling = duty.REST_COOLING["self_ventilated"]
+            loads["heating_utilisation"] = heating / duty.permissible_torque(
+                motor.rated, motor.rated_duty, on, rest_cooling=cooling
+            )
+    return loads

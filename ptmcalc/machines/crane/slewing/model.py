@@ -1,0 +1,151 @@
+"""What a slewing crane's file comes to: inertias, resistances and torques about the slewing axis."""
+
+import math
+
+import numpy as np
+
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.laws import bodies, inertia, slewing
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+_FLOWS = {"eta": "drive", "one": "energy", "inverse": "brake"}
+
+
+def hanging_mass(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Load and hook block on the rope [kg]."""
+    if spec.load is None:
+        return 0.0
+    return spec.load.hook_block + (spec.load.mass if scene.load == "full" else 0.0)
+
+
+def structure_inertia(spec: SlewingCrane) -> float:
+    """All that slews without what hangs, about the slewing axis [kg*m^2]."""
+    load = spec.load
+    if spec.inertia is not None:
+        return spec.inertia - ((load.mass + load.hook_block) * load.radius**2 if load is not None else 0.0)
+    total = 0.0
+    for body in (spec.slewing_part, spec.counterweight):
+        if body is not None:
+            total += bodies.parallel_axis(body.inertia, body.mass, body.radius)
+    if spec.jib is not None:
+        total += bodies.rod_radial(spec.jib.mass, spec.jib.length, spec.jib.foot_radius)
+    return total
+
+
+def slew_inertia(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """All that slews, the load at the radius of its rope [kg*m^2]."""
+    if spec.load is None:
+        return structure_inertia(spec)
+    return structure_inertia(spec) + bodies.point_mass(hanging_mass(spec, scene), spec.load.radius)
+
+
+def rotor_inertia(spec: SlewingCrane) -> float:
+    """All rotating parts of the drive, on the motor shaft [kg*m^2]."""
+    return spec.gear.rotating_factor * spec.motor.rotating_inertia
+
+
+def rotor_at_column(spec: SlewingCrane, rule: str = "eta") -> float:
+    """The rotating parts of the drive about the slewing axis [kg*m^2]."""
+    return inertia.inertia_on_slow_shaft(rotor_inertia(spec), spec.gear.ratio, spec.gear.efficiency, _FLOWS[rule])
+
+
+def unbalance(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Mass times radius of all parts, towards the load [kg*m]."""
+    total = hanging_mass(spec, scene) * spec.load.radius if spec.load is not None else 0.0
+    return total + structure_unbalance(spec)
+
+
+def structure_unbalance(spec: SlewingCrane) -> float:
+    """Mass times radius of the parts without what hangs, towards the load [kg*m]."""
+    total = 0.0
+    if spec.slewing_part is not None:
+        total += spec.slewing_part.mass * spec.slewing_part.radius
+    if spec.counterweight is not None:
+        total -= spec.counterweight.mass * spec.counterweight.radius
+    if spec.jib is not None:
+        total += spec.jib.mass * (spec.jib.foot_radius + spec.jib.length / 2)
+    return total
+
+
+def slope_torque(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """Largest torque of the weights about a slewing axis that is not vertical [N*m]."""
+    return abs(unbalance(spec, scene)) * spec.gravity * math.sin(spec.slope)
+
+
+def steady_torque(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """What steady slewing takes at the slewing axis: friction, steady wind, slope [N*m]."""
+    return spec.friction + spec.wind.steady_torque + slope_torque(spec, scene)
+
+
+def driving_wind(spec: SlewingCrane, scene: SlewingScene) -> float:
+    """What drives a crane that is to be stopped or held: the largest wind, slope [N*m]."""
+    return spec.wind.maximum_torque + slope_torque(spec, scene)
+
+
+def motor_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
+    """Mean starting torque of all motors on their shaft, None where the file does not say [N*m].
+
+    A converter gives what its ramp takes, up to its limit.
+    """
+    curve = spec.motor.curve
+    if isinstance(curve, ConverterMotor):
+        total = slew_inertia(spec, scene) + rotor_at_column(spec)
+        limit = spec.motor.count * curve.torque_limit
+        if curve.ramp_time == 0:
+            return limit
+        wanted = slewing.torque_for_start(total, spec.speed, curve.ramp_time, steady_torque(spec, scene))
+        return min(float(wanted) / (spec.gear.ratio * spec.gear.efficiency), limit)
+    return spec.motor.mean_torque(spec.speed * spec.gear.ratio)
+
+
+def motor_follows(spec: SlewingCrane) -> bool:
+    """Whether the drive follows a ramp of speed, with whatever torque that takes up to a limit."""
+    return isinstance(spec.motor.curve, ConverterMotor)
+
+
+def torque_range(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, float] | None:
+    """Smallest, largest and mean torque of a motor curve up to the speed of the crane, None without one [N*m].
+
+    Between sampled speeds a torque curve departs from its samples by no more than they differ from each other.
+    """
+    curve, mean = spec.motor.curve, motor_torque(spec, scene)
+    if curve is None or mean is None or motor_follows(spec):
+        return None
+    torques = spec.motor.count * np.asarray(curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf))
+    between = float(np.max(np.abs(np.diff(torques))))
+    return float(np.min(torques)) - between, float(np.max(torques)) + between, mean
+
+
+def rotor_at_axis(spec: SlewingCrane) -> float:
+    """The rotating parts of the drive, brought to the slewing axis by the ratio alone [kg*m^2]."""
+    return rotor_inertia(spec) * spec.gear.ratio**2
+
+
+def stop(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float] | None:
+    """Time [s] and angle [rad] of a stop of the rigid crane by its brake, None without a brake."""
+    brake = spec.brake
+    if brake is None:
+        return None
+    on_motor = brake.shaft == "motor"
+    return slewing.geared_stop(
+        slew_inertia(spec, scene),
+        rotor_at_axis(spec),
+        spec.gear.efficiency,
+        spec.gear.back,
+        spec.speed,
+        brake.torque * spec.gear.ratio if on_motor else 0.0,
+        0.0 if on_motor else brake.torque,
+        spec.friction - driving_wind(spec, scene),
+        brake.delay,
+        brake.rise_time,
+    )
+
+
+def at_column(spec: SlewingCrane, motor_torque: float) -> float:
+    """A torque of the motors, carried to the slewing axis [N*m]."""
+    return motor_torque * spec.gear.ratio * spec.gear.efficiency
+
+
+def start_time_of(time: float | None, angle: float | None, speed: float) -> float | None:
+    """A start as its time, be it given by its time or its angle [s]."""
+    return time if time is not None else 2 * angle / speed if angle is not None else None

@@ -1,0 +1,7 @@
+"""Solvers of the slewing crane, one a file, from the cheapest to the richest."""
+
+from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
+from ptmcalc.machines.crane.slewing.solvers.handbook import HANDBOOK
+from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
+
+SOLVERS = (HANDBOOK, CONSISTENT, GEARED, SLEW)

@@ -1,0 +1,380 @@
+"""How a designer writes a slewing crane: what turns, what holds it back, what drives and what stops it."""
+
+import itertools
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components.slewing_drive import SlewBrake, SlewGear, SlewMotor
+from ptmcalc.spec.fields import (
+    Inertia,
+    Mass,
+    Measure,
+    PositiveAngle,
+    PositiveAngularSpeed,
+    PositiveForce,
+    PositiveInertia,
+    PositiveMass,
+    PositivePressure,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveTime,
+    PositiveTorque,
+    Time,
+    Torque,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.scene import Scene
+
+Radius = Annotated[float, Measure(units.SPAN, at_least=0)]
+Slope = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=0.5)]
+SweptArea = Annotated[float, Measure(units.AREA, above=0)]
+SwayAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=1.2)]
+BrakeAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=6.2832)]
+Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
+
+
+class Load(Fragment):
+    """What hangs on the jib."""
+
+    mass: PositiveMass
+    """rated load with its grab or sling"""
+    hook_block: Mass = 0.0
+    """hook block and whatever stays on the hook"""
+    radius: PositiveSpan = Field(examples=["8 m"])
+    """from the slewing axis to the head of the jib, where the rope hangs"""
+    rope_length: PositiveSpan | None = Field(default=None, examples=["6 m"])
+    """from the head of the jib to the middle of the load; needed to see the load swing"""
+
+
+class Body(Fragment):
+    """A part of the slewing structure."""
+
+    mass: Mass
+    """of the part"""
+    radius: Radius
+    """from the slewing axis to its centre of mass"""
+    inertia: Inertia = 0.0
+    """about its own centre of mass; a point when left out"""
+
+
+class Jib(Fragment):
+    """The jib as an even rod that reaches outwards."""
+
+    mass: PositiveMass
+    """of the jib"""
+    length: PositiveSpan
+    """of the jib, as seen from above"""
+    foot_radius: Radius = 0.0
+    """from the slewing axis to its near end"""
+
+
+class Wind(Fragment):
+    """What the wind does about the slewing axis: torques, or an area on an arm and its pressures."""
+
+    steady: Torque | None = None
+    """torque in the mean of a working day"""
+    maximum: Torque | None = None
+    """largest torque in service, for the brake and for a motor that must hold; the steady one when left out"""
+    gust: Torque | None = None
+    """torque of a gust that comes on top of the steady wind"""
+    area: SweptArea | None = Field(default=None, examples=["12 m^2"])
+    """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
+    arm: PositiveSpan | None = Field(default=None, examples=["4 m"])
+    """from the slewing axis to the middle of the area"""
+    steady_pressure: PositivePressure | None = Field(default=None, examples=["50 Pa"])
+    """of the wind of a working day"""
+    maximum_pressure: PositivePressure | None = None
+    """largest in service; 250 Pa by most standards"""
+    gust_pressure: PositivePressure | None = None
+    """of a gust, on top of the steady one"""
+    gust_rise: PositiveTime = 2.0
+    """time in which a gust comes up"""
+    gust_time: PositiveTime = 5.0
+    """how long it lasts"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Torques, or an area with its arm and pressures; the largest is the largest."""
+        for torque in ("steady", "maximum", "gust"):
+            pressure = f"{torque}_pressure"
+            yield from at_most_one(given, torque, pressure)
+            if pressure in given and "area" not in given:
+                yield from together(given, pressure, "area", "a pressure acts on an area")
+        for key, other in (("area", "arm"), ("arm", "area")):
+            yield from together(given, key, other, "the torque of an area goes by its arm")
+        if "area" in given and not any(f"{t}_pressure" in given for t in ("steady", "maximum", "gust")):
+            yield given.missing("steady_pressure", "the wind on the area has no pressure")
+        steady, most = given.number("steady"), given.number("maximum")
+        if steady is not None and most is not None and most < steady:
+            yield Conflict(("maximum",), "the largest wind is below the steady one", "swap them")
+
+    def _torque(self, torque: float | None, pressure: float | None) -> float | None:
+        if torque is not None:
+            return torque
+        if pressure is None or self.area is None or self.arm is None:
+            return None
+        return pressure * self.area * self.arm
+
+    @property
+    def steady_torque(self) -> float:
+        """Torque of the steady wind [N*m]."""
+        return self._torque(self.steady, self.steady_pressure) or 0.0
+
+    @property
+    def maximum_torque(self) -> float:
+        """Largest torque in service [N*m]."""
+        return max(self._torque(self.maximum, self.maximum_pressure) or 0.0, self.steady_torque)
+
+    @property
+    def gust_torque(self) -> float:
+        """Torque of a gust on top of the steady wind [N*m]."""
+        return self._torque(self.gust, self.gust_pressure) or 0.0
+
+
+class Cycle(Fragment):
+    """What the crane does again and again."""
+
+    rotation: PositiveAngle = 3.141592653589793
+    """from pick-up to put-down; 180 deg when left out"""
+    brake_angle: BrakeAngle = Field(examples=["15 deg"])
+    """largest allowed angle of a stop: 15 deg in light duty"""
+    start_time: PositiveTime | None = None
+    """in which it comes to speed, where the motor's torque does not say it"""
+    start_angle: PositiveAngle | None = None
+    """over which it comes to speed, instead of `start_time`"""
+    pause: Time = 0.0
+    """rest between two rotations, which cools the motor"""
+    exponent: PositiveRatio = 3.0
+    """slope of fatigue m of the equivalent torque: 3 contact of teeth, 6 to 9 their bending"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The start is given in one way."""
+        yield from at_most_one(given, "start_time", "start_angle")
+        whole, stop = given.number("rotation"), given.number("brake_angle")
+        if whole is not None and stop is not None and stop >= whole:
+            yield Conflict(("brake_angle",), "the stop is longer than the whole rotation", "check both angles")
+
+
+class Handbook(Fragment):
+    """What the handbook's chain of formulas is fed with; nothing else uses it."""
+
+    start_time: PositiveTime | None = None
+    """the time that the handbook takes for a start"""
+    start_angle: PositiveAngle | None = None
+    """the angle that the handbook takes for a start, instead of its time"""
+    shares: Literal["rounded", "exact"] = "rounded"
+    """shares of the cycle rounded to three digits and not renormalised, as printed course projects do, or exact"""
+    rotor_eta_rule: Literal["eta", "one", "inverse"] = "eta"
+    """how the gear's efficiency stands with the rotor's inertia at the column: J u^2 eta, J u^2 or J u^2/eta"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The start is given in one way."""
+        yield from at_most_one(given, "start_time", "start_angle")
+
+
+class RingPoint(Fragment):
+    """A point of the limiting load curve of a slewing ring."""
+
+    axial: Annotated[float, Measure(units.FORCE, at_least=0)]
+    """axial force"""
+    moment: PositiveTorque
+    """tilting moment that it bears with this axial force"""
+
+
+class Ring(Fragment):
+    """The slewing ring bearing, or the bearings of a fixed column."""
+
+    mass_above: Mass | None = None
+    """all that rests on it without the load; the sum of the parts when left out"""
+    unbalance: Annotated[float, Measure(units.TORQUE)] | None = None
+    """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
+    head_height: Radius = 0.0
+    """of the head of the jib over the ring, where the load's swing pulls"""
+    wind_height: Radius = 0.0
+    """of the middle of the wind's area over the ring"""
+    wind_force: PositiveForce | None = None
+    """of the largest wind in service along the jib"""
+    load_factor: Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)] = 1.25
+    """on the load's weight: hoisting and test loads; catalogues ask 1.25"""
+    curve: Annotated[tuple[RingPoint, ...], Field(min_length=1, max_length=50)] | None = None
+    """limiting load curve of the catalogue, axial forces rising; needed to check the ring"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The points of the curve go by their axial forces."""
+        forces = [point.number("axial") if point else None for point in given.blocks("curve")]
+        for index, (one, other) in enumerate(itertools.pairwise(forces), 1):
+            if one is not None and other is not None and other <= one:
+                reason = "the axial force is not above that of the point before"
+                yield Conflict(("curve", index, "axial"), reason, "sort the points by axial force, each once")
+
+
+class SpectrumPoint(Fragment):
+    """A part of the crane's working life."""
+
+    share: Share
+    """of all cycles"""
+    load: LoadShare
+    """over the rated load"""
+
+
+class Classes(Fragment):
+    """What the crane is classed as, and used for."""
+
+    group: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
+    """declared group of the crane; compared with that of its use"""
+    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    """hoisting cycles in the life; with the spectrum they give the group of its use"""
+    load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
+    """loads over the life; the rated load always, when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The shares of a spectrum are a whole."""
+        points = given.blocks("load_spectrum")
+        shares = [point.number("share") if point else None for point in points]
+        known = [share for share in shares if share is not None]
+        if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
+            reason = f"the shares add up to {sum(known):.3g}"
+            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+
+
+class SlewingChecks(CheckSettings):
+    """Limits of the checks of a slewing crane."""
+
+    starting_reserve: PositiveRatio = 1.1
+    """least mean starting torque over the torque of steady slewing"""
+    start_time: PositiveTime = 10.0
+    """longest start"""
+    least_start_time: PositiveTime = 1.0
+    """shortest start: shorter ones throw the load about"""
+    brake_time: PositiveTime = 10.0
+    """longest stop"""
+    holding_reserve: PositiveRatio = 1.0
+    """least torque of the started motor, and of the closed brake, over that of the largest wind"""
+    sway: SwayAngle = 0.174532925199433
+    """largest angle of the load's rope, radial or tangential; 10 deg when left out"""
+
+
+class SlewingScene(Scene):
+    """Base of the scenes of a slewing crane."""
+
+    load: Literal["full", "empty"] = "full"
+    """the rated load on the hook, or the hook block alone"""
+
+    def default_name(self) -> str:
+        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+
+
+class Slew(SlewingScene):
+    """A whole rotation: start, steady slewing, stop."""
+
+    type: Literal["slew"] = "slew"
+
+
+AnyScene = Slew
+
+
+class SlewingCrane(MachineSpec):
+    """A crane that slews about a vertical axis: on a column, a ring or a portal."""
+
+    kind: Literal["crane"]
+    type: Literal["slewing"]
+    """of the crane"""
+    load: Load | None = None
+    """what hangs on the jib; not needed beside `inertia`, but without it nothing is said of its swing"""
+    slewing_part: Body | None = None
+    """platform, column or portal with what stands on it"""
+    counterweight: Body | None = None
+    """the counterweight"""
+    jib: Jib | None = None
+    """the jib"""
+    inertia: PositiveInertia | None = Field(default=None, examples=["60000 kg*m^2"])
+    """of all that slews about the axis, the load at its radius included, instead of the parts"""
+    speed: PositiveAngularSpeed = Field(examples=["2 rpm"])
+    """of slewing"""
+    friction: Torque
+    """torque of all bearings about the slewing axis"""
+    wind: Wind = Wind()
+    """about the slewing axis; none when left out"""
+    slope: Slope = 0.0
+    """of the slewing axis from the vertical; needs the masses"""
+    motor: SlewMotor
+    """the slewing motors"""
+    gear: SlewGear
+    """from motor to slewing axis"""
+    brake: SlewBrake | None = None
+    """the slewing brake; needed to check stops"""
+    cycle: Cycle
+    """what the crane does again and again"""
+    handbook: Handbook = Handbook()
+    """inputs of the handbook's formulas alone"""
+    ring: Ring = Ring()
+    """the slewing ring"""
+    classes: Classes = Field(default=Classes(), alias="class")
+    """what the crane is classed as"""
+    checks: SlewingChecks = SlewingChecks()
+    """limits, and checks switched off by code"""
+    scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
+    """what happens to the machine; a rotation with the rated load when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The inertia is given in one way; the start is given by torque or time."""
+        yield from super().conflicts(given)
+        parts = [key for key in ("slewing_part", "counterweight", "jib") if key in given]
+        if "inertia" in given:
+            for key in parts:
+                reason = "give `inertia` or the parts, not both: they say the same thing"
+                yield Conflict((key,), reason, f"delete `{key}`")
+            if given.number("slope"):
+                reason = "the weights that turn on a slope are not known from an inertia"
+                yield Conflict(("slope",), reason, "give `load`, `slewing_part`, `counterweight` and `jib` instead")
+        elif not parts:
+            yield given.missing("inertia", "give `inertia`, or the parts that slew: `slewing_part`, `jib` ...")
+        elif "load" not in given:
+            yield given.missing("load", "the load slews with the parts")
+        yield from _load_too_heavy(given)
+        yield from _nothing_starts(given)
+
+    @property
+    def all_scenes(self) -> Sequence[SlewingScene]:
+        return self.scenes if self.scenes is not None else (Slew(),)
+
+    @property
+    def settings(self) -> SlewingChecks:
+        return self.checks
+
+
+def _load_too_heavy(given: Given) -> Iterator[Conflict]:
+    """The load at its radius is a part of the whole inertia."""
+    load, whole = given.block("load"), given.number("inertia")
+    if "load" not in given or load is None or whole is None:
+        return
+    mass, block, radius = load.number("mass"), load.number("hook_block"), load.number("radius")
+    if mass is None or radius is None:
+        return
+    own = (mass + (block or 0.0)) * radius**2
+    if own >= whole:
+        reason = f"the load alone has {units.show(own, units.INERTIA)} about the axis, and it is a part of the whole"
+        yield Conflict(
+            ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure too"
+        )
+
+
+def _nothing_starts(given: Given) -> Iterator[Conflict]:
+    """Either the motor says how it starts, or the cycle in which time."""
+    motor, cycle = given.block("motor"), given.block("cycle")
+    if motor is None or cycle is None or "motor" not in given or "cycle" not in given:
+        return
+    by_torque = any(key in motor for key in ("mean_starting_torque", "largest_starting_torque", "curve"))
+    if not by_torque and "start_time" not in cycle and "start_angle" not in cycle:
+        reason = "nothing says how it starts: the motor has no starting torque, and `cycle` no `start_time`"
+        yield Conflict(("motor",), reason, "add `mean_starting_torque: 37 N*m`, or `start_time: 8 s` to `cycle`")
