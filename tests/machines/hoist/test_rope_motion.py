@@ -91,18 +91,18 @@ def test_a_rope_that_gets_shorter_is_carried_where_the_file_asks() -> None:
     assert abs(ours.value - theirs.value) > 1e-4
 
 
-def test_a_slack_rope_with_mass_is_said_and_decides_nothing() -> None:
+def test_a_slack_rope_with_mass_is_said_and_decides_only_that_nothing_pulls() -> None:
     brake = {"torque": "2000 N*m"}
     data = changed(TALL, speed={"main": "2.5 m/s"}, brake=brake, scenes=[{"type": "stop", "direction": "up"}])
     spec = hoist_of(data)
     one: Any = spec.all_scenes[0]
     found = rope_motion.result(spec, one, rope_case.rod(spec, one), 0)
     assert any("goes slack" in finding.message for finding in found.findings)
-    assert not any(
-        load.estimate.bounded
-        for name, load in found.loads.items()
-        if name not in ("natural_frequency", "energy_residual")
-    )
+    sure = {name for name, load in found.loads.items() if load.estimate.bounded}
+    assert sure == {"natural_frequency", "energy_residual", "rope_force_min", "rope_force_share"}
+    assert found.loads["rope_force_share"].estimate.high == 0
+    alone = changed(data, effects={"rope_shortening": "off"})
+    assert check_of(scene_of(report_of(alone)), "HST124").verdict is Verdict.FAIL
 
 
 @pytest.mark.parametrize(("damping", "gear"), [(0.02, None), (0.0, "2 MN*m/rad")])
