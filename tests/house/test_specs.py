@@ -35,6 +35,13 @@ MOST_EVALUATIONS = {
     "chain_drive/inclined_scraper.yaml": 100_000,
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
+    "hoist/winding_paper/height_25_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_30_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_35_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_40_rope_13.yaml": 10,
+    "hoist/winding_paper/height_40_rope_14_5.yaml": 10,
+    "hoist/winding_paper/height_40_rope_16.yaml": 10,
+    "hoist/winding_paper/height_40_rope_17_5.yaml": 10,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 
