@@ -76,7 +76,15 @@ class Settled:
             for name, run in best.items()
             if name in reported or not any(run.rung.carried < other.rung.carried for other in self.runs)
         ]
-        return [finding for run in heard for finding in run.result.findings] + self.findings
+        said: dict[tuple[object, ...], int] = {}
+        found: list[Finding] = []
+        for number, run in enumerate(sorted(heard, key=lambda run: len(run.rung.carried), reverse=True)):
+            found += [  # the same advice on the same key is heard once, from the richest run
+                one
+                for one in run.result.findings
+                if not one.hint or said.setdefault((one.code, one.path, one.hint), number) == number
+            ]
+        return found + self.findings
 
     @property
     def carried(self) -> frozenset[str]:

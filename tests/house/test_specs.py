@@ -36,6 +36,13 @@ MOST_EVALUATIONS = {
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
     "crane_slewing.yaml": 10,
+    "hoist/winding_paper/height_25_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_30_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_35_rope_17_5.yaml": 10,
+    "hoist/winding_paper/height_40_rope_13.yaml": 10,
+    "hoist/winding_paper/height_40_rope_14_5.yaml": 10,
+    "hoist/winding_paper/height_40_rope_16.yaml": 10,
+    "hoist/winding_paper/height_40_rope_17_5.yaml": 10,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 

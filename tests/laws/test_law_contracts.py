@@ -577,7 +577,9 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         (f"HD{k}", combination, 0.4, 0.1) for k in range(1, 6) for combination in ("regular", "exceptional")
     ],
     lift_off_standard.standard_lift_off_factor: [
-        (f"HC{k}", "HD3", 0.25, edition) for k in range(1, 5) for edition in ("by_class", "by_drive")
+        (f"HC{k}", f"HD{k}", 0.25, edition)
+        for k in range(1, 5)
+        for edition in ("by_class", "by_drive", "raised")
     ],
     rope_rod.rod_root: [(0.06, 1), (9.0, 3), (0.0, 2)],
     rope_rod.rod_frequency: [(1.4e5, 180.0, 3e3, 1), (1.4e5, 180.0, 3e3, 2), (1.4e5, 0.0, 3e3, 1)],

@@ -10,12 +10,12 @@ from scipy.integrate import solve_ivp
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.rope import rule
 from ptmcalc.numerics.rope.march import Hauled, March, Played, Rod, U, W, Z, energy
-from ptmcalc.numerics.rope.parts import Course, Governed, Haul, Lines, Smooth, Stage, Structure, Tripped
+from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Lines, Smooth, Stage, Structure, Tripped
 
 G = 9.81
 M, K, V0 = 5000.0, 1.2e6, 0.25
 Q = M * G
-SURE = Tripped(Course(values=(1e9 * Q,)))
+SURE = Course(values=(1e9 * Q,))
 
 
 def lifting(**changes: object) -> Haul:
@@ -73,7 +73,7 @@ def test_the_load_follows_the_first_wave_in_closed_form() -> None:
     """Held drum, load let go by half its weight: M v' = F - Q, F = 2 f - Z v decays exponentially until the echo."""
     rod = Rod(K, M)
     z = rod.impedance
-    haul = lifting(lifts=False, speed=0.0, set_speed=None, capacity=Tripped(), motor_brake=SURE)
+    haul = lifting(lifts=False, speed=0.0, set_speed=None, capacity=NONE, motor_brake=Tripped(SURE))
     march = March(haul, rod)
     mode, y = march.begin()
     assert mode.turn == 0
@@ -135,7 +135,7 @@ def chain_forces(structure: Structure | None, share: float, pieces: int, end: fl
 @pytest.mark.parametrize("share", [0.1, 0.5])
 def test_a_slow_rise_agrees_with_finite_elements(structure: Structure | None, share: float) -> None:
     law = Course((0.0, 0.8), (Q, 1.5 * Q), (0.5 * Q / 0.8, 0.0))
-    haul = lifting(lifts=False, speed=0.0, structure=structure, set_speed=Course(values=(1e3,)), capacity=Tripped(law))
+    haul = lifting(lifts=False, speed=0.0, structure=structure, set_speed=Course(values=(1e3,)), capacity=law)
     found = played(haul, Rod(K, share * M), 1.5)
     top, bottom, bridge = chain_forces(structure, share, 60, 1.5)
     assert most(found, "top") == pytest.approx(top, rel=2e-5)
@@ -225,14 +225,15 @@ DRIVES = {
     "by time": {"stages": (step(0.8, until_time=0.3), step(1.6))},
     "smooth": {"stages": (Stage(Smooth(lambda w: 2.5 * Q * (1 - (w / V0) ** 3))),)},
     "governed": {"stages": (Stage(Governed(Course((0.0, 0.5), (0.0, V0), (V0 / 0.5, 0.0)), 40 * Q, 2 * Q)),)},
-    "limited speed": {"set_speed": Course(values=(V0,)), "capacity": Tripped(Course(values=(1.5 * Q,)))},
+    "limited speed": {"set_speed": Course(values=(V0,)), "capacity": Course(values=(1.5 * Q,))},
     "ramp of speed": {
         "set_speed": Course((0.0, 0.4), (0.0, V0), (V0 / 0.4, 0.0)),
-        "capacity": Tripped(Course(values=(1.5 * Q,))),
+        "capacity": Course(values=(1.5 * Q,)),
     },
     "limiter": {
         "set_speed": Course(values=(V0,)),
-        "capacity": Tripped(Course(values=(1.5 * Q,)), Course((0.0, 0.05), (1.5 * Q, 0.0), (0.0, 0.0))),
+        "capacity": Course(values=(1.5 * Q,)),
+        "gate": Tripped(Course(values=(1.0,)), Course((0.0, 0.05), (1.0, 0.0), (0.0, 0.0))),
         "motor_brake": Tripped(Course(), Course((0.0, 0.1), (0.0, 2 * Q), (0.0, 0.0))),
         "level": 1.1 * Q,
     },
@@ -246,7 +247,7 @@ def test_energy_closes_and_finer_panels_change_nothing(
     drive: str, rope: Rod | Hauled, structure: Structure | None
 ) -> None:
     speed = 0.0 if drive in ("stages", "by time", "governed", "ramp of speed") else V0
-    parts = {"set_speed": None, "capacity": Tripped()} | DRIVES[drive]
+    parts = {"set_speed": None, "capacity": NONE} | DRIVES[drive]
     haul = lifting(
         gear=(0.93, 2 - 1 / 0.93), tackle=(0.97, 0.96), drum_mass=900.0, structure=structure, speed=speed, **parts
     )
@@ -296,6 +297,6 @@ def test_a_hauled_rope_goes_slack_and_snatches() -> None:
 
 
 def test_what_cannot_be_resolved_is_said() -> None:
-    haul = lifting(set_speed=None, capacity=Tripped(), stages=(Stage(Smooth(lambda w: np.full(w.shape, np.nan))),))
+    haul = lifting(set_speed=None, capacity=NONE, stages=(Stage(Smooth(lambda w: np.full(w.shape, np.nan))),))
     with pytest.raises(NumericsError):
         March(haul, Rod(K, 0.1 * M)).play(1.0)

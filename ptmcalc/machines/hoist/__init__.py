@@ -6,6 +6,8 @@ from importlib import resources
 from ptmcalc.base import units
 from ptmcalc.contract.machine import MachineKind
 from ptmcalc.contract.result import Finding
+from ptmcalc.laws import lift_off_standard
+from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
 from ptmcalc.machines.hoist.checks import CHECKS
 from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
@@ -57,6 +59,25 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
             f"a drive of class {spec.classes.drive} has a creep speed",
             ("class", "drive"),
             "add `creep: 0.02 m/s` to `speed`, or write `drive: HD1`",
+        )
+    yield from _editions_that_differ(spec)
+
+
+def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
+    """The factor of lifting off depends on the edition, and the file names none."""
+    chosen = "edition" in spec.classes.model_fields_set or spec.checks.lift_off_factor is not None
+    if chosen or not any(scene.type == "lift" for scene in spec.all_scenes):
+        return
+    factor = model.class_factor(spec)
+    others = {name: model.class_factor(spec, name) for name in lift_off_standard.EDITIONS}
+    said = [f"`{name}` {other:.3g}" for name, other in others.items() if other is not None and other != factor]
+    if factor is not None and said:
+        yield Finding(
+            "SPC201",
+            f"editions of the standard differ in phi_2 of {spec.classes.drive}: `{spec.classes.edition}` gives"
+            f" {factor:.3g}, {' and '.join(said)}",
+            ("class",),
+            f"write `edition: {spec.classes.edition}`, or that of the edition that applies, under `class`",
         )
 
 

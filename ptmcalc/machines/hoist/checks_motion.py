@@ -7,9 +7,8 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
-from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.moving import Moving
+from ptmcalc.machines.hoist.moving import Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
 from ptmcalc.spec.scene import Scene
 
@@ -22,30 +21,17 @@ _HOUR = 3600.0
 # -- lift-off -------------------------------------------------------------------------------------------------------
 
 
-def class_factor(spec: Hoist) -> float | None:
-    """phi_2 of the hoisting class for normal work, where the file gives the class."""
-    classes = spec.classes
-    if classes.hoisting is None:
-        return None
-    main = model.hook_speed(spec)
-    creep = model.hook_speed(spec, "creep") if spec.speed.creep is not None else main
-    speed = lift_off_standard.class_lift_off_speed(classes.drive, lift_off_standard.REGULAR, main, creep)
-    return lift_off_standard.standard_lift_off_factor(
-        classes.hoisting, classes.drive, speed, lift_off_standard.BY_CLASS
-    )
-
-
 def _factor_limit(spec: Hoist, scene: Lift) -> Estimate:
-    """Factor of the file, else phi_2 of the hoisting class for regular loads.
+    """Factor of the file, else phi_2 of the hoisting class, in the edition and load combination of the file.
 
         phi_2 = phi_2,min + beta_2 v_h
 
     **Range** a file that gives one of them.
     **Error** none: a chosen limit.
-    **Source** EN 13001-2 and ISO 8686-1, smallest factor by stiffness class.
+    **Source** EN 13001-2 and ISO 8686-1; `laws.lift_off_standard` on what editions differ in.
     """
     given = spec.checks.lift_off_factor
-    return Estimate.exact(given if given is not None else class_factor(spec) or math.inf)
+    return Estimate.exact(given if given is not None else model.class_factor(spec) or math.inf)
 
 
 def _factor_needs(spec: Hoist, scene: Lift) -> tuple[KeyPath, ...]:
@@ -60,6 +46,12 @@ def _factor_blame(spec: Hoist, scene: Lift, loads: Loads) -> KeyPath:
     return ("speed", "main") if spec.speed.main is not None else ("speed", "drum")
 
 
+def _where_lifted(spec: Hoist, scene: Lift) -> Iterable[AnyCheck]:
+    """The factor is one on the rated load; a drive too weak for it stalls, and HST121 says so."""
+    lifted = scene.load == "full" and not case_of(spec, scene, frozenset()).weak
+    return (replace(LIFT_OFF, each=None),) if lifted else ()
+
+
 LIFT_OFF: Check[Hoist, Lift] = Check(
     code="HST120",
     title="too hard a lift-off",
@@ -70,7 +62,9 @@ LIFT_OFF: Check[Hoist, Lift] = Check(
     needs=_factor_needs,
     blame=_factor_blame,
     repair=lambda spec, scene: _factor_blame(spec, scene, {}),
-    what="The largest rope force of a load lifted off the ground stays below the factor of its class or the file.",
+    each=_where_lifted,
+    what="The largest rope force of the rated load lifted off the ground stays below the factor of its class or of the"
+    " file. It is not asked of an empty hook, nor of a drive that stalls, which HST121 tells.",
     why="Structure and rope are designed with that factor; a stiff hoist at full speed exceeds it.",
     formula="max F/Q <= phi_2",
     source="EN 13001-2, ISO 8686-1; the force derived in ptmcalc.numerics.train",
@@ -87,6 +81,12 @@ def _lift_limit(spec: Hoist, scene: Lift) -> Estimate:
     return Estimate.exact(_HOUR)
 
 
+def _stall_repair(spec: Hoist, scene: Lift) -> KeyPath:
+    """The torque that lifts, where one number says it."""
+    given = spec.motor is not None and spec.motor.mean_starting_torque is not None
+    return ("motor", "mean_starting_torque") if given and scene.profile.shape != "curve" else ()
+
+
 STALL: Check[Hoist, Lift] = Check(
     code="HST121",
     title="a motor that cannot lift the load",
@@ -96,7 +96,7 @@ STALL: Check[Hoist, Lift] = Check(
     limit=_lift_limit,
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",),
-    repair=no_repair,
+    repair=_stall_repair,
     what="The drive brings the rope force up to the weight, so that the load leaves the ground.",
     why="A motor that stalls with the rope tightened burns, and the load stands.",
     formula="t(F = Q) finite",

@@ -103,6 +103,11 @@ class Classes(Fragment):
     """hoisting class, with `drive` for the standard's factor of lifting a load off the ground"""
     drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
     """how the hoisting speed is controlled; HD1 has no creep speed"""
+    edition: Literal["by_class", "by_drive", "raised"] = "by_class"
+    """smallest phi_2, in which sources differ: by the hoisting class alone (ISO 8686-1), 1.05 for the drives HD3 and
+    HD5 (`by_drive`), or 1.1 to 1.4 for HD1 (`raised`)"""
+    combination: Literal["regular", "exceptional"] = "regular"
+    """lift-off speed of the load combinations A1 and B1, or of C1"""
     dangerous_load: Literal["yes", "no"] = "no"
     """molten metal or as dangerous a load: a quarter more rope safety, group M5 at least"""
 

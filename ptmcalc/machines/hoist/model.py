@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.laws import gearing, hoisting, reeving, rope_drum, wire_rope
+from ptmcalc.laws import gearing, hoisting, lift_off_standard, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene
 
 FloatArray = NDArray[np.float64]
@@ -179,6 +179,19 @@ def drum_speed(spec: Hoist, which: str = "main") -> float:
 def hook_speed(spec: Hoist, which: str = "main", layer: int = 1) -> float:
     """Of the hook with the rope on a layer, the drum at the main or the creep speed [m/s]."""
     return drum_speed(spec, which) * layer_radius(spec, layer) / falls_of_a_rope(spec)
+
+
+def class_factor(spec: Hoist, edition: str | None = None) -> float | None:
+    """phi_2 of the hoisting class, in an edition or that of the file; None where the file does not give the class."""
+    classes = spec.classes
+    if classes.hoisting is None:
+        return None
+    main = hook_speed(spec)
+    creep = hook_speed(spec, "creep") if spec.speed.creep is not None else main
+    speed = lift_off_standard.class_lift_off_speed(classes.drive, classes.combination, main, creep)
+    return lift_off_standard.standard_lift_off_factor(
+        classes.hoisting, classes.drive, speed, edition or classes.edition
+    )
 
 
 # -- drive ----------------------------------------------------------------------------------------------------------

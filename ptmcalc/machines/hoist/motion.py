@@ -356,24 +356,10 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
     """What happened on the way that a reader must know."""
     said = []
     label, case = scene.label, course.case
-    lifted = not isinstance(scene, Lift) or math.isfinite(lift_off_time(course))
-    if not lifted or case.weak:
+    if isinstance(scene, Lift):
         rope = case.named("link", ROPE)
         assert rope is not None
-        force, time = course.top("link", rope)
-        phase = "taking up the slack" if force <= 0 else "tensioning the rope"
-        if lifted:
-            phase = "holding the load, which only its swing took off the ground"
-        reached = units.show(force, units.FORCE)
-        said.append(
-            Finding(
-                "NUM110",
-                f"scene `{label}`: the motor stalls while {phase}: the rope force comes to {reached} at {time:.3g} s,"
-                f" the load weighs {units.show(case.weight, units.FORCE)}",
-                ("motor",),
-                "a stronger motor, a larger gear ratio, or less load",
-            )
-        )
+        said += stalls(scene, case, math.isfinite(lift_off_time(course)), course.top("link", rope))
     if isinstance(scene, Start) and not case.lowers and _sinks(course):
         said.append(
             Finding(
@@ -384,28 +370,10 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
             )
         )
     if case.stops and math.isinf(stopped(course)):
-        way = units.show(case.drop, units.SPAN)
-        said.append(
-            Finding(
-                "NUM110",
-                f"scene `{label}`: the load keeps jumping on its rope and slips through the brake at every catch"
-                if case.holds
-                else f"scene `{label}`: the brake does not hold the load: it goes down to the ground, or to the end of"
-                f" the rope, by up to {way}",
-                ("brake", "torque"),
-                "a stronger brake",
-            )
-        )
-    tripped = first_event(course, DRIVE, "started")
-    if math.isfinite(tripped):
-        said.append(
-            Finding(
-                "NUM110",
-                f"scene `{label}`: the limiter trips at {tripped:.3g} s and stops the hoist",
-                ("limiter", "factor"),
-                "raise its factor or its delay where a normal lift trips it",
-            )
-        )
+        said.append(not_held(scene, case))
+    time = first_event(course, DRIVE, "started")
+    if math.isfinite(time):
+        said.append(tripped(scene, time))
     said += [
         Finding(
             "NUM104",
@@ -417,6 +385,50 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
         if event.after == JAMMED
     ]
     return said
+
+
+def not_held(scene: Moving, case: Case) -> Finding:
+    """A load that its brake does not hold, or not for long."""
+    way = units.show(case.drop, units.SPAN)
+    return Finding(
+        "NUM110",
+        f"scene `{scene.label}`: the load keeps jumping on its rope and slips through the brake at every catch"
+        if case.holds
+        else f"scene `{scene.label}`: the brake does not hold the load: it goes down to the ground, or to the end of"
+        f" the rope, by up to {way}",
+        ("brake", "torque"),
+        "a stronger brake",
+    )
+
+
+def tripped(scene: Moving, time: float) -> Finding:
+    """A limiter that has tripped."""
+    return Finding(
+        "NUM110",
+        f"scene `{scene.label}`: the limiter trips at {time:.3g} s and stops the hoist",
+        ("limiter", "factor"),
+        "raise its factor or its delay where a normal lift trips it",
+    )
+
+
+def stalls(scene: Lift, case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Finding]:
+    """A drive that stalls in a lift, with its phase; `largest` is the largest force of the rope and its time."""
+    if lifted and not case.weak:
+        return []
+    force, time = largest[0], largest[1] or 0.0
+    phase = "taking up the slack" if force <= 0 else "tensioning the rope"
+    if lifted:
+        phase = "holding the load, which only its swing took off the ground"
+    reached = units.show(force, units.FORCE)
+    return [
+        Finding(
+            "NUM110",
+            f"scene `{scene.label}`: the motor stalls while {phase}: the rope force comes to {reached} at {time:.3g} s,"
+            f" the load weighs {units.show(case.weight, units.FORCE)}",
+            ("motor",),
+            "a stronger motor, a larger gear ratio, or less load",
+        )
+    ]
 
 
 def _sinks(course: Course) -> bool:

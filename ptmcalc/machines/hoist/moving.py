@@ -343,7 +343,8 @@ class _Builder:
 
     def _grips(self) -> Iterator[Grip]:
         if self._follows_speed:
-            yield Grip(DRIVE, self.at(MOTOR), self.at(MAINS), self._limited(self._capacity()))
+            gate = self._limited(Signal.constant(1.0)) if self.spec.limiter is not None else ONE
+            yield Grip(DRIVE, self.at(MOTOR), self.at(MAINS), self._capacity(), gate=gate)
         given = self.spec.brake
         if given is None:
             return
@@ -387,9 +388,9 @@ class _Builder:
         return list(zip(times.tolist(), shares.tolist(), strict=True))
 
     def _limited(self, capacity: Signal) -> Signal:
-        """A capacity that ends when the limiter has switched the motor off."""
+        """A constant that ends when the limiter has switched the motor off."""
         limiter = self.spec.limiter
-        if limiter is None or len(capacity.times) > 1 or not isinstance(self.scene, Lift | Start):
+        if limiter is None or not isinstance(self.scene, Lift | Start):
             return capacity
         full, delay = capacity.values[0], limiter.delay
         trip = self._trip()

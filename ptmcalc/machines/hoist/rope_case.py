@@ -12,9 +12,9 @@ from ptmcalc.machines.hoist.moving import BRAKE, DRIVE, MAINS, Case, Moving, cas
 from ptmcalc.machines.hoist.reduced import hauling_efficiency, lowering_efficiency, ratio, rope_mass, travel
 from ptmcalc.machines.hoist.spec import Hoist, Lift
 from ptmcalc.numerics.rope.march import Hauled, Rod
-from ptmcalc.numerics.rope.parts import Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
+from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train import parts
-from ptmcalc.numerics.train.signals import Signal
+from ptmcalc.numerics.train.signals import ONE, Signal
 
 CARRIED = frozenset({moving.STRUCTURE})
 
@@ -68,13 +68,21 @@ def haul(spec: Hoist, scene: Moving) -> Haul:
         speed=motor.speed / turns,
         way=-1 if one.lowers else 1,
         set_speed=_set_speed(one, turns) if grip is not None else None,
-        capacity=_tripped(train.grips[grip].capacity, turns) if grip is not None else Tripped(),
+        capacity=_course(train.grips[grip].capacity, turns) if grip is not None else NONE,
         stages=stages,
-        gate=_tripped(train.drives[curve].gate, 1.0) if curve is not None else Tripped(),
+        gate=_tripped(_gate(one), 1.0),
         motor_brake=stopping if on_motor else Tripped(),
         drum_brake=Tripped() if on_motor else stopping,
         level=_level(one),
     )
+
+
+def _gate(one: Case) -> Signal:
+    """What switches the motor off."""
+    grip, curve = one.named("grip", DRIVE), one.named("drive", DRIVE)
+    if grip is not None:
+        return one.train.grips[grip].gate
+    return one.train.drives[curve].gate if curve is not None else ONE
 
 
 def _index(one: Case, what: str, name: str) -> int:
@@ -90,7 +98,7 @@ def _damping(given: tackle.Structure) -> float:
 def _level(one: Case) -> float:
     """Rope force at which the limiter trips [N]."""
     triggers = (grip.capacity.trigger for grip in one.train.grips)
-    gates = (drive.gate.trigger for drive in one.train.drives)
+    gates = [drive.gate.trigger for drive in one.train.drives] + [grip.gate.trigger for grip in one.train.grips]
     levels = [trigger.level for trigger in (*triggers, *gates) if trigger is not None]
     return min(levels, default=math.inf)
 

@@ -185,7 +185,7 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
     other = play(spec, scene, rope, window, _COMPARED * finer)
     own, beside = readings(scene, case, course), readings(scene, case, other)
     found = motion.with_bars(scene, case, own, [beside], _UNSEEN)
-    findings = []
+    findings, remarks = [], _remarks(scene, case, course, own)
     slack, residual = _slack_at(course), max(course.residual, other.residual)
     if math.isfinite(slack):
         findings.append(
@@ -204,6 +204,9 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         )
     if findings:
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
+    if math.isfinite(slack) and residual <= _CLOSES and not isinstance(scene, Lift):  # so much is sure: nothing pulls
+        none = Found(Estimate.exact(0.0), {"time": slack})
+        found |= {"rope_force_min": none, "rope_force_share": none}
     if isinstance(rope, Rod):
         found["natural_frequency"] = Found(rope_case.frequency(spec, scene))
     found["energy_residual"] = Found(Estimate.exact(course.residual))
@@ -212,10 +215,23 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         work=len(course.played.panels) + len(other.played.panels),
         window=(0.0, course.played.time),
         health={"energy_residual": course.residual, "steps": float(len(course.played.panels))},
-        findings=tuple(findings),
+        findings=(*remarks, *findings),
         events=tuple(Event(time, "drive and load", "", what) for time, what in course.played.events),
         histories=lambda: histories(course),
     )
+
+
+def _remarks(scene: Moving, case: Case, course: Course, own: motion.Readings) -> list[Finding]:
+    """What happened on the way that a reader must know."""
+    said = []
+    if isinstance(scene, Lift) and not math.isfinite(course.played.slack_at):
+        said += motion.stalls(scene, case, math.isfinite(course.first("lift")), own["rope_force_max"])
+    tripped = course.first("trip")
+    if math.isfinite(tripped):
+        said.append(motion.tripped(scene, tripped))
+    if case.stops and not math.isfinite(own["stop_time"][0]) and not math.isfinite(course.played.slack_at):
+        said.append(motion.not_held(scene, case))
+    return said
 
 
 def histories(course: Course) -> Mapping[str, History]:

@@ -112,7 +112,8 @@ class HoistScene(Scene):
     """of the hook above its lowest position; at the lowest when left out"""
 
     def default_name(self) -> str:
-        return f"{self.type}_{'loaded' if self.load == 'full' else self.load}"
+        way = "_down" if getattr(self, "direction", "up") == "down" else ""
+        return f"{self.type}{way}_{'loaded' if self.load == 'full' else self.load}"
 
 
 class Run(HoistScene):

@@ -212,11 +212,15 @@ class March:
         """Force of a drive that does not keep its set speed."""
         haul = self.haul
         if haul.set_speed is not None:
-            return mode.pushing * haul.capacity.at(mode.trip, begin, t)
+            return mode.pushing * self._limit(mode, begin, t)
         if not haul.stages:
             return np.zeros(len(t))
         law = haul.stages[mode.stage].law
         return haul.gate.at(mode.trip, begin, t) * law.force(mode.piece, begin, t, y[:, W])
+
+    def _limit(self, mode: Mode, begin: float, t: FloatArray) -> FloatArray:
+        """Largest force of a drive that keeps a set speed."""
+        return self.haul.capacity.at(begin, t) * self.haul.gate.at(mode.trip, begin, t)
 
     def _brakes(self, mode: Mode, begin: float, t: FloatArray) -> tuple[FloatArray, FloatArray]:
         haul = self.haul
@@ -300,7 +304,7 @@ class March:
         found: list[tuple[str, FloatArray, float]] = []
         if mode.follows:
             assert haul.set_speed is not None
-            cap, need = haul.capacity.at(mode.trip, begin, t), self.needed(y, t, begin, mode, top)
+            cap, need = self._limit(mode, begin, t), self.needed(y, t, begin, mode, top)
             size = force + float(cap[0])
             found += [("up to its limit", cap - need, size), ("down to its limit", cap + need, size)]
             through = haul.drum_mass * self._set_rate(begin) + self._behind(top, on_drum, mode.turn)
@@ -614,7 +618,7 @@ class March:
         t = np.array([time])
         down, up = self._incoming_at(time)
         top, _ = self.ends_of(y[None], down, up, held)
-        need, cap = self.needed(y[None], t, time, held, top)[0], self.haul.capacity.at(mode.trip, time, t)[0]
+        need, cap = self.needed(y[None], t, time, held, top)[0], self._limit(mode, time, t)[0]
         if abs(need) <= cap * (1 + 1e-9):
             return held, y
         return mode._replace(pushing=1 if need > 0 else -1), y

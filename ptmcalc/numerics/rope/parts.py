@@ -165,7 +165,7 @@ class Structure:
 class Haul:
     """A drive, what it stands on, and a load, all at the hook. Speeds are positive up, the sag of the structure down.
 
-    The drive is a set speed kept by a force of `capacity` at most, or its own curve `stages` times `gate`, or off.
+    The drive is a set speed kept by a force of `capacity` at most, or its own curve `stages`, times `gate`, or off.
     `forward`, `reverse` are efficiencies with the power flowing to the load and back, of gear and tackle.
     """
 
@@ -184,9 +184,10 @@ class Haul:
     """of the drive at the beginning"""
     way: int
     set_speed: Course | None = None
-    capacity: Tripped = Tripped()
+    capacity: Course = NONE
     stages: tuple[Stage, ...] = ()
     gate: Tripped = Tripped(Course(values=(1.0,)))
+    """of either, 0 where the limiter has switched it off"""
     motor_brake: Tripped = Tripped()
     drum_brake: Tripped = Tripped()
     level: float = float("inf")
@@ -195,7 +196,7 @@ class Haul:
     @property
     def breaks(self) -> tuple[float, ...]:
         """Times at which something changes by itself."""
-        courses = [one.before for one in (self.capacity, self.gate, self.motor_brake, self.drum_brake)]
+        courses = [self.capacity, *(one.before for one in (self.gate, self.motor_brake, self.drum_brake))]
         courses += [self.set_speed] if self.set_speed is not None else []
         courses += [one.law.reference for one in self.stages if isinstance(one.law, Governed)]
         ends = [one.until_time for one in self.stages if one.until_time is not None]
@@ -204,5 +205,5 @@ class Haul:
     @property
     def breaks_after_the_trip(self) -> tuple[float, ...]:
         """The same, over the time since the limiter tripped."""
-        given = (one.after for one in (self.capacity, self.gate, self.motor_brake, self.drum_brake))
+        given = (one.after for one in (self.gate, self.motor_brake, self.drum_brake))
         return tuple(sorted({time for one in given if one is not None for time in one.breaks}))

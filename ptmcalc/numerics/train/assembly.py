@@ -68,7 +68,7 @@ class Assembly:
         for (what, which, _, _), force in zip(held, solved.holds, strict=True):
             if what == "clutch" and (what, which) not in several:
                 grip = self.train.grips[which]
-                capacity = self.balances.wide(self.balances.now[grip.capacity]) * grip.static
+                capacity = self.balances.wide(self.balances.capacity(grip)) * grip.static
                 for side in (1, -1):  # mu pushes the first body: it slips back where too much of it is needed
                     yield capacity - side * force, Change("hold", which, None)
             elif what == "contact":
@@ -213,7 +213,7 @@ class Assembly:
             rows["mesh_inner_speed", i] = rows["speed", mesh.inner]
             rows["mesh_outer_speed", i] = rows["speed", mesh.outer]
         for i, grip in enumerate(train.grips):
-            rows["grip", i] = self.balances.wide(self.balances.slip(i, self.state) * self.balances.now[grip.capacity])
+            rows["grip", i] = self.balances.wide(self.balances.slip(i, self.state) * self.balances.capacity(grip))
             second = 0.0 if grip.second is None else rows["speed", grip.second]
             rows["grip_speed", i] = rows["speed", grip.first] - second
         for i in range(len(train.drives)):

@@ -15,7 +15,7 @@ from ptmcalc.numerics.motion import Curve
 from ptmcalc.numerics.train import drives, links
 from ptmcalc.numerics.train.drives import DriveState, Place
 from ptmcalc.numerics.train.links import Contact, Stretch
-from ptmcalc.numerics.train.parts import Mesh
+from ptmcalc.numerics.train.parts import Grip, Mesh
 from ptmcalc.numerics.train.signals import FloatArray
 from ptmcalc.numerics.train.state import NO_FRICTION, State
 
@@ -94,11 +94,16 @@ class Balances:
             direction = self.slip(index, state)
             if direction:
                 at_rest = static and self.slip(index, self.state) == 0
-                capacity = self.wide(self.now[grip.capacity]) * (grip.static if at_rest else 1.0)
+                capacity = self.wide(self.capacity(grip)) * (grip.static if at_rest else 1.0)
                 force[grip.first] -= direction * capacity
                 if grip.second is not None:
                     force[grip.second] += direction * capacity
         return force
+
+    def capacity(self, grip: Grip) -> FloatArray:
+        """What a grip bears as it slips, as a functional."""
+        gate = self.now.level(grip.gate)
+        return self.now[grip.capacity] if gate == 1 else np.asarray(gate * self.now[grip.capacity])
 
     def slip(self, index: int, state: State) -> int:
         """Direction in which a grip slips; 0 where it holds."""
@@ -179,7 +184,7 @@ class Balances:
         motor's side of the first mesh with losses. Gears between it and the load carry the load."""
         groups = self.system.groups
         for index, grip in enumerate(self.train.grips):
-            acts = np.any(self.now[grip.capacity])
+            acts = np.any(self.capacity(grip))
             if index not in self.system.clutches and groups.of[grip.first] == group and acts:
                 return grip.first, index
         inner = (self.train.meshes[index].inner for index in self.system.lossy)

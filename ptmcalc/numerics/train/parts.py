@@ -82,7 +82,8 @@ class Spring:
 class Grip:
     """Coulomb friction: a brake or bearing against the ground, or a clutch between two bodies.
 
-    `capacity` is the sliding friction over time; at rest it holds `static` times as much.
+    `capacity` is the sliding friction over time, times a `gate` of steps (0 is off); at rest it holds `static` times
+    as much.
     """
 
     name: str
@@ -90,6 +91,7 @@ class Grip:
     second: int | None
     capacity: Signal
     static: float = 1.0
+    gate: Signal = ONE
 
 
 @dataclass(frozen=True, slots=True)

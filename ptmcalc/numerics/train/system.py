@@ -55,7 +55,7 @@ class TrainSystem:
         for drive in self.train.drives:
             yield from drives.signals_of(drive)
         for grip in self.train.grips:
-            yield grip.capacity
+            yield from (grip.capacity, grip.gate)
         for guide in self.train.guides:
             yield guide.acceleration
 
@@ -237,7 +237,7 @@ class TrainSystem:
         for drive in self.train.drives:
             if signal in drives.signals_of(drive):
                 return drive.name
-        return next((grip.name for grip in self.train.grips if grip.capacity is signal), "")
+        return next((grip.name for grip in self.train.grips if signal in (grip.capacity, grip.gate)), "")
 
     # -- what is watched -----------------------------------------------------------------------------------------
 

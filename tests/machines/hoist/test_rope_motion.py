@@ -91,18 +91,18 @@ def test_a_rope_that_gets_shorter_is_carried_where_the_file_asks() -> None:
     assert abs(ours.value - theirs.value) > 1e-4
 
 
-def test_a_slack_rope_with_mass_is_said_and_decides_nothing() -> None:
+def test_a_slack_rope_with_mass_is_said_and_decides_only_that_nothing_pulls() -> None:
     brake = {"torque": "2000 N*m"}
     data = changed(TALL, speed={"main": "2.5 m/s"}, brake=brake, scenes=[{"type": "stop", "direction": "up"}])
     spec = hoist_of(data)
     one: Any = spec.all_scenes[0]
     found = rope_motion.result(spec, one, rope_case.rod(spec, one), 0)
     assert any("goes slack" in finding.message for finding in found.findings)
-    assert not any(
-        load.estimate.bounded
-        for name, load in found.loads.items()
-        if name not in ("natural_frequency", "energy_residual")
-    )
+    sure = {name for name, load in found.loads.items() if load.estimate.bounded}
+    assert sure == {"natural_frequency", "energy_residual", "rope_force_min", "rope_force_share"}
+    assert found.loads["rope_force_share"].estimate.high == 0
+    alone = changed(data, effects={"rope_shortening": "off"})
+    assert check_of(scene_of(report_of(alone)), "HST124").verdict is Verdict.FAIL
 
 
 @pytest.mark.parametrize(("damping", "gear"), [(0.02, None), (0.0, "2 MN*m/rad")])
@@ -139,3 +139,40 @@ def np_chain(drive: float, load: float, frame: float, k: float, kb: float, rope:
     mass[-1, -1] += frame
     stiff[-1, -1] += kb
     return stiff, mass
+
+
+PROFILES: dict[str, dict[str, Any]] = {
+    "step": {},
+    "ramp of torque": {"shape": "ramp", "time": "0.3 s", "control": "torque"},
+    "ramp of speed": {"shape": "ramp", "time": "0.3 s"},
+    "curve": {"shape": "curve"},
+}
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_a_limiter_cuts_every_drive(profile: str) -> None:
+    """An overload: the drive is off and the brake closes after the delay, as a second solver has it, too."""
+    curve = {"type": "linear", "starting_torque": "900 N*m", "no_load_speed": "1500 rpm", "rated_torque": "150 N*m"}
+    torque: dict[str, Any] = {"mean_starting_torque": "900 N*m"} if profile != "curve" else {"curve": curve}
+    data = changed(
+        CRANE,
+        scenes=[{"type": "lift", "slack": "20 mm", "profile": PROFILES[profile]}],
+        limiter={"factor": 1.02, "delay": "0.05 s"},
+        speed={"main": "0.4 m/s"},
+        gearbox__ratio=35,
+        motor={"inertia": "0.13 kg*m^2", "coupling_inertia": "0.03 kg*m^2"} | torque,
+        duty=None,
+    )
+    spec = hoist_of(data)
+    one: Any = spec.all_scenes[0]
+    rope = rope_case.hauled(spec, one)
+    strain = rope.wound_strain / LONGER
+    long = replace(rope, extensional=rope.extensional * LONGER, length=rope.length * LONGER, wound_strain=strain)
+    theirs = motion.result(one, case_of(spec, one, frozenset({"structure"})), 0)
+    ours = rope_motion.result(spec, one, long, 0)
+    assert any("limiter trips" in finding.message for finding in theirs.findings)
+    assert any("limiter trips" in finding.message for finding in ours.findings)
+    for name in ("rope_force_max", "lift_off_time", "lift_off_speed"):
+        assert ours.loads[name].estimate.value == pytest.approx(theirs.loads[name].estimate.value, rel=1e-5), name
+    without = motion.result(one, case_of(hoist_of(changed(data, limiter=None)), one, frozenset({"structure"})), 0)
+    assert theirs.loads["rope_force_max"].estimate.value < without.loads["rope_force_max"].estimate.value

@@ -4,12 +4,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
-from ptmcalc.laws import lift_off, lift_off_standard, rope_rod, two_mass
+from ptmcalc.laws import lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.reduced import (
     braked_way,
     hook_brake_force,
-    hook_speed,
     moving_inertia,
     ratio,
     reduced,
@@ -68,16 +67,10 @@ def run_standard(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) 
 
     **Range** a file that gives the hoisting class.
     **Error** none bound: it knows neither mass nor stiffness.
-    **Source** EN 13001-2 and ISO 8686-1, smallest factor by stiffness class (`by_class`).
+    **Source** EN 13001-2 and ISO 8686-1, the edition and combination of the file.
     """
-    assert spec.classes.hoisting is not None
-    creep = model.hook_speed(spec, "creep") if spec.speed.creep is not None else hook_speed(spec, scene)
-    speed = lift_off_standard.class_lift_off_speed(
-        spec.classes.drive, lift_off_standard.REGULAR, model.hook_speed(spec), creep
-    )
-    factor = lift_off_standard.standard_lift_off_factor(
-        spec.classes.hoisting, spec.classes.drive, speed, lift_off_standard.BY_CLASS
-    )
+    factor = model.class_factor(spec)
+    assert factor is not None
     return _shown(lift_off_factor=factor)
 
 
