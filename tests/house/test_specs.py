@@ -43,6 +43,7 @@ MOST_EVALUATIONS = {
     "hoist/winding_paper/height_40_rope_14_5.yaml": 10,
     "hoist/winding_paper/height_40_rope_16.yaml": 10,
     "hoist/winding_paper/height_40_rope_17_5.yaml": 10,
+    "crane_slewing.yaml": 300,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 
