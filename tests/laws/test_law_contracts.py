@@ -55,16 +55,19 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    skid,
     slider_crank,
     slip_heat,
     sprocket,
     start_profile,
     stopping,
     strand_tension,
+    travel,
     two_mass,
     vertical_curve,
     vibration,
     wave,
+    wheel_loads,
     winding,
     wire_rope,
 )
@@ -136,6 +139,7 @@ FLOWS = ("drive", "brake", "energy")
 READINGS = ("tip_stopped", "whole")
 CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
+MASSES = tuple(map(np.array, ([18e4, 3e5], [11.2, 3.0], [0.1, 0.3], [-9e3, 1e4], [2e3, -5e3], [0.8, 2.0])))
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
 PACKINGS = ("nested", "square")
@@ -574,6 +578,35 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     winding.crossover_ratio: [(2, 1.2566, 21.9)],
     winding.crossover_rise: [(0.0175, 0.0152), (0.0175, 0.0175)],
     winding.winding_radius: [(0.159, 0.0152, rise, 2, 1.05, 3.0) for rise in (0.0, 0.0023)],
+    wheel_loads.corner_loads: [(*MASSES, 22.5, 4.2, frame) for frame in ("hinged", "rigid")],
+    wheel_loads.corner_load_range: [
+        (MASSES[0], MASSES[1], MASSES[1] + 9.0, *MASSES[2:], 22.5, 4.2, frame) for frame in ("hinged", "rigid")
+    ],
+    wheel_loads.wheels_of_rail: [
+        (60e3, 100e3, np.array([-2.6, -1.6, 1.5, 2.5]), carriage) for carriage in ("equalised", "rigid")
+    ],
+    wheel_loads.mean_wheel_load: [(30e3, 160e3)],
+    wheel_loads.wheel_spectrum_factor: [(np.array([4e4, 9e4]), np.array([0.3, 0.7]), 3.0)],
+    wheel_loads.even_travel_factor: [(0.0, 3.0), (0.3, 10 / 3), (1.0, 3.0)],
+    travel.rolling_coefficient: [(0.015, 0.1, 0.0005, 0.4, 1.5)],
+    travel.wind_pressure: [(20.0, 1.25)],
+    travel.wind_force: [(250.0, 30.0, 1.6)],
+    travel.travel_resistance: [(v, 3e5, 0.01, 0.004, -5e3) for v in (0.7, -0.7)],
+    travel.holding_force: [(3e5, 0.006, 0.0, 2e4), (3e5, 0.006, 0.002, 0.0)],
+    travel.hanging_load_force: [
+        (5e3, 0.3, 9.81, "steady"), (5e3, 0.3, 9.81, "sudden"), (5e3, -7.0, 9.81, "sudden"),
+    ],
+    skid.wheel_grip: [(4e3, 0.25, 9e4, 0.006, 12.0, 0.3)],
+    skid.driven_forces: [(24e3, 0.36, 2354.0, np.array([0.5, 0.5]))],
+    skid.skid_reserve: [(0.14, 5e4, 5e3), (0.14, 5e4, -5e3)],
+    skid.slip_accelerations: [(24e3, w, 0.14, np.full(2, 0.5), np.full(2, 58e3), np.array([300.0, -300.0]))
+                              for w in (2354.0, -2354.0)],
+    skid.rail_force: [(a, push, 3600.0, 0.14, 58e3, 300.0) for push in (4e3, 3e4, -3e4) for a in (0.2, -0.2)],
+    skid.slipping_acceleration: [
+        (np.full(2, push), np.full(2, 3600.0), 24e3, 2354.0, 0.14, np.array([58e3, 30e3]), np.array([300.0, -300.0]))
+        for push in (4e3, 7e3, 3e4, -3e4)
+    ],
+    skid.slip_motor_torque: [(0.59, 31200.0, 2354.0, 0.2, 20.0, 0.9)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -648,6 +681,14 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, ("HC1", "HD6", 0.4, "by_class")),
         (ValueError, ("HC1", "HD1", 0.4, "2004")),
     ],
+    wheel_loads.corner_loads: [(ValueError, (*MASSES, 22.5, 4.2, "three_legs"))],
+    wheel_loads.corner_load_range: [(ValueError, (*MASSES[:2], *MASSES[1:], 22.5, 4.2, "three_legs"))],
+    wheel_loads.wheels_of_rail: [
+        (ValueError, (60e3, 100e3, np.array([-2.0, 2.0]), "sprung")),
+        (ValueError, (60e3, 100e3, np.array([-2.0, 0.0, 2.0]), "equalised")),
+        (ValueError, (60e3, 100e3, np.array([2.0, -2.0]), "rigid")),
+    ],
+    travel.hanging_load_force: [(ValueError, (5e3, 0.3, 9.81, "soft"))],
     winding.winding_radius: [(ValueError, (0.159, 0.0152, 0.0023, 2, 3.2, 3.0))],
 }
 
