@@ -362,8 +362,25 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "linear_buffer": (buffer.linear_buffer, lambda d: tuple(d.positive(3))),
     "constant_force_buffer": (buffer.constant_force_buffer, lambda d: tuple(d.positive(3))),
     "driven_buffer": (buffer.driven_buffer, lambda d: (d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], *d.positive(3))),
-    "orifice_buffer_speed": (buffer.orifice_buffer_speed, lambda d: tuple(d.positive(4))),
-    "orifice_buffer_force": (buffer.orifice_buffer_force, lambda d: tuple(d.positive(4))),
+    "constant_force_stroke": (buffer.constant_force_stroke, lambda d: (*nested(d, 2)[::-1], *d.positive(2))),
+    "progressive_buffer": (
+        buffer.progressive_buffer,
+        lambda d: (d.rng.choice([-1.0, 0.0, 1.0]) * d.positive(1)[0], *d.positive(4), 0.5 + 3 * d.share()),
+    ),
+    "speed_left": (buffer.speed_left, lambda d: tuple(d.positive(5))),
+    "collision_mass": (buffer.collision_mass, lambda d: (*d.positive(2), d.share())),
+    "meeting": (buffer.meeting, lambda d: tuple(d.positive(6))),
+    "series_orifice": (buffer.series_orifice, lambda d: tuple(d.positive(2))),
+    "orifice_buffer_speed": (
+        buffer.orifice_buffer_speed,
+        lambda d: (*d.positive(4), d.rng.choice([-1.0, 0.0, 1.0]) * d.positive(1)[0]),
+    ),
+    "orifice_buffer_force": (
+        buffer.orifice_buffer_force,
+        lambda d: (*d.positive(4), d.rng.choice([-1.0, 0.0, 1.0]) * d.positive(1)[0]),
+    ),
+    "energy_share": (buffer.energy_share, lambda d: (np.array(d.positive(4)), np.cumsum(d.positive(4)))),
+    "orifice_energy_share": (buffer.orifice_energy_share, lambda d: tuple(d.positive(3))),
     "orifice_buffer_path": (buffer.orifice_buffer_path, lambda d: tuple(d.positive(4))),
     "buffer_factor": (buffer.buffer_factor, lambda d: (d.share(),)),
     "coulomb_slide": (
