@@ -56,6 +56,7 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    skew,
     skid,
     slider_crank,
     slip_heat,
@@ -141,6 +142,8 @@ READINGS = ("tip_stopped", "whole")
 CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
 MASSES = tuple(map(np.array, ([18e4, 3e5], [11.2, 3.0], [0.1, 0.3], [-9e3, 1e4], [2e3, -5e3], [0.8, 2.0])))
+PAIRS = (np.array([0.0, 4.2]), np.array([1.0, 0.0]), np.array([2e5, 1.6e5]))  # distances, coupling, weights
+SKEW_EDITIONS = ("en_13001_2", "en_1991_3")
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
 PACKINGS = ("nested", "square")
@@ -620,6 +623,11 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     travel.hanging_load_force: [
         (5e3, 0.3, 9.81, "steady"), (5e3, 0.3, 9.81, "sudden"), (5e3, -7.0, 9.81, "sudden"),
     ],
+    skew.skew_angle: [(x, 0.006, 4.2, 0.01, 0.001, e) for x in (0.008, 0.02) for e in ("full", *SKEW_EDITIONS)],
+    skew.skew_friction: [(0.006, 0.3)],
+    skew.slip_pole: [(*PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
+    skew.skew_forces: [(0.24, *PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
+    skew.start_side_forces: [(12e3, 0.2, 22.5, 4.2)],
     skid.wheel_grip: [(4e3, 0.25, 9e4, 0.006, 12.0, 0.3)],
     skid.driven_forces: [(24e3, 0.36, 2354.0, np.array([0.5, 0.5]))],
     skid.skid_reserve: [(0.14, 5e4, 5e3), (0.14, 5e4, -5e3)],
@@ -710,6 +718,12 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, ("HC1", "HD6", 0.4, "by_class")),
         (ValueError, ("HC1", "HD1", 0.4, "2004")),
     ],
+    skew.skew_angle: [(ValueError, (0.02, 0.006, 4.2, 0.01, 0.001, "iso_8686"))],
+    skew.slip_pole: [
+        (ValueError, (*PAIRS, 0.35, 22.5, "hinged")),
+        (ValueError, (np.zeros(2), *PAIRS[1:], 0.35, 22.5, "fixed")),
+    ],
+    skew.skew_forces: [(ValueError, (0.24, *PAIRS, 0.35, 22.5, "hinged"))],
     wheel_loads.corner_loads: [(ValueError, (*MASSES, 22.5, 4.2, "three_legs"))],
     wheel_loads.corner_load_range: [(ValueError, (*MASSES[:2], *MASSES[1:], 22.5, 4.2, "three_legs"))],
     wheel_loads.wheels_of_rail: [

@@ -52,6 +52,7 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    skew,
     skid,
     slider_crank,
     slip_heat,
@@ -925,6 +926,17 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         travel.hanging_load_force,
         lambda d: (*d.positive(3), d.shape("steady", "sudden")),
     ),
+    "skew_angle": (skew.skew_angle, lambda d: (*d.positive(5), d.shape("full", "en_13001_2", "en_1991_3"))),
+    "skew_friction": (skew.skew_friction, lambda d: (*d.positive(1), d.share())),
+    "slip_pole": (
+        skew.slip_pole,
+        lambda d: (*cycle(d, 3), 0.999 * d.share(), *d.positive(1), d.shape("fixed", "movable")),
+    ),
+    "skew_forces": (
+        skew.skew_forces,
+        lambda d: (d.share(), *cycle(d, 3), 0.999 * d.share(), *d.positive(1), d.shape("fixed", "movable")),
+    ),
+    "start_side_forces": (skew.start_side_forces, lambda d: (*d.positive(1), d.share(), *d.positive(2))),
     "wheel_grip": (skid.wheel_grip, lambda d: tuple(d.positive(6))),
     "driven_forces": (skid.driven_forces, lambda d: (*d.positive(3), np.array(d.positive(3)))),
     "skid_reserve": (skid.skid_reserve, lambda d: tuple(d.positive(3))),
@@ -1017,6 +1029,8 @@ SIGNED = {
     "wheel_grip",
     "rail_force",
     "slipping_acceleration",
+    "skew_forces",
+    "start_side_forces",
 }
 """Laws whose value may be negative."""
 BELOW_ROUNDING = {"two_interval_force", "two_interval_peak", "rise_integral"}
