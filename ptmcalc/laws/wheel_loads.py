@@ -8,6 +8,8 @@ front. A load below 0 means that the corner lifts off: what is computed with it 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ptmcalc.laws import classification
+
 FloatArray = NDArray[np.float64]
 
 HINGED, RIGID = "hinged", "rigid"
@@ -210,7 +212,7 @@ def wheel_spectrum_factor(loads: FloatArray, shares: FloatArray, exponent: float
     largest = float(np.max(N))
     if largest <= 0:
         return 0.0
-    return float(np.sum(share / np.sum(share) * (N / largest) ** exponent))
+    return classification.spectrum_factor(share / np.sum(share), N / largest, exponent)
 
 
 def even_travel_factor(ratio: float, exponent: float = ROLLING_CONTACT_SLOPE) -> float:
