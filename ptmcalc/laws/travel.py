@@ -12,8 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
-STEADY, SUDDEN = "steady", "sudden"
-"""A hanging load that leans with a slowly growing acceleration, and one that swings after a sudden one."""
 BEARING_FRICTION: Mapping[str, float] = MappingProxyType({"rolling": 0.015, "plain": 0.08})
 """Usual friction in the bearings of a wheel [1], quoted from handbooks; to be confirmed."""
 AIR_DENSITY = 1.25
@@ -127,43 +125,3 @@ def holding_force(weight: float, coefficient: float, slope: float, wind_force: f
     **Source** equilibrium along the rail.
     """
     return max(abs(weight * math.sin(slope) + wind_force) - coefficient * weight * math.cos(slope), 0.0)
-
-
-def hanging_load_force(mass: float, acceleration: float, gravity: float, start: str) -> float:
-    """Largest horizontal force of a hanging load on the crane that accelerates it, where its rope is held.
-
-        steady: F = m a
-        sudden: F = 2 m a/(1 + (a/g)^2)                              up to a = g/7^(1/2), at the end of the swing
-                F = m g_e max (3 cos(phi) - 2 cos(b)) sin(b + phi)   beyond, before it;  tan(b) = a/g, g_e = g/cos(b)
-
-    Args:
-        mass: m, of the load and what hangs with it [kg].
-        acceleration: a, of the point where the rope is held, either sign [m/s^2].
-        gravity: g [m/s^2].
-        start: `steady` (an acceleration that grows over whole periods of the pendulum) or `sudden` (from rest, and as
-            long as half a period).
-
-    Returns:
-        F, of the sign of a [N].
-
-    Raises:
-        ValueError: for another start.
-
-    **Range** a load at rest at first, an acceleration that does not depend on it.
-    **Error** exact; beyond a = 0.378 g the pull is largest before the rope leans most: 2 m a/(1 + (a/g)^2) misses it.
-    **Source** derived: energy of the pendulum in the accelerated frame, rope force m g_e (3 cos(phi) - 2 cos(b)).
-    """
-    if start not in (STEADY, SUDDEN):
-        raise ValueError(f"the acceleration of a load is {STEADY} or {SUDDEN}")
-    if start == STEADY:
-        return mass * acceleration
-    if 7 * acceleration**2 <= gravity**2:
-        ratio = acceleration / gravity
-        return 2 * mass * acceleration / (1 + ratio * ratio)
-    lean = math.atan(abs(acceleration) / gravity)
-    low, high = 0.0, lean  # the slope of the pull falls from cos(b) at phi = 0 to below 0 at phi = b
-    while low < (middle := (low + high) / 2) < high:
-        rises = 3 * math.cos(lean + 2 * middle) > 2 * math.cos(lean) * math.cos(lean + middle)
-        low, high = (middle, high) if rises else (low, middle)
-    pull = (3 * math.cos(low) - 2 * math.cos(lean)) * math.sin(lean + low)
-    return math.copysign(mass * math.hypot(gravity, acceleration) * pull, acceleration)

@@ -44,7 +44,7 @@ def corner_loads(
         b = 1 - y/L or y/L (lever across),  c = 1/2 -+ x/B (lever along)
 
     Inertia forces are horizontal forces: -m a on a mass of the crane under an acceleration a, at its height; those of
-    a hanging load act where its rope is held, `travel.hanging_load_force`.
+    a hanging load act where its rope is held, as much where it leans steadily, `pendulum.swing_force` where it swings.
 
     Args:
         weights: G, of every mass, shape (n,) [N].

@@ -624,9 +624,6 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     travel.wind_force: [(250.0, 30.0, 1.6)],
     travel.travel_resistance: [(v, 3e5, 0.01, 0.004, -5e3) for v in (0.7, -0.7)],
     travel.holding_force: [(3e5, 0.006, 0.0, 2e4), (3e5, 0.006, 0.002, 0.0)],
-    travel.hanging_load_force: [
-        (5e3, 0.3, 9.81, "steady"), (5e3, 0.3, 9.81, "sudden"), (5e3, -7.0, 9.81, "sudden"),
-    ],
     standard_factors.hoisting_factors: [(0.1,)],
     standard_factors.drive_factor: [
         *((change, much, "by_change") for change in ("smooth", "sudden") for much in (False, True)),
@@ -756,7 +753,6 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, (60e3, 100e3, np.array([-2.0, 0.0, 2.0]), "equalised")),
         (ValueError, (60e3, 100e3, np.array([2.0, -2.0]), "rigid")),
     ],
-    travel.hanging_load_force: [(ValueError, (5e3, 0.3, 9.81, "soft"))],
     winding.winding_radius: [(ValueError, (0.159, 0.0152, 0.0023, 2, 3.2, 3.0))],
 }
 

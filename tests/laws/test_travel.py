@@ -39,44 +39,6 @@ class TestResistance:
         assert (held == 0) == (abs(drive) <= friction)
 
 
-def pull_of_a_swinging_load(acceleration: float) -> float:
-    """Largest horizontal force of a load of 1 kg under a pivot that sets off, by integration of its motion."""
-    length = 7.0
-
-    def rate(t: float, y: np.ndarray) -> list[float]:
-        return [y[1], -(GRAVITY * math.sin(y[0]) - acceleration * math.cos(y[0])) / length]
-
-    period = 2 * math.pi * math.sqrt(length / GRAVITY)
-    t = np.linspace(0, period, 60001)
-    angle, speed = solve_ivp(rate, (0, period), [0.0, 0.0], t_eval=t, rtol=1e-11, atol=1e-13, method="DOP853").y
-    tension = GRAVITY * np.cos(angle) + acceleration * np.sin(angle) + length * speed**2
-    return float(np.max(tension * np.sin(angle)))
-
-
-class TestHangingLoad:
-    @pytest.mark.parametrize("share", [0.01, 0.1, 0.3, 0.377, 0.379, 0.5, 1.0, 2.5])
-    def test_largest_pull_by_integration(self, share: float) -> None:
-        a = share * GRAVITY
-        assert travel.hanging_load_force(1.0, a, GRAVITY, travel.SUDDEN) == pytest.approx(
-            pull_of_a_swinging_load(a), rel=1e-7
-        )
-
-    def test_the_end_of_the_swing_is_not_the_worst_of_a_hard_start(self) -> None:
-        a = 0.6 * GRAVITY
-        assert pull_of_a_swinging_load(a) > 1.05 * 2 * a / (1 + 0.36)
-
-    def test_a_steady_pull_is_mass_times_acceleration(self) -> None:
-        assert travel.hanging_load_force(5e3, -0.4, GRAVITY, travel.STEADY) == -2e3
-
-    def test_both_branches_meet_and_the_sign_follows(self) -> None:
-        edge = GRAVITY / math.sqrt(7)
-        below, above = (travel.hanging_load_force(1.0, edge * (1 + s), GRAVITY, travel.SUDDEN) for s in (-1e-9, 1e-9))
-        assert below == pytest.approx(above, rel=1e-8)
-        for a in (0.3, 5.0):
-            pulls = [travel.hanging_load_force(1.0, s * a, GRAVITY, travel.SUDDEN) for s in (1, -1)]
-            assert pulls[0] == -pulls[1] > 0
-
-
 class TestCaseC19:
     """24 t on four wheels, two of them driven: theory, case C19."""
 

@@ -926,10 +926,6 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], *d.positive(2), d.share(), *d.positive(1)),
     ),
     "holding_force": (travel.holding_force, lambda d: (*d.positive(2), d.share(), *d.positive(1))),
-    "hanging_load_force": (
-        travel.hanging_load_force,
-        lambda d: (*d.positive(3), d.shape("steady", "sudden")),
-    ),
     "hoisting_factors": (standard_factors.hoisting_factors, lambda d: (0.1 * d.share(),)),
     "drive_factor": (
         standard_factors.drive_factor,
