@@ -582,8 +582,10 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     lift_off_standard.class_lift_off_speed: [
         (f"HD{k}", combination, 0.4, 0.1) for k in range(1, 6) for combination in ("regular", "exceptional")
     ],
+    lift_off_standard.fem_lift_off_factor: [("bridge", 0.1), ("bridge", 0.5), ("jib", 2.0)],
     lift_off_standard.standard_lift_off_factor: [
-        (f"HC{k}", "HD3", 0.25, edition) for k in range(1, 5) for edition in ("by_class", "by_drive")
+        (f"HC{k}", drive, 0.25, edition)
+        for k in range(1, 5) for edition in ("by_class", "by_drive", "raised") for drive in ("HD1", "HD3")
     ],
     rope_rod.rod_root: [(0.06, 1), (9.0, 3), (0.0, 2)],
     rope_rod.rod_frequency: [(1.4e5, 180.0, 3e3, 1), (1.4e5, 180.0, 3e3, 2), (1.4e5, 0.0, 3e3, 1)],
@@ -676,6 +678,7 @@ IN_PRINTED_UNITS = {
     chain_selection.lubrication,
     lift_off_standard.stiffness_class,
     lift_off_standard.standard_lift_off_factor,
+    lift_off_standard.fem_lift_off_factor,
 }
 """Laws whose numbers belong to units that are mixed in print: their factors are told in SI."""
 
@@ -729,6 +732,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, ("HD6", "regular", 0.4, 0.1)),
         (ValueError, ("HD1", "A1", 0.4, 0.1)),
     ],
+    lift_off_standard.fem_lift_off_factor: [(ValueError, ("tower", 0.5))],
     lift_off_standard.standard_lift_off_factor: [
         (ValueError, ("HC5", "HD1", 0.4, "by_class")),
         (ValueError, ("HC1", "HD6", 0.4, "by_class")),
