@@ -83,8 +83,8 @@ def standard_lift_off_factor(stiffness: str, drive_class: str, speed: float, edi
         stiffness: class HC1 to HC4.
         drive_class: HD1 to HD5.
         speed: v_h, of `class_lift_off_speed` [m/s].
-        edition: `by_class` (ISO 8686-1, older EN 13001-2), `by_drive` (newer: 1.05 at least for HD3 and HD5) or `raised`
-            (1.1 to 1.4 at least for HD1).
+        edition: `by_class` (ISO 8686-1, older EN 13001-2), `by_drive` (newer: 1.05 at least for HD3 and HD5) or
+            `raised` (1.1 to 1.4 at least for HD1).
 
     Returns:
         phi_2, largest force over the weight [1].

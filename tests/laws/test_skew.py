@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import root
 
 from ptmcalc.laws import skew
 
@@ -70,6 +71,61 @@ class TestEquilibrium:
         assert skew.slip_pole(d, coupled, weights, 0.3, SPAN) == pytest.approx(pole, rel=1e-8)
         assert found[2] == pytest.approx(wheels[3], abs=1e-3)
         assert found[2, 0] == 0.0
+
+
+class TestCurve:
+    """The standard's curve of friction at every wheel, in equilibrium by another root finder."""
+
+    @staticmethod
+    def crane(seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, float, float, str]:
+        rng = np.random.default_rng(seed)
+        pairs, base = int(rng.choice([2, 3, 4])), rng.uniform(2, 9)
+        d = np.sort([0.0, *rng.uniform(0, base, pairs - 2), base]) + rng.choice([0, 0.7])
+        coupled = np.full(pairs, float(rng.choice([0, 1])))
+        rail_two = str(rng.choice([skew.FIXED, skew.MOVABLE]))
+        return d, coupled, rng.uniform(1e5, 3e5, pairs), rng.uniform(0.1, 0.9), rng.uniform(5, 40), rail_two
+
+    @pytest.mark.parametrize("seed", range(30))
+    def test_against_a_root_of_the_balances(self, seed: int) -> None:
+        d, coupled, weights, centre, span, rail_two = self.crane(seed)
+        angle = [0.0008, 0.004, 0.012][seed % 3]
+
+        def wheels(turn: float, off: float) -> np.ndarray:
+            rows = []
+            for load, y in ((weights * (1 - centre), 0.0), (weights * centre, span)):
+                across = angle * (1 - turn * d) * (0.0 if y and rail_two == skew.MOVABLE else 1.0)
+                along = angle * coupled * (turn * y - off)
+                slip = np.hypot(across, along)
+                size = load * 0.3 * (1 - np.exp(-250 * slip)) / np.maximum(slip, 1e-300)
+                rows += [size * across, size * along]
+            return np.array([rows[0], rows[2], rows[1], rows[3]])
+
+        def balance(state: np.ndarray) -> list[float]:
+            f = wheels(*state)
+            slide = np.sum(f[2:]) / np.sum(weights) if np.any(coupled) else state[1]
+            return [slide, (np.sum(f[:2] * d) - span * np.sum(f[3])) / np.sum(weights) / span]
+
+        pole = skew.slip_pole(d, coupled, weights, centre, span, rail_two)
+        found = root(balance, [1 / pole, centre * span / pole], tol=1e-13)
+        law = skew.skew_equilibrium(0.3, angle, d, coupled, weights, centre, span, rail_two)
+        assert law == pytest.approx(wheels(*found.x), abs=1e-6 * np.sum(weights))
+
+    def test_the_linear_forces_are_those_of_a_small_angle(self) -> None:
+        d, coupled, weights, centre, span, rail_two = self.crane(4)
+        linear = skew.skew_forces(float(skew.skew_friction(1e-8, 0.3)), d, coupled, weights, centre, span, rail_two)
+        law = skew.skew_equilibrium(0.3, 1e-8, d, coupled, weights, centre, span, rail_two)
+        assert law[[0, 1, 3]] == pytest.approx(linear, rel=1e-5, abs=1e-9)
+
+    def test_the_guide_gets_other_forces_than_the_linear_ones(self) -> None:
+        ratios = []
+        for seed in range(400):
+            given = self.crane(1000 + seed)
+            angle = np.random.default_rng(seed).uniform(0.0005, 0.015)
+            law = skew.skew_equilibrium(0.3, angle, *given)
+            linear = skew.skew_forces(float(skew.skew_friction(angle, 0.3)), *given)
+            ratios.append(np.sum(law[:2]) / np.sum(linear[:2]))
+        assert min(ratios) == pytest.approx(0.934, abs=2e-3)
+        assert max(ratios) == pytest.approx(1.464, abs=2e-3)
 
 
 class TestPrinted:

@@ -955,6 +955,17 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         skew.skew_forces,
         lambda d: (d.share(), *cycle(d, 3), 0.999 * d.share(), *d.positive(1), d.shape("fixed", "movable")),
     ),
+    "skew_equilibrium": (
+        skew.skew_equilibrium,
+        lambda d: (
+            0.3,
+            0.015 * d.share(),
+            *cycle(d, 3),
+            0.999 * d.share(),
+            *d.positive(1),
+            d.shape("fixed", "movable"),
+        ),
+    ),
     "start_side_forces": (skew.start_side_forces, lambda d: (*d.positive(1), d.share(), *d.positive(2))),
     "wheel_grip": (skid.wheel_grip, lambda d: tuple(d.positive(6))),
     "driven_forces": (skid.driven_forces, lambda d: (*d.positive(3), np.array(d.positive(3)))),
@@ -1049,6 +1060,7 @@ SIGNED = {
     "rail_force",
     "slipping_acceleration",
     "skew_forces",
+    "skew_equilibrium",
     "start_side_forces",
 }
 """Laws whose value may be negative."""
