@@ -5,5 +5,6 @@ A new type is one folder with a manifest and one name in the list below.
 
 from ptmcalc.contract.machine import of_types
 from ptmcalc.machines.crane.slewing import SLEWING
+from ptmcalc.machines.crane.travelling import TRAVELLING
 
-KIND = of_types("crane", "crane: what slews", SLEWING)
+KIND = of_types("crane", "crane: what slews, what travels", SLEWING, TRAVELLING)

@@ -1,0 +1,151 @@
+"""The buffers a crane runs onto: what a file says of them."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.laws import buffer
+from ptmcalc.spec.fields import Measure, PositiveForce, PositiveLength, PositiveSpeed
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
+
+BufferStiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
+Orifice = Annotated[float, Measure(units.LINE_MASS, above=0)]
+ShapeShare = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
+
+_SLOW = 0.01
+"""Share of the speed from which on something in an orifice buffer stands."""
+_OF = {"linear": "stiffness", "constant": "force", "hydraulic": "orifice", "progressive": "end_force"}
+_EXAMPLE = {
+    "stiffness": "stiffness: 400 kN/m",
+    "force": "force: 60 kN",
+    "orifice": "orifice: 30 t/m",
+    "end_force": "end_force: 80 kN",
+}
+
+
+class Buffer(Fragment):
+    """The buffers on one end, of which all are equal and hit at once."""
+
+    type: Literal["linear", "progressive", "constant", "hydraulic"] = "linear"
+    """`linear`: springs, rubber; `progressive`: cellular plastic, its force grows as a power of the stroke; `constant`:
+    friction, hydraulic with a tapered pin; `hydraulic`: one orifice, its force goes with the square of the speed"""
+    count: Annotated[int, Field(ge=1, le=16, strict=True)] = 2
+    """buffers that are hit at once, one on each rail"""
+    stiffness: BufferStiffness | None = None
+    """of one `linear` buffer"""
+    force: PositiveForce | None = None
+    """of one `constant` buffer"""
+    end_force: PositiveForce | None = None
+    """of one `progressive` buffer at the end of its stroke"""
+    power: Annotated[float, Measure(units.RATIO, above=0, at_most=10)] = 2.0
+    """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
+    orifice: Orifice | None = None
+    """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
+    stroke: PositiveLength
+    """way it can be pressed in"""
+    rating: PositiveForce | None = None
+    """largest force of one buffer, or of what it stands on; needed to check it"""
+    largest_speed: PositiveSpeed | None = None
+    """it may be hit with, from its maker's list"""
+    shape: ShapeShare | None = None
+    """energy over largest force times stroke; by the type when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Each type has its own number."""
+        kind = given.word("type")
+        if kind is None:
+            return
+        wanted = _OF[kind]
+        if wanted not in given:
+            yield Conflict((), f"a `{kind}` buffer needs its `{wanted}`", f"add `{_EXAMPLE[wanted]}`")
+        for other in _OF.values():
+            if other != wanted and other in given:
+                fits = next(name for name, key in _OF.items() if key == other)
+                yield Conflict((other,), f"a `{kind}` buffer has no `{other}`", f"delete it, or write `type: {fits}`")
+
+    @property
+    def key(self) -> str:
+        """The key that says how hard it is."""
+        return _OF[self.type]
+
+    @property
+    def hardness(self) -> float:
+        """Stiffness [N/m], end force [N], force [N] or orifice [kg/m] of all buffers together."""
+        value = getattr(self, self.key)
+        assert value is not None
+        return float(self.count * value)
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """What buffers come to that something runs onto."""
+
+    force: float
+    """largest, of all buffers together [N]"""
+    stroke: float
+    """that the buffers would need; infinite where they do not stop it [m]"""
+    left: float
+    """speed at which they bottom out, 0 where they do not [m/s]"""
+    energy_share: float
+    """of their curve [1]"""
+
+
+def stopped(given: Buffer, mass: float, speed: float, push: float, stroke: float | None = None) -> Stopped:
+    """What a mass that runs onto the buffers with a constant push behind it comes to; a push below 0 brakes it.
+
+    An orifice alone never stops it wholly: its stroke is reckoned until a hundredth of the speed, what is left at the
+    end of its stroke is told.
+    """
+    way = given.stroke if stroke is None else stroke
+    hard = given.hardness
+    if given.type == "linear":
+        force, needed = buffer.driven_buffer(push, mass, hard, speed)
+        return _ended(force, needed, way, mass, speed, push, hard * way**2 / 2, hard * way, _share(given, 0.5))
+    if given.type == "progressive":
+        force, needed = buffer.progressive_buffer(push, mass, speed, hard, way, given.power)
+        energy = hard * way / (given.power + 1)
+        return _ended(force, needed, way, mass, speed, push, energy, hard, _share(given, 1 / (given.power + 1)))
+    if given.type == "constant":
+        needed = buffer.constant_force_stroke(push, hard, mass, speed)
+        return _ended(hard, needed, way, mass, speed, push, hard * way, hard, _share(given, 1.0))
+    force = float(np.max(buffer.orifice_buffer_force(np.array([0.0, way]), mass, hard, speed, push)))
+    left = float(buffer.orifice_buffer_speed(way, mass, hard, speed, push))
+    slow = _SLOW * speed
+    left = left if left > slow else 0.0
+    share = _share(given, buffer.orifice_energy_share(mass, hard, way))
+    return Stopped(force, _orifice_stroke(mass, hard, speed, push, slow), left, share)
+
+
+def _ended(
+    force: float,
+    needed: float,
+    way: float,
+    mass: float,
+    speed: float,
+    push: float,
+    energy: float,
+    end_force: float,
+    share: float,
+) -> Stopped:
+    """A buffer that stops what runs onto it, or bottoms out with what speed is left."""
+    if needed <= way:
+        return Stopped(force, needed, 0.0, share)
+    return Stopped(end_force, needed, buffer.speed_left(push, mass, speed, energy, way), share)
+
+
+def _share(given: Buffer, own: float) -> float:
+    return given.shape if given.shape is not None else own
+
+
+def _orifice_stroke(mass: float, orifice: float, speed: float, push: float, slow: float) -> float:
+    """Way until an orifice has brought the speed down to a slow one; infinite where the push keeps it faster [m]."""
+    steady = push / orifice
+    if steady >= slow**2:
+        return math.inf
+    return mass / (2 * orifice) * math.log((speed**2 - steady) / (slow**2 - steady))

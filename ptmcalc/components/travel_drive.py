@@ -1,0 +1,131 @@
+"""The drive that makes a crane, a trolley or a stacker travel: motors, gear, brakes, and how it is controlled."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from ptmcalc.base import units
+from ptmcalc.components import drive
+from ptmcalc.components.drive import Gear
+from ptmcalc.laws import gearing
+from ptmcalc.spec.fields import (
+    Inertia,
+    Measure,
+    PositiveAcceleration,
+    PositivePower,
+    PositiveTime,
+    PositiveTorque,
+    Time,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+
+ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
+DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
+
+
+class TravelMotor(drive.Motor):
+    """The travel motors, one of several equal ones."""
+
+    coupling_inertia: Inertia | None = None
+    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
+    rated_torque: PositiveTorque | None = None
+    """of one motor, or give `power` and `speed`; needed to check its heating"""
+    power: PositivePower | None = None
+    """rated power of one motor"""
+    rated_duty: DutyFactor = 1.0
+    """duty factor of the rating, e.g. `40 %`; continuous when left out"""
+    starts_per_hour: Rate | None = None
+    """how often the maker lets it start; needed to check the starts"""
+    cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
+        "self_ventilated"
+    )
+    """how it is cooled at rest"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The rating is given in one way."""
+        yield from super().conflicts(given)
+        yield from at_most_one(given, "rated_torque", "power")
+        yield from together(given, "power", "speed", "the rated torque is power over speed")
+
+    @property
+    def rated(self) -> float | None:
+        """Rated torque of one motor [N*m]."""
+        if self.power is not None and self.speed is not None:
+            return self.power / self.speed
+        return self.rated_torque
+
+
+class TravelGear(Gear):
+    """The gear between motors and driven wheels, the last stage included."""
+
+    reverse_efficiency: ReverseEfficiency | None = None
+    """from wheel to motor; 2 - 1/efficiency when left out"""
+
+
+class TravelBrake(Fragment):
+    """The travel brakes, on the motor shafts."""
+
+    torque: PositiveTorque
+    """of all brakes together, fully applied"""
+    delay: Time = 0.0
+    """from switching off until they begin to act"""
+    rise_time: Time = 0.0
+    """from then until their full torque, in a straight line"""
+
+
+class TravelDrive(Fragment):
+    """Motors, gear and brakes, and how they are controlled."""
+
+    motor: TravelMotor
+    """the travel motors"""
+    gear: TravelGear
+    """between motor shafts and driven wheels"""
+    brake: TravelBrake | None = None
+    """the brakes; without them the machine stops by `deceleration`"""
+    acceleration: PositiveAcceleration | None = None
+    """of a drive that keeps to a ramp of speed (converter); or give `ramp_time`; without either the motors start with
+    their mean starting torque"""
+    ramp_time: PositiveTime | None = None
+    """from rest to full speed, instead of `acceleration`"""
+    deceleration: PositiveAcceleration | None = None
+    """of a service stop along a ramp of speed; without it the brakes stop the machine"""
+    wheels: Literal["separate", "coupled"] = "separate"
+    """whether every driven wheel has its own share of the torque, or all are geared to one shaft"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The ramp is given in one way; something stops the machine."""
+        yield from at_most_one(given, "acceleration", "ramp_time")
+        if "brake" not in given and "deceleration" not in given:
+            yield given.missing("brake", "nothing stops the machine: give `brake` or `deceleration`")
+
+    @property
+    def torque(self) -> float:
+        """Mean starting torque of all motors [N*m]."""
+        return self.motor.count * self.motor.mean_torque
+
+    @property
+    def inertia(self) -> float:
+        """Rotors and couplings of all motors on the motor shaft [kg*m^2]."""
+        return self.motor.count * (self.motor.inertia + (self.motor.coupling_inertia or 0.0))
+
+    @property
+    def efficiency(self) -> float:
+        """From motor to wheel [1]."""
+        return self.gear.efficiency if self.gear.efficiency is not None else 1.0
+
+    @property
+    def reverse_efficiency(self) -> float:
+        """From wheel to motor [1]."""
+        if self.gear.reverse_efficiency is not None:
+            return self.gear.reverse_efficiency
+        return gearing.reverse_efficiency(self.efficiency)
+
+    def rim_per_torque(self, radius: float) -> float:
+        """Force at the rims of the wheels per torque of the motors without losses: ratio over radius [1/m]."""
+        return self.gear.ratio / radius
+
+    def ramp(self, speed: float) -> float | None:
+        """Acceleration of a drive that keeps to a ramp of speed; None of one that gives a torque [m/s^2]."""
+        return speed / self.ramp_time if self.ramp_time is not None else self.acceleration

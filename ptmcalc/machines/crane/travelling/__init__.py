@@ -1,0 +1,60 @@
+"""Travelling crane: a bridge, a gantry or a trolley on its wheels, with a load that swings."""
+
+from collections.abc import Iterator
+from importlib import resources
+
+from ptmcalc.base import units
+from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.result import Finding
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.assumptions import assumptions
+from ptmcalc.machines.crane.travelling.checks import CHECKS
+from ptmcalc.machines.crane.travelling.checks_drive import CHECKS_OF_DRIVE
+from ptmcalc.machines.crane.travelling.checks_events import CHECKS_OF_EVENTS
+from ptmcalc.machines.crane.travelling.effects import EFFECTS_OF_TRAVEL
+from ptmcalc.machines.crane.travelling.factors import CREEPING
+from ptmcalc.machines.crane.travelling.loads import LOADS, parts
+from ptmcalc.machines.crane.travelling.solvers import SOLVERS
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+_SPEED_TOLERANCE = 0.05
+
+
+def inspect(spec: Travelling) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    motor = spec.drive.motor
+    if motor.speed is not None:
+        given = motor.speed / model.rim_ratio(spec)
+        if abs(given / spec.speed - 1) > _SPEED_TOLERANCE:
+            yield Finding(
+                "SPC201",
+                f"motor, gear and wheels travel at {units.show(given, units.SPEED)}, the file says"
+                f" {units.show(spec.speed, units.SPEED)}",
+                ("speed",),
+                "correct the speed, the ratio, the wheels or the motor",
+            )
+
+    hoists = spec.suspension.hoist_speed is not None and spec.classes.hoisting is not None
+    if hoists and spec.classes.drive in CREEPING and spec.suspension.creep_speed is None:
+        yield Finding(
+            "SPC201",
+            f"a hoist of class {spec.classes.drive} has a creep speed",
+            ("class", "drive"),
+            "add `creep_speed: 0.02 m/s` to `suspension`, or write `drive: HD1`",
+        )
+
+
+TRAVELLING = MachineKind(
+    name="crane",
+    type="travelling",
+    title="travelling crane: bridge, gantry, trolley",
+    spec=Travelling,
+    loads=LOADS,
+    effects=EFFECTS_OF_TRAVEL,
+    solvers=SOLVERS,
+    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
+    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    assumed=assumptions,
+    inspect=inspect,
+    parts=parts,
+)

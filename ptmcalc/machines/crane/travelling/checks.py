@@ -1,0 +1,364 @@
+"""The checks of a travelling crane: start, stop, sway, grip, wheel loads; and what its checks share."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.scenes import (
+    Brake,
+    HoistWhileTravelling,
+    Moving,
+    Run,
+    Start,
+    TravelScene,
+)
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+OneCheck = Check[Travelling, TravelScene]
+STARTS: frozenset[type[Scene]] = frozenset({Start, HoistWhileTravelling})
+MOVES: frozenset[type[Scene]] = STARTS | {Brake}
+RUNNING: frozenset[type[Scene]] = frozenset({Run})
+
+
+def only(wanted: Callable[[Travelling, TravelScene], bool]) -> Callable[[OneCheck], OneCheck]:
+    """A check that is made of some cranes, and in some scenes, only."""
+
+    def of(check: OneCheck) -> OneCheck:
+        def each(spec: Travelling, scene: TravelScene) -> Iterable[OneCheck]:
+            return (check,) if wanted(spec, scene) else ()
+
+        return replace(check, each=each)
+
+    return of
+
+
+def at(*path: str) -> Callable[[Travelling, TravelScene], KeyPath]:
+    """Always the same key."""
+    return lambda spec, scene: path
+
+
+def blames(*path: str) -> Callable[[Travelling, TravelScene, Loads], KeyPath]:
+    """Always the same key."""
+    return lambda spec, scene, loads: path
+
+
+def hangs(spec: Travelling, scene: TravelScene) -> bool:
+    """Whether anything hangs on the ropes."""
+    return model.hanging(spec, scene) > 0
+
+
+def torque_key(spec: Travelling) -> KeyPath:
+    """What says how strongly the motors start."""
+    motor = spec.drive.motor
+    if motor.mean_starting_torque is not None:
+        return ("drive", "motor", "mean_starting_torque")
+    if motor.largest_starting_torque is not None:
+        return ("drive", "motor", "largest_starting_torque")
+    return ("drive", "motor", "curve")
+
+
+def torque_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
+    """The torque of the motors, where it is one number."""
+    key = torque_key(spec)
+    return key if key[-1] != "curve" else ()
+
+
+def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
+    """What says how fast a start or a stop is."""
+    if model.starts(scene):
+        if spec.drive.ramp_time is not None:
+            return ("drive", "ramp_time")
+        return ("drive", "acceleration") if spec.drive.acceleration is not None else torque_key(spec)
+    return ("drive", "deceleration") if model.commanded(spec, scene) is not None else ("drive", "brake", "torque")
+
+
+def _rate_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
+    key = rate_key(spec, _moving(scene))
+    return key if key[-1] != "curve" else ()
+
+
+def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
+    return rate_key(spec, _moving(scene))
+
+
+def _moving(scene: TravelScene) -> Moving:
+    assert isinstance(scene, Start | Brake | HoistWhileTravelling)
+    return scene
+
+
+# -- start and stop -------------------------------------------------------------------------------------------------
+
+
+def _start_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Longest start, 15 s by default.
+
+    **Range** any crane.
+    **Error** none: an engineering rule; 5 to 10 s is usual.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.start_time)
+
+
+SLOW: OneCheck = Check(
+    code="CRN150",
+    title="a travel drive that starts too slowly",
+    scenes=STARTS,
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=_start_limit,
+    needs=no_needs,
+    blame=_rate_blame,
+    repair=_rate_repair,
+    what="The crane has its full speed in the time asked, against wind and slope, the load swinging behind.",
+    why="A drive that hardly moves the crane stalls in the first gust, and heats its motors all the way.",
+    formula="t = v m_red/(F - W), with the load swinging; infinite for F <= W: it stalls",
+    source="balance of forces; pendulum under a pivot that is pushed",
+)
+
+
+def _stop_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Longest stop, 15 s by default.
+
+    **Range** any crane.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.brake_time)
+
+
+LONG_STOP: OneCheck = Check(
+    code="CRN151",
+    title="a travel drive that stops too slowly",
+    scenes=frozenset({Brake}),
+    loads=("brake_time",),
+    sense=Sense.AT_MOST,
+    limit=_stop_limit,
+    needs=no_needs,
+    blame=_rate_blame,
+    repair=_rate_repair,
+    what="The crane stands in the time asked, with wind and slope behind it and the load pushing on.",
+    why="Who runs towards people or buffers has this time and no more.",
+    formula="t = t_d + ..., m_red x'' = -F_b(t) - W + M g theta; infinite where brakes do not hold wind and slope",
+    source="balance of forces; pendulum under a pivot that is pushed",
+)
+
+
+def _distance_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Longest way to a stop that the file allows.
+
+    **Range** any crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    asked = spec.checks.brake_distance
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not None)(
+    Check(
+        code="CRN152",
+        title="too long a way to a stop",
+        scenes=frozenset({Brake}),
+        loads=("brake_distance",),
+        sense=Sense.AT_MOST,
+        limit=_distance_limit,
+        needs=no_needs,
+        blame=_rate_blame,
+        repair=_rate_repair,
+        what="The crane stands after the way asked.",
+        why="Limit switches and operators count on it.",
+        formula="s = integral of x' from the command to rest",
+        source="balance of forces",
+    )
+)
+
+# -- sway -----------------------------------------------------------------------------------------------------------
+
+
+def _sway_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Largest angle of the load, 10 deg by default.
+
+    **Range** any crane.
+    **Error** none: an engineering rule; 3 to 6 deg where loads are set down by hand.
+    **Source** the file, else usual practice.
+    """
+    return Estimate.exact(spec.checks.sway_angle)
+
+
+SWAY: OneCheck = only(hangs)(
+    Check(
+        code="CRN153",
+        title="a load that swings too far",
+        scenes=MOVES,
+        loads=("sway_angle_max",),
+        sense=Sense.AT_MOST,
+        limit=_sway_limit,
+        needs=no_needs,
+        blame=_rate_blame,
+        repair=_rate_repair,
+        what="The ropes do not leave the plumb line by more than the angle asked, in the start or stop and after it.",
+        why="A load that swings hits what it must not, and pulls at the crane with twice its share.",
+        formula="theta = 2 atan(a/g) from rest under a sudden a; less for ramps that match the period",
+        source="pendulum under a moved pivot",
+    )
+)
+
+
+def _residual_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Largest angle that stays, as the file allows.
+
+    **Range** any crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    asked = spec.checks.residual_sway
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks.residual_sway is not None)(
+    Check(
+        code="CRN154",
+        title="a load that goes on swinging too far",
+        scenes=MOVES,
+        loads=("sway_residual",),
+        sense=Sense.AT_MOST,
+        limit=_residual_limit,
+        needs=no_needs,
+        blame=_rate_blame,
+        repair=no_repair,
+        what="What is left of the swing after the start or stop is no more than asked.",
+        why="Nobody can set down or pick up a load until it hangs still. A ramp of one period leaves nothing.",
+        formula="theta_r = (2 a/g) |sin(omega t_a/2)| for small angles",
+        source="pendulum under a moved pivot",
+    )
+)
+
+# -- grip -----------------------------------------------------------------------------------------------------------
+
+
+def _skid_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Least adhesion over what is asked of a driven wheel, 1.2 by default.
+
+    **Range** steel wheels on rails.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.skid_reserve)
+
+
+def _skid_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
+    key = rate_key(spec, _moving(scene))
+    return key if key[-1] not in ("curve", "mean_starting_torque", "largest_starting_torque") else ()
+
+
+SKID: OneCheck = Check(
+    code="CRN155",
+    title="a driven wheel that skids",
+    scenes=MOVES,
+    loads=("skid_reserve_min",),
+    sense=Sense.AT_LEAST,
+    limit=_skid_limit,
+    needs=no_needs,
+    blame=_rate_blame,
+    repair=_skid_repair,
+    what="Every driven or braked wheel holds on the rail what its drive asks of it, the one with the least load too,"
+    " with the trolley at the far end, the load swinging, and the crane leaning with its acceleration.",
+    why="A wheel that skids wears flat and turns the crane askew, though the mean of all wheels would hold.",
+    formula="mu N_k/|F_k| >= 1.2,   F_k = s_k (m a + W + H),   N_k with m a h/B and H h/B taken off",
+    source="Coulomb's friction; equilibrium of the crane",
+)
+
+
+def _ramp_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """All that the motors give.
+
+    **Range** drives that keep to a ramp of speed.
+    **Error** none: a definition.
+    **Source** the mean starting torque of the file.
+    """
+    return Estimate.exact(1.0)
+
+
+RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) is not None)(
+    Check(
+        code="CRN156",
+        title="a ramp that the motors cannot follow",
+        scenes=MOVES,
+        loads=("drive_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_ramp_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: torque_key(spec),
+        repair=torque_repair,
+        what="The torque that the ramp asks, the load pulling its most, is within what the motors give in a start.",
+        why="A converter at its limit lets the ramp go: start, sway and grip are not those of the ramp any more.",
+        formula="J e + (m a + W + H) r/(u eta) <= M_mean",
+        source="balance of forces; power balance of the gear",
+    )
+)
+
+# -- wheel loads ----------------------------------------------------------------------------------------------------
+
+
+def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Largest load of a wheel by its rating.
+
+    **Range** any wheel and rail.
+    **Error** none: a limit of the file.
+    **Source** the maker of wheel or rail.
+    """
+    rating = spec.wheels.rating
+    return Estimate.exact(math.inf if rating is None else rating)
+
+
+WHEEL: OneCheck = Check(
+    code="CRN157",
+    title="a wheel loaded above its rating",
+    scenes=MOVES | RUNNING,
+    loads=("wheel_load_max",),
+    sense=Sense.AT_MOST,
+    limit=_wheel_limit,
+    needs=lambda spec, scene: (("wheels", "rating"),),
+    blame=blames("wheels", "rating"),
+    repair=at("wheels", "rating"),
+    what="No wheel carries more than it is rated for, the trolley where it is worst, the crane starting or stopping.",
+    why="Treads pit, rails roll out, and the runway is calculated for this load.",
+    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B",
+    source="equilibrium of the crane",
+)
+
+
+def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """A wheel stays on its rail.
+
+    **Range** any crane.
+    **Error** none: a wheel does not pull.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(0.0)
+
+
+LIFTS: OneCheck = Check(
+    code="CRN158",
+    title="a wheel that lifts off its rail",
+    scenes=MOVES | RUNNING,
+    loads=("wheel_load_min",),
+    sense=Sense.AT_LEAST,
+    limit=_lift_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("wheels", "base"),
+    repair=at("wheels", "base"),
+    what="Every wheel is loaded, the trolley where it is worst, the crane starting or stopping.",
+    why="A wheel in the air does not drive, brake or guide; a high gantry on a short base tips.",
+    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B >= 0",
+    source="equilibrium of the crane",
+)
+
+CHECKS: tuple[AnyCheck, ...] = (SLOW, LONG_STOP, LONG_WAY, SWAY, RESIDUAL, SKID, RAMP, WHEEL, LIFTS)
+"""The drive is judged in `checks_drive`, buffers, rails, storm and factors in `checks_events`."""

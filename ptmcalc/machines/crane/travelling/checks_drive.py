@@ -1,0 +1,195 @@
+"""The checks of a travel drive: what starts, what holds in the wind, what heats; and the class of the crane."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.travelling.checks import (
+    RUNNING,
+    Loads,
+    OneCheck,
+    at,
+    blames,
+    only,
+    torque_key,
+    torque_repair,
+)
+from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def _loaded(spec: Travelling, scene: TravelScene) -> bool:
+    return scene.load == "full"
+
+
+def _torque(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
+    return torque_key(spec)
+
+
+def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Least mean starting torque over that of even travel, 1.1 by default.
+
+    **Range** any drive that starts against wind and slope.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.motor_reserve)
+
+
+STALL: OneCheck = Check(
+    code="CRN160",
+    title="a motor that stalls: too weak to start",
+    scenes=frozenset({Run, Start}),
+    loads=("starting_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_reserve_limit,
+    needs=no_needs,
+    blame=_torque,
+    repair=torque_repair,
+    what="The mean starting torque exceeds the torque of even travel against friction, slope and the wind in which the"
+    " crane works, by the reserve asked.",
+    why="A motor below the resistance does not move the crane: it stalls and burns.",
+    formula="M_mean/(W r/(u eta)) >= 1.1",
+    source="power balance of the gear; handbooks of lifting machines",
+)
+
+
+def _wind_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """The motors at least hold the crane against the wind.
+
+    **Range** cranes in the wind.
+    **Error** none: a balance.
+    **Source** EN 13001-2, ISO 4302: largest wind in service.
+    """
+    return Estimate.exact(1.0)
+
+
+AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
+    Check(
+        code="CRN161",
+        title="a motor that does not hold against the wind",
+        scenes=RUNNING,
+        loads=("wind_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_wind_limit,
+        needs=no_needs,
+        blame=_torque,
+        repair=torque_repair,
+        what="The motors move the crane against the largest wind in service, up the slope.",
+        why="A crane that the wind holds or drives does not come to its parking place any more.",
+        formula="M u eta/r >= w G + G sin(alpha) + q_max c A",
+        source="balance of forces; winds of EN 13001-2 and ISO 4302",
+    )
+)
+
+
+def _on_duty(spec: Travelling, scene: TravelScene) -> bool:
+    return _loaded(spec, scene) and spec.duty is not None
+
+
+def _heat_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """All that the rating allows at the duty factor of the file.
+
+    **Range** ratings at another duty factor are converted with the motor's cooling at rest.
+    **Error** none: a definition.
+    **Source** IEC 60034-1; `laws.duty.permissible_torque`.
+    """
+    return Estimate.exact(1.0)
+
+
+def _rating(spec: Travelling) -> KeyPath:
+    return ("drive", "motor", "power" if spec.drive.motor.power is not None else "rated_torque")
+
+
+def _heat_needs(spec: Travelling, scene: TravelScene) -> tuple[KeyPath, ...]:
+    return () if spec.drive.motor.power is not None else (("drive", "motor", "rated_torque"),)
+
+
+HEAT: OneCheck = only(_on_duty)(
+    Check(
+        code="CRN162",
+        title="a travel motor that gets too hot",
+        scenes=RUNNING,
+        loads=("heating_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_heat_limit,
+        needs=_heat_needs,
+        blame=lambda spec, scene, loads: _rating(spec),
+        repair=lambda spec, scene: _rating(spec),
+        what="The torque that heats the motors as much as their cycle is within what the rating bears at this duty.",
+        why="Every 10 K too hot halves the life of the insulation.",
+        formula="M_rms = sqrt(sum M_i^2 t_i/sum t_i) <= M_n sqrt(B(ED_n)/B(ED))",
+        source="IEC 60034-1",
+    )
+)
+
+
+def _starts_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Most starts per hour that the maker allows.
+
+    **Range** any motor.
+    **Error** none: a limit of the file.
+    **Source** the maker of the motor.
+    """
+    allowed = spec.drive.motor.starts_per_hour
+    return Estimate.exact(math.inf if allowed is None else allowed)
+
+
+def _counts_starts(spec: Travelling, scene: TravelScene) -> bool:
+    return _on_duty(spec, scene) and spec.duty is not None and spec.duty.starts_per_hour is not None
+
+
+STARTS: OneCheck = only(_counts_starts)(
+    Check(
+        code="CRN163",
+        title="a travel motor started too often",
+        scenes=RUNNING,
+        loads=("starts_per_hour",),
+        sense=Sense.AT_MOST,
+        limit=_starts_limit,
+        needs=lambda spec, scene: (("drive", "motor", "starts_per_hour"),),
+        blame=blames("duty", "starts_per_hour"),
+        repair=at("duty", "starts_per_hour"),
+        what="The motor starts no more often than its maker allows.",
+        why="Each start leaves the energy of all that moves in the rotor once more.",
+        formula="z <= z_0",
+        source="the maker of the motor; IEC 60034-1",
+    )
+)
+
+
+def _group_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Group of the crane that the file claims.
+
+    **Range** A1 to A8.
+    **Error** none: a class.
+    **Source** the file.
+    """
+    group = spec.classes.crane
+    return Estimate.exact(math.inf if group is None else float(group[1:]))
+
+
+def _classed(spec: Travelling, scene: TravelScene) -> bool:
+    return _on_duty(spec, scene) and spec.duty is not None and spec.duty.cycles is not None
+
+
+CLASS: OneCheck = only(_classed)(
+    Check(
+        code="CRN164",
+        title="a crane classed too low for its use",
+        scenes=RUNNING,
+        loads=("crane_group",),
+        sense=Sense.AT_MOST,
+        limit=_group_limit,
+        needs=lambda spec, scene: (("class", "crane"),),
+        blame=blames("class", "crane"),
+        repair=no_repair,
+        what="The group that cycles and load spectrum ask (ISO 4301-1) is not above the one the file claims.",
+        why="Structure and mechanisms are proven for the life of the group.",
+        formula="A = U + Q - 2,   Q by k_p = sum (C_i/C_T) (P_i/P_max)^3",
+        source="ISO 4301-1",
+    )
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (STALL, AGAINST_WIND, HEAT, STARTS, CLASS)

@@ -1,0 +1,319 @@
+"""The effects a travelling crane that starts or stops may call for."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import rail
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.course import State
+from ptmcalc.machines.crane.travelling.finite import far, regular, widened
+from ptmcalc.machines.crane.travelling.linear import linear_course
+from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.moving import Motion, motion_of
+from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, RailStep, Start
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.wheels import Wheels
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+
+MOVING_SCENES: frozenset[type[Scene]] = frozenset({Start, Brake, HoistWhileTravelling})
+SWAY, REACTION, HOISTING, WIND = "travel_sway", "drive_reaction", "hoisting_sway", "travel_wind"
+LARGE, CURVE, SLIP, RAIL = "large_sway", "torque_curve", "wheel_slip", "rail_unevenness"
+IN_PLANE = frozenset({SWAY, REACTION, HOISTING, WIND})
+"""What every run carries."""
+
+SWAY_THRESHOLD = 0.02
+REACTION_THRESHOLD = 0.1
+HOISTING_THRESHOLD = 0.02
+WIND_THRESHOLD = 0.05
+LARGE_THRESHOLD = 0.01
+CURVE_THRESHOLD = 0.1
+SLIP_THRESHOLD = 1 / 1.5
+RAIL_THRESHOLD = 0.02
+
+
+def _anything(loads: Loads) -> Offsets:
+    return {name: ANYTHING for name in loads if name.partition("[")[0] in MOVING}
+
+
+def mean_acceleration(spec: Travelling, scene: Moving) -> float:
+    """Of a ramp, or of a rigid crane with its load under the mean force [m/s^2]."""
+    motion = motion_of(spec, scene)
+    if motion.ramp is not None:
+        return motion.ramp
+    drag = motion.rolling + motion.outside
+    rotor = motion.rotor if motion.starts else motion.rotor_braked
+    net = motion.force - drag if motion.starts else motion.force + drag
+    return abs(net) / (motion.body + rotor + motion.load)
+
+
+def _period(motion: Motion) -> float:
+    return 2 * math.pi * math.sqrt(motion.length / motion.gravity)
+
+
+# -- in every run ---------------------------------------------------------------------------------------------------
+
+
+def sway_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """Largest angle that a sudden acceleration gives the load.
+
+        2 a/g
+
+    a is that of the ramp, or of the rigid crane under its mean force; 0 where nothing hangs.
+
+    **Range** every start and stop; it is in every run.
+    **Error** an engineering measure: exact for small angles and a start of half a period or more.
+    **Source** pendulum under a sudden acceleration.
+    """
+    value = 2 * mean_acceleration(spec, scene) / spec.gravity if model.hanging(spec, scene) else 0.0
+    return Criterion("2a/g", value, SWAY_THRESHOLD, "angle of the load by a sudden start", "pendulum")
+
+
+def anything_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing is known of a start or stop without this.
+
+    **Range** every load of a start or a stop.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+def reaction_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """Load over what a torque has to move besides it; 0 for a drive that keeps to a ramp.
+
+        M/m_t
+
+    **Range** every start and stop; it is in every run.
+    **Error** an engineering measure: the square of the frequency grows by it.
+    **Source** two masses, one of them a pendulum.
+    """
+    motion = motion_of(spec, scene)
+    rotor = motion.rotor if motion.starts else motion.rotor_braked
+    value = 0.0 if motion.ramp is not None else motion.load / (motion.body + rotor)
+    return Criterion("M/m_t", value, REACTION_THRESHOLD, "load over what the drive moves besides it", "two masses")
+
+
+def hoisting_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """Share of its length that the rope wins or loses in one swing.
+
+        |V| T/L
+
+    **Range** a load that is hoisted while the crane starts; else 0. It is in every run.
+    **Error** an engineering measure.
+    **Source** pendulum of changing length.
+    """
+    motion = motion_of(spec, scene)
+    value = abs(motion.hoisting) * _period(motion) / motion.length
+    return Criterion("|V| T/L", value, HOISTING_THRESHOLD, "change of the rope in a swing over its length", "pendulum")
+
+
+def wind_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """Wind and slope over the force of the drive or the brakes.
+
+        |F_w + F_s|/F
+
+    **Range** every start and stop; it is in every run.
+    **Error** an engineering measure.
+    **Source** balance along the rails.
+    """
+    motion = motion_of(spec, scene)
+    mass = motion.body + motion.load
+    force = motion.force if motion.ramp is None else mass * motion.ramp + motion.rolling
+    value = abs(motion.outside) / force if force else math.inf
+    return Criterion("F_w/F", value, WIND_THRESHOLD, "wind and slope over what drives or brakes", "balance of forces")
+
+
+# -- finite angles --------------------------------------------------------------------------------------------------
+
+
+def large_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """What finite angles may change of the swing, over its largest angle.
+
+        (x - atan x) (2 + omega t)/(2 x),   x = a/g,   t of the ramp or the rigid start
+
+    **Range** every start and stop.
+    **Error** a bound for a ramp and ropes of constant length, an engineering measure else.
+    **Source** derived at `large_bound`.
+    """
+    if not model.hanging(spec, scene):
+        return Criterion("Δθ/θ", 0.0, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+    motion = motion_of(spec, scene)
+    a = mean_acceleration(spec, scene)
+    x = a / motion.gravity
+    turned = 2 * math.pi / _period(motion) * motion.speed / a if a else math.inf
+    value = far(x) * (2 + turned) / (2 * x) if x else 0.0
+    return Criterion("Δθ/θ", value, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+
+
+def large_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """The difference e of the swing psi of finite angles from the linear one, under a sudden acceleration a = x g.
+
+        e'' + omega^2 e = omega^2 R,   R = psi - sin psi - x (1 - cos psi)
+
+    From rest 0 <= psi <= 2 atan x, where R falls from 0 to -2 h, h = x - atan x. Its middle -h alone makes
+    2 h |sin(omega t/2)| of (e, e'/omega), what it strays from it no more than h omega t:
+
+        |(e, e'/omega)| <= h (2 |sin(omega t/2)| + omega t)
+
+    Of a free swing that begins with rho = |(psi, psi'/omega)|, the largest angle lies between rho and 2 asin(rho/2).
+    The pull of the rope goes with the angle by T = M (3 g cos psi + 3 a sin psi - 2 g), in a free swing of amplitude A
+    by M g (3 cos psi - 2 cos A).
+
+    **Range** a ramp from rest or to rest, ropes of constant length, no wind or slope on the load, a below g; a crane
+    with nothing on its ropes has no bound to keep; else unbounded.
+    **Error** a bound; on the seeded sample of the test a third of it does not hold.
+    **Source** derived: Duhamel's integral; energy of the pendulum.
+    """
+    motion = motion_of(spec, scene)
+    if not motion.load:
+        return {}
+    if not regular(motion):
+        return _anything(loads)
+    try:
+        course = linear_course(motion)
+    except NumericsError:
+        return _anything(loads)
+    wide = loads_of(spec, scene, widened(motion, course))
+    narrow = loads_of(spec, scene, course)
+    return {
+        name: Interval(
+            min(wide[name].estimate.low - narrow[name].estimate.low, 0.0),
+            max(wide[name].estimate.high - narrow[name].estimate.high, 0.0),
+        )
+        if name != "sway_angle_max"
+        else Interval(
+            wide[name].estimate.low - narrow[name].estimate.low, wide[name].estimate.high - narrow[name].estimate.high
+        )
+        for name in loads
+        if name in wide and name in narrow and wide[name].estimate != narrow[name].estimate
+    }
+
+
+# -- motor ----------------------------------------------------------------------------------------------------------
+
+
+def curve_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """How far the motor's torque strays from its mean on the way to full speed.
+
+        (M_max - M_min)/M_mean
+
+    **Range** a start by torque of a motor whose curve the file gives; else 0.
+    **Error** an engineering measure.
+    **Source** the curve of the file.
+    """
+    value = 0.0
+    if follows_curve(spec, scene):
+        curve = spec.drive.motor.curve
+        assert curve is not None
+        torques = curve.torque(np.linspace(0.0, model.motor_speed(spec), 65), np.inf)
+        value = float(np.ptp(torques)) / spec.drive.motor.mean_torque
+    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the motor's torque over its mean", "motor curve")
+
+
+def follows_curve(spec: Travelling, scene: Moving) -> bool:
+    """Whether a start is by the torque of a motor whose curve is given."""
+    by_torque = model.starts(scene) and model.commanded(spec, scene) is None
+    return by_torque and spec.drive.motor.curve is not None
+
+
+def curve_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where the start follows no curve; else nothing is known without it.
+
+    **Range** every load of a start or a stop.
+    **Error** exact without a curve; else unbounded: the largest torque of a motor is several times its mean.
+    **Source** the curve of the file.
+    """
+    return _anything(loads) if follows_curve(spec, scene) else {}
+
+
+# -- wheels ---------------------------------------------------------------------------------------------------------
+
+
+def slip_criterion(spec: Travelling, scene: Moving) -> Criterion:
+    """Force asked of the driven wheel with the least adhesion over it, the load pulling twice as in even acceleration.
+
+        F/(mu N)
+
+    **Range** every start and stop.
+    **Error** an engineering measure: exact for a sudden ramp of half a period or more and small angles.
+    **Source** Coulomb's friction, `laws.skid`.
+    """
+    motion = motion_of(spec, scene)
+    a = mean_acceleration(spec, scene) * (1 if motion.starts else -1)
+    pull = motion.on_load + 2 * motion.load * a
+    traction = motion.body * a + motion.rolling + motion.wind + pull
+    state = State(a, pull, motion.load * motion.gravity, traction, motion.wind)
+    least = float(Wheels.of(spec, scene).least_grip(state)[0])
+    value = 1 / least if least else math.inf
+    return Criterion("F/μN", value, SLIP_THRESHOLD, "force of a driven wheel over its adhesion", "laws.skid")
+
+
+def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where no driven wheel needs more than its adhesion; else nothing is known without it.
+
+    **Range** every load of a start or a stop.
+    **Error** exact where all wheels roll; else unbounded: a crane whose wheels slide has another start and stop.
+    **Source** Coulomb's friction.
+    """
+    least = loads.get("skid_reserve_min")
+    return (
+        {}
+        if least is not None and least.low >= 1
+        else {name: offset for name, offset in _anything(loads).items() if not name.startswith("skid_reserve")}
+    )
+
+
+# -- rail -----------------------------------------------------------------------------------------------------------
+
+
+def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
+    """Share of gravity by which a step or gap of the rail changes the wheel loads.
+
+        (pi/2)^2 v^2/(g r) max(xi, 2.2 where alpha > 1)
+
+    **Range** steps and gaps small beside the wheel; 0 for an even rail.
+    **Error** an engineering measure: for alpha above 1 the swing behind a step may vanish while that on it does not.
+    **Source** `laws.rail`; EN 13001-2.
+    """
+    radius, speed = model.radius(spec), scene.speed_share * spec.speed
+    frequency = 2 * math.pi * model.filled(spec.rail.frequency)
+    answers = [0.0]
+    if spec.rail.step:
+        number = rail.step_number(frequency, speed, radius, spec.rail.step)
+        answers.append(max(float(rail.residual_step(number)), 2.2 if number > 1 else 0.0))
+    if spec.rail.gap:
+        number = rail.gap_number(frequency, speed, spec.rail.gap)
+        answers.append(max(float(rail.residual_gap(number)), 2.2 if number > 1 else 0.0))
+    value = rail.rail_acceleration(speed, radius) / spec.gravity * max(answers)
+    return Criterion("a_w/g", value, RAIL_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+
+
+def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:
+    """Nothing is known of a step without this.
+
+    **Range** phi4 and the contact of the wheels.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return dict.fromkeys(loads, ANYTHING)
+
+
+EFFECTS_OF_TRAVEL: tuple[AnyEffect, ...] = (
+    Effect(SWAY, "swing of the load", MOVING_SCENES, sway_criterion, anything_bound),
+    Effect(REACTION, "pull of the load on a crane driven by torque", MOVING_SCENES, reaction_criterion, anything_bound),
+    Effect(HOISTING, "hoisting while the load swings", MOVING_SCENES, hoisting_criterion, anything_bound),
+    Effect(WIND, "wind and slope", MOVING_SCENES, wind_criterion, anything_bound),
+    Effect(LARGE, "finite angles of the load", MOVING_SCENES, large_criterion, large_bound),
+    Effect(CURVE, "torque of the motor over its speed", MOVING_SCENES, curve_criterion, curve_bound),
+    Effect(RAIL, "steps and gaps of the rail", frozenset({RailStep}), rail_criterion, rail_bound),
+    Effect(SLIP, "driven wheels that slide", MOVING_SCENES, slip_criterion, slip_bound),
+)

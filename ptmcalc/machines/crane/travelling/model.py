@@ -1,0 +1,249 @@
+"""A travelling crane as numbers: its masses and where they are, what resists it, what drives it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ptmcalc.laws import gearing, inertia
+from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start, TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+FloatArray = NDArray[np.float64]
+
+CORNERS = ("A1", "A2", "B1", "B2")
+"""On rail A or B, front or rear."""
+
+
+def filled(value: float | None) -> float:
+    """A value the file or an assumption has given by now."""
+    assert value is not None, "assumptions are filled in before anything is computed"
+    return value
+
+
+# -- masses ---------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A part that travels: its mass, and its centre of gravity across the rails from rail A and above them."""
+
+    mass: float
+    across: float
+    height: float
+
+
+def hanging(spec: Travelling, scene: TravelScene) -> float:
+    """What hangs on the ropes, the hook block in it [kg]."""
+    return spec.hook_block + (spec.load if scene.load == "full" else 0.0)
+
+
+def bodies(spec: Travelling, hook: float) -> tuple[Body, ...]:
+    """What travels besides the load, with the hook so far from rail A."""
+    trolley = spec.trolley
+    if spec.bridge is None:
+        return (Body(trolley.mass, spec.gauge / 2, trolley.height),)
+    bridge = spec.bridge
+    centre = bridge.centre if bridge.centre is not None else bridge.span / 2
+    return Body(bridge.mass, centre, bridge.height), Body(trolley.mass, hook, trolley.height)
+
+
+def travelling_mass(spec: Travelling) -> float:
+    """What travels besides the load, the wheels that are not driven with what turns in them [kg]."""
+    free = wheel_count(spec) - driven_wheels(spec)
+    return sum(body.mass for body in bodies(spec, 0.0)) + free * spec.wheels.inertia / radius(spec) ** 2
+
+
+def weight(spec: Travelling, scene: TravelScene) -> float:
+    """On the rails [N]."""
+    return (sum(body.mass for body in bodies(spec, 0.0)) + hanging(spec, scene)) * spec.gravity
+
+
+def hook_places(spec: Travelling, scene: TravelScene) -> tuple[float, ...]:
+    """Distances of the hook from rail A that a scene is about [m]."""
+    trolley, gauge = spec.trolley, spec.gauge
+    if spec.bridge is None:
+        return (trolley.hook if trolley.hook is not None else gauge / 2,)
+    near = filled(trolley.nearest)
+    far = trolley.farthest if trolley.farthest is not None else gauge - near
+    named = {"near": (near,), "far": (far,), "middle": ((near + far) / 2,)}
+    return named.get(scene.trolley, (near, far))
+
+
+def rope_height(spec: Travelling) -> float:
+    """Of the place where the ropes are held, above the rails of the wheels [m]."""
+    held = spec.suspension.height
+    return held if held is not None else spec.trolley.height
+
+
+# -- wheels ---------------------------------------------------------------------------------------------------------
+
+
+def radius(spec: Travelling) -> float:
+    """Of a wheel [m]."""
+    return spec.wheels.diameter / 2
+
+
+def wheel_count(spec: Travelling) -> int:
+    """Of all corners."""
+    return 4 * spec.wheels.per_corner
+
+
+def driven_at(spec: Travelling, corner: str) -> int:
+    """Driven wheels of a corner."""
+    wheels = spec.wheels
+    if corner not in wheels.driven:
+        return 0
+    return wheels.driven_per_corner if wheels.driven_per_corner is not None else wheels.per_corner
+
+
+def driven_wheels(spec: Travelling) -> int:
+    """Of all corners."""
+    return sum(driven_at(spec, corner) for corner in CORNERS)
+
+
+# -- what resists ---------------------------------------------------------------------------------------------------
+
+
+def wind_force(spec: Travelling, pressure: float | None) -> float:
+    """Of a wind along the rails on what travels, without the load [N]."""
+    if spec.wind is None or pressure is None:
+        return 0.0
+    return pressure * spec.wind.shape * spec.wind.area
+
+
+def wind_on_load(spec: Travelling, scene: TravelScene, pressure: float | None) -> float:
+    """Of a wind along the rails on the load; nothing hangs there in an empty scene [N]."""
+    if spec.wind is None or pressure is None or scene.load == "empty":
+        return 0.0
+    return pressure * spec.wind.load_shape * spec.wind.load_area
+
+
+def working_pressure(spec: Travelling) -> float | None:
+    """Of the wind in which it starts and stops [Pa]."""
+    return spec.wind.pressure if spec.wind is not None else None
+
+
+def largest_pressure(spec: Travelling) -> float | None:
+    """Of the wind in service [Pa]."""
+    if spec.wind is None:
+        return None
+    return spec.wind.pressure_max if spec.wind.pressure_max is not None else spec.wind.pressure
+
+
+def wind_height(spec: Travelling) -> float:
+    """Of the middle of the area in the wind, above the rails [m]."""
+    if spec.wind is not None and spec.wind.height is not None:
+        return spec.wind.height
+    return spec.bridge.height if spec.bridge is not None else spec.trolley.height
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """Forces along the rails in a scene, positive against the travel [N]."""
+
+    wind: float
+    """on what travels"""
+    wind_on_load: float
+    slope: float
+    """on what travels, without the load"""
+    slope_on_load: float
+
+    @property
+    def total(self) -> float:
+        return self.wind + self.wind_on_load + self.slope + self.slope_on_load
+
+
+def _sign(word: str | None, scene: Moving) -> float:
+    """+1 against the travel, -1 with it: against a start, with a stop."""
+    default = "with" if isinstance(scene, Brake) else "against"
+    return {"against": 1.0, "with": -1.0, "none": 0.0}[word or default]
+
+
+def climbs(scene: Moving) -> float:
+    """+1 for rails that rise in the direction of travel, -1 for rails that fall."""
+    return _sign(scene.slope, scene)
+
+
+def outside(spec: Travelling, scene: Moving) -> Outside:
+    """Wind and slope of a start or a stop."""
+    blows, rises = _sign(scene.wind, scene), climbs(scene)
+    pressure = working_pressure(spec)
+    own = sum(body.mass for body in bodies(spec, 0.0))
+    return Outside(
+        blows * wind_force(spec, pressure),
+        blows * wind_on_load(spec, scene, pressure),
+        rises * own * spec.gravity * spec.rail.slope,
+        rises * hanging(spec, scene) * spec.gravity * spec.rail.slope,
+    )
+
+
+# -- drive ----------------------------------------------------------------------------------------------------------
+
+
+def rim_ratio(spec: Travelling) -> float:
+    """Angle of the motors per way of travel [1/m]."""
+    return spec.drive.gear.ratio / radius(spec)
+
+
+def motor_speed(spec: Travelling) -> float:
+    """At full speed [rad/s]."""
+    return spec.speed * rim_ratio(spec)
+
+
+def driving_force(spec: Travelling, torque: float) -> float:
+    """At the rims of the driven wheels from a torque of the motors at even speed [N]."""
+    return torque * rim_ratio(spec) * spec.drive.efficiency
+
+
+def braking_force(spec: Travelling, torque: float) -> float:
+    """At the rims of the braked wheels from a torque of the brakes at even speed [N]."""
+    return torque * rim_ratio(spec) / spec.drive.reverse_efficiency
+
+
+def rotor_mass(spec: Travelling, braking: bool) -> float:
+    """Mass at the rims that stands for what turns before them: rotors, couplings, driven wheels [kg]."""
+    loss = 1 / spec.drive.reverse_efficiency if braking else spec.drive.efficiency
+    wheels = driven_wheels(spec) * spec.wheels.inertia
+    return inertia.reduced_drive_mass(spec.drive.inertia, spec.drive.gear.ratio, loss, wheels, radius(spec))
+
+
+def motor_torque(spec: Travelling, force: ArrayLike, acceleration: ArrayLike) -> FloatArray:
+    """Of all motors, for a force of the driven wheels on the rails and an acceleration of travel [N*m]."""
+    a = np.asarray(acceleration, float)
+    on_wheels = np.asarray(force, float) * radius(spec) + driven_wheels(spec) * spec.wheels.inertia / radius(spec) * a
+    through = gearing.input_torque(
+        on_wheels, 1.0, spec.drive.gear.ratio, spec.drive.efficiency, spec.drive.reverse_efficiency
+    )
+    return np.asarray(spec.drive.inertia * rim_ratio(spec) * a + through)
+
+
+def even_motor_torque(spec: Travelling, force: float) -> float:
+    """Of all motors in even travel, for a force of the driven wheels on the rails [N*m]."""
+    return float(motor_torque(spec, force, 0.0))
+
+
+def rope_length(spec: Travelling, scene: Moving) -> float:
+    """At the beginning of a scene [m]."""
+    return scene.length if scene.length is not None else spec.suspension.length
+
+
+def hoisting_speed(spec: Travelling, scene: Moving) -> float:
+    """By which the ropes get shorter, negative where the load is lowered [m/s]."""
+    if not isinstance(scene, HoistWhileTravelling):
+        return 0.0
+    speed = filled(spec.suspension.hoist_speed)
+    return speed if scene.hoist == "up" else -speed
+
+
+def commanded(spec: Travelling, scene: Moving) -> float | None:
+    """Acceleration of a drive that keeps to a ramp, positive in a start and in a stop; None of a torque [m/s^2]."""
+    if isinstance(scene, Brake):
+        by_brake = scene.by == "brake" or spec.drive.deceleration is None
+        return None if by_brake else spec.drive.deceleration
+    return spec.drive.ramp(spec.speed)
+
+
+def starts(scene: TravelScene) -> bool:
+    """Whether it is brought to speed."""
+    return isinstance(scene, Start | HoistWhileTravelling)

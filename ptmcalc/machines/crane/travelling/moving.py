@@ -1,0 +1,130 @@
+"""What moves a travelling crane in a start or a stop, as a witness of small or of finite angles reads it."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.machines.crane.travelling import model, resisting
+from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The numbers of a start or a stop; along the rails positive in the direction of travel."""
+
+    starts: bool
+    speed: float
+    """full speed [m/s]"""
+    gravity: float
+    load: float
+    """mass on the ropes [kg]"""
+    body: float
+    """mass that travels besides it [kg]"""
+    rolling: float
+    """resistance of the wheels, against the motion [N]"""
+    outside: float
+    """wind and slope, against the travel, on the load too [N]"""
+    wind: float
+    """and slope, on what travels, against the travel [N]"""
+    wind_on_body: float
+    """the wind alone on what travels, against the travel [N]"""
+    on_load: float
+    """wind and slope on the load, against the travel [N]"""
+    wind_on_load: float
+    """the wind alone: a load hangs plumb on a slope [N]"""
+    length: float
+    """of the ropes at the beginning [m]"""
+    hoisting: float
+    """speed at which they get shorter [m/s]"""
+    asked_time: float | None
+    """how long the file hoists [s]"""
+    ramp: float | None
+    """size of a commanded acceleration; None of a torque [m/s^2]"""
+    force: float
+    """of drive or brake at the rims, its size [N]"""
+    least_force: float
+    """of a motor's curve between rest and full speed, at the rims; else `force` [N]"""
+    delay: float
+    """of the brake [s]"""
+    rise: float
+    """of the brake [s]"""
+    rotor: float
+    """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
+    rotor_braked: float
+    """the same while the brakes act [kg]"""
+
+    @property
+    def rigid_time(self) -> float:
+        """Of a ramp, or of a start or stop by torque with a load that does not swing [s]."""
+        if self.ramp is not None:
+            return self.speed / self.ramp
+        net = self.force + (-1 if self.starts else 1) * (self.rolling + self.outside)
+        whole = self.body + (self.rotor if self.starts else self.rotor_braked) + self.load
+        return self.speed * whole / net if net > 0 else math.inf
+
+    @property
+    def hoist_time(self) -> float:
+        """How long the load is hoisted; without a time in the file as long as a start whose load does not swing [s]."""
+        if not self.hoisting:
+            return 0.0
+        return self.asked_time if self.asked_time is not None else self.rigid_time
+
+    @property
+    def lean(self) -> float:
+        """Angle by which the wind holds the load, in the direction of travel [rad]."""
+        return -math.atan(self.wind_on_load / (self.load * self.gravity)) if self.load else 0.0
+
+
+def motion_of(spec: Travelling, scene: Moving) -> Motion:
+    """The numbers of a scene."""
+    forces = model.outside(spec, scene)
+    starts = model.starts(scene)
+    brake = spec.drive.brake
+    if starts:
+        force = model.driving_force(spec, spec.drive.torque)
+    else:
+        force = model.braking_force(spec, brake.torque) if brake is not None else 0.0
+    return Motion(
+        starts=starts,
+        speed=spec.speed,
+        gravity=spec.gravity,
+        load=model.hanging(spec, scene),
+        body=model.travelling_mass(spec),
+        rolling=resisting.rolling(spec, scene),
+        outside=forces.total,
+        wind=forces.wind + forces.slope,
+        wind_on_body=forces.wind,
+        on_load=forces.wind_on_load + forces.slope_on_load,
+        wind_on_load=forces.wind_on_load,
+        length=model.rope_length(spec, scene),
+        hoisting=model.hoisting_speed(spec, scene),
+        asked_time=scene.time if isinstance(scene, HoistWhileTravelling) else None,
+        ramp=model.commanded(spec, scene),
+        force=force,
+        least_force=_least_force(spec, force) if starts else force,
+        delay=brake.delay if brake is not None else 0.0,
+        rise=brake.rise_time if brake is not None else 0.0,
+        rotor=model.rotor_mass(spec, braking=False),
+        rotor_braked=model.rotor_mass(spec, braking=True),
+    )
+
+
+def _least_force(spec: Travelling, force: float) -> float:
+    """Of a motor's curve on its way to full speed [N]."""
+    motor = spec.drive.motor
+    if motor.curve is None or isinstance(motor.curve, ConverterMotor):
+        return force
+    speeds = np.linspace(0.0, model.motor_speed(spec), 257)
+    return model.driving_force(spec, motor.count * float(np.min(motor.curve.torque(speeds, np.inf))))
+
+
+def stalls(motion: Motion) -> bool:
+    """Whether a torque does not get it going, or does not stop it."""
+    if motion.ramp is not None:
+        return False
+    if motion.starts:
+        return motion.force <= motion.rolling + motion.outside
+    return motion.force + motion.rolling + motion.outside <= 0

@@ -1,0 +1,72 @@
+"""The loads that a start or a stop comes to."""
+
+import math
+from functools import partial
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, of
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.course import Course, State, extreme
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_corners
+
+
+def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found]:
+    """All loads of a start or a stop."""
+    starts, wheels = model.starts(scene), Wheels.of(spec, scene)
+    found = {
+        "start_time" if starts else "brake_time": course.time,
+        "start_distance" if starts else "brake_distance": course.distance,
+        "acceleration_max": course.extreme(lambda state: np.abs(state.acceleration), largest=True).estimate,
+        "sway_angle_max": course.sway,
+        "sway_residual": course.residual,
+        "horizontal_force": course.extreme(lambda state: np.abs(state.pull), largest=True).estimate,
+        "traction_max": course.extreme(lambda state: np.abs(state.traction), largest=True).estimate,
+    }
+    if model.commanded(spec, scene) is not None:
+        asked = course.extreme(
+            lambda state: np.abs(model.motor_torque(spec, state.traction, state.acceleration)), largest=True
+        ).estimate
+        found["torque_motor_max"] = asked
+        found["drive_utilisation"] = scaled(asked, 1 / spec.drive.torque)
+    grips = {
+        corner: course.extreme(partial(_grip, wheels, corner), largest=False).estimate
+        for corner in driven_corners(spec)
+    }
+    found |= {of("skid_reserve", corner): grip for corner, grip in grips.items()}
+    loads = {name: Found(estimate) for name, estimate in found.items()}
+    if math.isinf(course.time.value):
+        name = "start_time" if starts else "brake_time"
+        why = "stall: the motors do not bring it to full speed" if starts else "the brakes do not stop it"
+        loads[name] = Found(course.time, note=why)
+    least = min(grips, key=lambda corner: grips[corner].value)
+    loads["skid_reserve_min"] = Found(extreme(grips.values(), largest=False), note=f"wheels of corner {least}")
+    for name, largest in (("wheel_load_max", True), ("wheel_load_min", False)):
+        worst = course.extreme(partial(_wheel, wheels, largest), largest)
+        loads[name] = Found(worst.estimate, note=f"{wheels.where(worst.state, largest)}, {worst.phase}")
+    if model.hanging(spec, scene):
+        period = 2 * math.pi * math.sqrt(model.rope_length(spec, scene) / spec.gravity)
+        loads["sway_period"] = loads["sway_free_ramp"] = Found(Estimate.exact(period))
+    return loads
+
+
+def scaled(estimate: Estimate, factor: float) -> Estimate:
+    """Many times as much."""
+    return Estimate(
+        estimate.value * factor,
+        estimate.low * factor,
+        estimate.high * factor,
+        estimate.numerical * factor,
+        estimate.model * factor,
+    )
+
+
+def _grip(wheels: Wheels, corner: str, state: State) -> FloatArray:
+    return wheels.grip(state, corner)
+
+
+def _wheel(wheels: Wheels, largest: bool, state: State) -> FloatArray:
+    return wheels.extreme(state, largest)

@@ -1,0 +1,40 @@
+"""What resists even travel: the wheels, wind and slope."""
+
+import math
+
+from ptmcalc.laws import travel
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.model import filled
+from ptmcalc.machines.crane.travelling.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def coefficient(spec: Travelling) -> float:
+    """Resistance of the wheels over the weight [1]."""
+    given = spec.rolling
+    if given.coefficient is not None:
+        return given.coefficient
+    return travel.rolling_coefficient(
+        given.bearing_friction,
+        filled(given.axle_diameter),
+        filled(given.lever_arm),
+        spec.wheels.diameter,
+        given.flange_factor,
+    )
+
+
+def slope_angle(spec: Travelling) -> float:
+    """Of the rails [rad]."""
+    return math.atan(spec.rail.slope)
+
+
+def rolling(spec: Travelling, scene: TravelScene) -> float:
+    """Of the wheels, with what a scene has on the hook [N]."""
+    return float(travel.travel_resistance(1.0, model.weight(spec, scene), coefficient(spec), 0.0, 0.0))
+
+
+def even(spec: Travelling, scene: TravelScene, pressure: float | None) -> float:
+    """All that resists even travel against the wind and up the slope [N]."""
+    wind = model.wind_force(spec, pressure) + model.wind_on_load(spec, scene, pressure)
+    weight = model.weight(spec, scene)
+    return float(travel.travel_resistance(1.0, weight, coefficient(spec), slope_angle(spec), wind))

@@ -1,0 +1,354 @@
+"""A start or a stop with a load of any angle, the motor's curve and the direction of power: simulated."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.base import units
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.motor import ConverterMotor, Stage
+from ptmcalc.contract.result import Event, Finding, History
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.course import Course, Reading, State, Worst
+from ptmcalc.machines.crane.travelling.linear import linear_course, stalled
+from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Load, Push, Rail, Smooth, Straight
+from ptmcalc.numerics.pendulum.pieces import Pieces, braking
+from ptmcalc.numerics.pendulum.swing import Swing, swing
+
+FloatArray = NDArray[np.float64]
+
+SIGNALS = ("acceleration", "pull_along", "tension")
+_DOUBLINGS = 8
+_SHOWN = 400
+_BETWEEN = np.arange(8) / 8
+"""Looks from node to node of the swing, the first one at it."""
+_SIDE = 1e-12
+"""Share of the time by which a look goes to either side of an event."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A swing under one law of the drive, from a time on and for so long."""
+
+    start: float
+    swing: Swing
+    lasts: float
+
+    @property
+    def end(self) -> float:
+        return self.start + self.lasts
+
+
+@dataclass(frozen=True, slots=True)
+class Simulated(Course):
+    """A course read from states over time: extremes of the looks, with what may lie between them as a bar."""
+
+    times: FloatArray | None = None
+    seen: State | None = None
+    breaks: tuple[float, ...] = ()
+    """times at which something changes at once"""
+    phases_of: tuple[tuple[float, str], ...] = ()
+    """when each phase begins, and its name"""
+    share: float = 0.0
+    """numerical bar of the pull over its size"""
+
+    def extreme(self, of: Reading, largest: bool) -> Worst:
+        assert self.seen is not None
+        assert self.times is not None
+        values = np.asarray(of(self.seen), float)
+        k = int(values.argmax() if largest else values.argmin())
+        value = float(values[k])
+        beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
+        gap = max((abs(float(values[j]) - value) for j in beside), default=0.0) if math.isfinite(value) else 0.0
+        bar = gap / 4 + self.share * abs(value) if math.isfinite(value) else 0.0
+        estimate = Estimate.exact(value) if bar == 0 else Estimate.within(value, bar)
+        time = float(self.times[k])
+        phase = [name for begins, name in self.phases_of if begins <= time][-1]
+        state = State(*(np.atleast_1d(np.asarray(part))[[k]] for part in self.seen))
+        return Worst(estimate, phase, state)
+
+    def _parted(self, k: int, j: int) -> bool:
+        """Whether something changes at once between two looks."""
+        assert self.times is not None
+        low, high = sorted((float(self.times[k]), float(self.times[j])))
+        return any(low <= time <= high for time in self.breaks)
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A simulated start or stop, and what it says of itself."""
+
+    course: Course
+    legs: tuple[Leg, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    energy: float = 0.0
+
+    @property
+    def window(self) -> tuple[float, float] | None:
+        """The time that was looked at."""
+        return (0.0, self.legs[-1].end) if self.legs else None
+
+    def histories(self) -> Mapping[str, History]:
+        """Angle, pull and speed over time."""
+        if not self.legs:
+            return {}
+        looks = [np.linspace(0.0, leg.lasts, _SHOWN) for leg in self.legs]
+        times = np.concatenate([leg.start + look for leg, look in zip(self.legs, looks, strict=True)]).tolist()
+
+        def over_time(signal: str) -> list[float]:
+            seen = [leg.swing.at(signal, look) for leg, look in zip(self.legs, looks, strict=True)]
+            return [float(value) for value in np.concatenate(seen)]
+
+        return {
+            "sway_angle_max": History(units.ANGLE, times, over_time("along")),
+            "horizontal_force": History(units.FORCE, times, over_time("pull_along")),
+        }
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Changes of state, in time."""
+        return tuple(
+            Event(leg.start + event.time, event.element, event.before, event.after)
+            for leg in self.legs
+            for event in leg.swing.events
+            if event.time <= leg.lasts
+        )
+
+
+def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
+    """A start or a stop as it happens.
+
+    **Range** a taut rope; a drive that does not slip on the rails; motors that keep full speed once they have it.
+    **Error** every number with the difference of two runs of other steps and orders (`numerics.pendulum.swing`), and
+    of what lies between the looks at it.
+    **Source** `numerics.pendulum.swing`.
+    """
+    motion = motion_of(spec, scene)
+    if not motion.load or stalls(motion):
+        return Run(linear_course(motion))
+    if motion.least_force <= motion.rolling + motion.outside and motion.starts and motion.ramp is None:
+        return Run(stalled(motion))
+    reached, legs = _until_speed(spec, scene, motion, tolerance)
+    begins = max(reached, motion.hoist_time)
+    length = motion.length - motion.hoisting * motion.hoist_time
+    window = begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity)
+    legs = _lengthened(tolerance, legs, window)
+    return _read(motion, legs, reached, begins, window)
+
+
+def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: float) -> tuple[float, list[Leg]]:
+    """Legs until full speed or rest, and when that is."""
+    guess = linear_course(motion).time.value
+    legs: list[Leg] = []
+    case, time = _case(spec, scene, motion), 0.0
+    drives = _drives(spec, motion)
+    for index, (drive, until) in enumerate(drives):
+        last = index == len(drives) - 1
+        case = replace(case, axis=replace(case.axis, drive=drive))
+        leg = _reaching(motion, case, time, until, last, max(guess, 1e-6), tolerance)
+        legs.append(leg)
+        time = leg.end
+        if not last:
+            case = continued(case, leg)
+    return time, legs
+
+
+def _reaching(
+    motion: Motion, case: Case, start: float, until: float | None, last: bool, guess: float, tolerance: float
+) -> Leg:
+    """A leg until the axis has a speed, or stands; of a ramp until it is over."""
+    if motion.ramp is not None and last:
+        lasts = motion.speed / motion.ramp
+        return Leg(start, swing(case, 1.05 * lasts, tolerance=tolerance), lasts)
+    reach = 1.3 * guess
+    for _ in range(_DOUBLINGS):
+        found = swing(case, reach, tolerance=tolerance)
+        for event in found.events:
+            there = (event.element == "drive" and event.after == "keep") if motion.starts else event.after == "rest"
+            if there and (motion.starts or event.element == "axis"):
+                return Leg(start, found, event.time)
+        reach *= 2
+    what = f"come to {until or motion.speed:.3g} m/s" if motion.starts else "come to rest"
+    raise NumericsError("NUM103", f"the crane does not {what} by {reach / 2:.3g} s")
+
+
+def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
+    """The legs with the last one run on to the end of the window."""
+    last = legs[-1]
+    if last.start + last.swing.end >= window:
+        return [*legs[:-1], replace(last, lasts=window - last.start)]
+    found = swing(last.swing.case, window - last.start, tolerance=tolerance)
+    return [*legs[:-1], Leg(last.start, found, window - last.start)]
+
+
+# -- what moves -----------------------------------------------------------------------------------------------------
+
+
+def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
+    drive = spec.drive
+    ratio = model.rim_ratio(spec)
+    slope = math.atan(spec.rail.slope) * model.climbs(scene)
+    wheels = model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2
+    free = motion.ramp is not None
+    brake = drive.brake
+    held = braking(brake.torque * ratio, 0.0, brake.delay, brake.rise_time) if brake is not None else None
+    gear = Gear(
+        0.0 if free else drive.inertia * ratio**2,
+        drive.efficiency,
+        drive.reverse_efficiency,
+        held if held is not None and not motion.starts and not free else Pieces.constant(0.0),
+    )
+    length = Pieces.constant(motion.length)
+    if motion.hoisting:
+        end = motion.length - motion.hoisting * motion.hoist_time
+        length = Pieces.through(((0.0, motion.length), (motion.hoist_time, end)))
+    axis = Axis(
+        motion.body + (0.0 if free else wheels),
+        friction=motion.rolling,
+        outer=Pieces.constant(-motion.wind_on_body),
+        gear=gear,
+        speed=0.0 if motion.starts else motion.speed,
+    )
+    load = Load(motion.load, length, along=motion.lean, wind_along=Pieces.constant(-motion.wind_on_load))
+    return Case(motion.gravity, Rail(slope), axis, load)
+
+
+def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None]]:
+    """The laws of the drive one after the other, and the speed at which each gives way to the next."""
+    if motion.ramp is not None:
+        lasts = motion.speed / motion.ramp
+        ends = ((0.0, 0.0), (lasts, motion.speed)) if motion.starts else ((0.0, motion.speed), (lasts, 0.0))
+        return [(Follow(Pieces.through(ends)), None)]
+    if not motion.starts:
+        return [(None, None)]
+    curve, ratio = spec.drive.motor.curve, model.rim_ratio(spec)
+    count = spec.drive.motor.count
+    if curve is None:
+        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None)]
+    if isinstance(curve, ConverterMotor):
+        rises = max(curve.ramp_time, 1e-9)
+        speeds = Pieces.through(((0.0, 0.0), (rises, motion.speed)))
+        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed)]
+    laws: list[tuple[Follow | Push | None, float | None]] = []
+    for stage in curve.stages:
+        until = None if stage.until_speed is None else stage.until_speed / ratio
+        reaches = motion.speed if until is None or until >= motion.speed else until
+        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until))
+        if reaches == motion.speed:
+            break
+    return laws
+
+
+def _law(stage: Stage, count: int, ratio: float) -> Straight | Smooth:
+    """A motor's torque over its speed as a force over that of travel, in front of the gear."""
+    if stage.pieces is None:
+        size = float(np.max(np.abs(stage.torque(np.linspace(0.0, 400.0, 101))))) * count * ratio
+        return Smooth(lambda speed: count * ratio * stage.torque(np.asarray(speed) * ratio), size)
+    knots = [speed for speed, _ in stage.pieces]
+    if stage.extends and len(knots) > 1:
+        width = knots[-1] - knots[0]
+        knots = [knots[0] - width, *knots, knots[-1] + width]
+    torques = stage.torque(np.array(knots))
+    if len(knots) == 1:
+        knots, torques = [knots[0], knots[0] + 1.0], np.repeat(torques, 2)
+    return Straight(
+        tuple(float(speed / ratio) for speed in knots), tuple(float(count * ratio * torque) for torque in torques)
+    )
+
+
+def continued(case: Case, leg: Leg) -> Case:
+    """The case that goes on where a leg ends."""
+    from_there = {name: leg.swing.known(name, leg.lasts).value for name in ("along", "along_rate", "speed", "position")}
+    length = case.load.length
+    after = [k for k, start in enumerate(length.starts) if start > leg.lasts]
+    starts = (0.0, *(length.starts[k] - leg.lasts for k in after))
+    rows = (length.around(leg.lasts), *(length.coefficients[k] for k in after))
+    load = replace(
+        case.load, length=Pieces(starts, rows), along=from_there["along"], along_rate=from_there["along_rate"]
+    )
+    axis = replace(case.axis, speed=from_there["speed"], position=from_there["position"])
+    return replace(case, axis=axis, load=load)
+
+
+# -- what is read off -----------------------------------------------------------------------------------------------
+
+
+def _read(motion: Motion, legs: list[Leg], reached: float, begins: float, window: float) -> Run:
+    last = legs[-1]
+    sways = [leg.swing.largest("sway", 0.0, leg.lasts) for leg in legs]
+    top = max(sways, key=lambda peak: peak.value)
+    since = begins - last.start
+    if motion.wind_on_load:
+        ends = last.swing.largest("along", since, last.lasts), last.swing.smallest("along", since, last.lasts)
+        residual = Estimate.within((ends[0].value - ends[1].value) / 2, (ends[0].bar + ends[1].bar) / 2)
+    else:
+        left = last.swing.known("amplitude", min(since * (1 + _SIDE) + 1e-12, last.lasts))
+        residual = Estimate(left.value, max(left.value - left.bar, 0.0), left.value + left.bar, left.bar)
+    at = reached - last.start
+    way, settled = last.swing.known("position", at), all(leg.swing.settled for leg in legs)
+    bar = _time_bar(motion, last, at)
+    times, state, breaks = _states(motion, legs, reached)
+    pulls = [leg.swing.farthest("pull_along", 0.0, leg.lasts) for leg in legs]
+    share = max(peak.bar / abs(peak.value) if peak.value else 0.0 for peak in pulls)
+    named = ((0.0, "start"), (reached, "travel")) if motion.starts else ((0.0, "stop"), (reached, "standing"))
+    findings: tuple[Finding, ...] = ()
+    if not settled:
+        findings = (Finding("NUM102", "two runs of the swing met other events: what follows them is uncertain"),)
+        bar = math.inf
+    energy = max(leg.swing.works().residual for leg in legs)
+    exact = motion.ramp is not None
+    course = Simulated(
+        time=Estimate.exact(reached) if exact else Estimate.within(reached, bar),
+        distance=Estimate.within(way.value, way.bar + (0.0 if exact else bar * motion.speed)),
+        sway=Estimate.within(top.value, top.bar),
+        residual=residual,
+        phases=(),
+        work=sum(leg.swing.steps for leg in legs),
+        times=times,
+        seen=state,
+        breaks=breaks,
+        phases_of=named,
+        share=share,
+    )
+    return Run(course, tuple(legs), findings, energy)
+
+
+def _time_bar(motion: Motion, last: Leg, at: float) -> float:
+    """By the bar of the speed over the acceleration there."""
+    if motion.ramp is not None:
+        return 0.0
+    just = at * (1 - 1e-6)
+    speed = last.swing.known("speed", just)
+    slope = abs(last.swing.known("acceleration", just).value)
+    return speed.bar / slope + 1e-9 * at if slope else math.inf
+
+
+def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray, State, tuple[float, ...]]:
+    """Time and state at all looks."""
+    times, parts, breaks = [], [], [reached]
+    for leg in legs:
+        marks = sorted({event.time for event in leg.swing.events if event.time <= leg.lasts})
+        breaks += [leg.start + mark for mark in marks]
+        looks, _ = leg.swing.history(("speed",))
+        marked = [*marks, reached - leg.start]
+        edges = [0.0, leg.lasts, *(mark * (1 + side) for mark in marked for side in (-_SIDE, _SIDE))]
+        looks = np.unique(np.clip(np.concatenate([looks, np.array(edges)]), 0.0, leg.lasts))
+        looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
+        times.append(leg.start + looks)
+        parts.append(np.stack([leg.swing.at(name, looks) for name in SIGNALS]))
+    time, (acceleration, along, tension) = np.concatenate(times), np.concatenate(parts, axis=1)
+    pull = -along
+    weight = np.sqrt(np.maximum(tension**2 - along**2, 0.0))
+    rolling = np.where(time < reached, motion.rolling, motion.rolling if motion.starts else 0.0)
+    traction = motion.body * acceleration + rolling + motion.wind + pull
+    order = np.argsort(time, kind="stable")
+    wind = np.full(len(time), motion.wind)
+    state = State(acceleration[order], pull[order], weight[order], traction[order], wind)
+    return time[order], state, tuple(sorted(breaks))

@@ -1,0 +1,90 @@
+"""A crane that runs askew on its rails."""
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import skew
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.scenes import Skew
+from ptmcalc.machines.crane.travelling.spec import Guide, Travelling
+
+
+def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> Result:
+    """Force of the rail on the foremost guide, the worse rail and place of the trolley.
+
+        alpha = s/a + w/a + alpha_t,   f = mu_0 (1 - exp(-250 alpha)),   S = sum of the wheels' forces across
+
+    Flanges guide with the foremost wheels, rollers in front of them. Pairs of wheels on one shaft turn alike, all
+    others by themselves. Beside the standard's force stands that of wheels which slip along the curve, each for itself.
+
+    **Range** two pairs of wheels; a crane that does not bend.
+    **Error** exact for friction that grows with the slip; the curve of f is empirical.
+    **Source** EN 13001-2, ISO 8686-1, EN 1991-3 (`laws.skew`).
+    """
+    given = spec.guide
+    assert given is not None
+    base = given.base if given.base is not None else spec.wheels.base
+    least = skew.LEAST_PLAY[given.type]
+    angle = skew.skew_angle(given.clearance, given.wear, base, least, given.tolerance, given.edition)
+    friction = float(skew.skew_friction(min(angle, skew.LARGEST_ANGLE), given.adhesion))
+    found = [
+        _guide_force(spec, scene, given, angle, hook, guiding)
+        for hook in model.hook_places(spec, scene)
+        for guiding in ("A", "B")
+    ]
+    force, hook, guiding = max(both[0] for both in found)
+    note = f"guided by rail {guiding}, hook {hook:.3g} m from rail A"
+    if angle > skew.LARGEST_ANGLE:
+        note += f"; {angle:.3g} rad would be more than {skew.LARGEST_ANGLE} rad"
+    return Result(
+        {
+            "skew_angle": Found(Estimate.exact(angle)),
+            "skew_share": Found(Estimate.exact(friction)),
+            "skew_force": Found(Estimate.exact(force), note=note),
+            "skew_force_slip": Found(Estimate.exact(max(both[1] for both in found)[0])),
+        },
+        work=1,
+    )
+
+
+def _guide_force(
+    spec: Travelling, scene: Skew, given: Guide, angle: float, hook: float, guiding: str
+) -> tuple[tuple[float, float, str], tuple[float, float, str]]:
+    """Force by the standard, and with the curve of friction at every wheel; hook and guiding rail with each."""
+    bodies = [(body.mass, body.across) for body in model.bodies(spec, hook)] + [(model.hanging(spec, scene), hook)]
+    whole = sum(mass for mass, _ in bodies)
+    centre = sum(mass * across for mass, across in bodies) / whole / spec.gauge
+    if guiding == "B":
+        centre = 1 - centre
+    wheel_base = spec.wheels.base
+    front = max((given.base or wheel_base) - wheel_base, 0.0) / 2 if given.type == "rollers" else 0.0
+    distances = np.array([front, front + wheel_base])
+    coupled = np.array([_turn_alike(spec, end) for end in ("1", "2")])
+    weights = np.full(2, whole * spec.gravity / 2)
+    limited = min(angle, skew.LARGEST_ANGLE)
+    friction = float(skew.skew_friction(limited, given.adhesion))
+    others = (distances, coupled, weights, centre, spec.gauge, given.rail_two)
+    standard = float(skew.skew_forces(friction, *others)[:2].sum())
+    each = float(skew.skew_equilibrium(given.adhesion, limited, *others)[:2].sum())
+    return (standard, hook, guiding), (each, hook, guiding)
+
+
+def _turn_alike(spec: Travelling, end: str) -> float:
+    """Whether the wheels of the front or rear pair are on one shaft."""
+    both = {f"A{end}", f"B{end}"} <= set(spec.wheels.driven)
+    return 1.0 if both and spec.drive.wheels == "coupled" else 0.0
+
+
+SKEWING: Solver[Travelling, Skew] = Solver(
+    name="skewing",
+    title="forces of a crane that runs askew",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Skew}),
+    represents=frozenset(),
+    gives=frozenset({"skew_angle", "skew_share", "skew_force", "skew_force_slip"}),
+    run=run,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="EN 13001-2, ISO 8686-1, EN 1991-3: skewing",
+)

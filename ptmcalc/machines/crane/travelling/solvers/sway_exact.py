@@ -1,0 +1,50 @@
+"""A sudden ramp of speed with a load of any angle: closed form."""
+
+import math
+
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.travelling.effects import IN_PLANE, LARGE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling.finite import exact_course, regular
+from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.moving import motion_of
+from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a ramp from rest or to rest by the elliptic functions of the pendulum in tilted gravity.
+
+        theta_max = 2 atan(a/g) once the ramp lasts half a swing,   sin(A/2) = ((a/(2 g)) sin theta_1)^(1/2)
+        T = M (3 g cos theta + 3 a sin theta - 2 g)
+
+    **Range** a drive that keeps to its ramp; ropes of constant length; no wind on the load, no slope; a below g.
+    **Error** exact for times and angles; loads that hang on pull and weight of the rope at one instant are bounded by
+    the extremes of both.
+    **Source** `laws.pendulum.ramp_swing`.
+    """
+    motion = motion_of(spec, scene)
+    return Result(loads_of(spec, scene, exact_course(motion)), work=1)
+
+
+def valid(spec: Travelling, scene: Moving) -> Criterion:
+    """Whether the scene is a ramp of that kind."""
+    fits = regular(motion_of(spec, scene))
+    return Criterion("ramp", 0.0 if fits else math.inf, 1.0, "whether the scene is a sudden ramp", "scene")
+
+
+SWAY_EXACT: Solver[Travelling, Moving] = Solver(
+    name="sway_exact",
+    title="swing of any angle under a ramp of speed, closed form",
+    fidelity=Fidelity.FORMULA,
+    scenes=MOVING_SCENES,
+    represents=IN_PLANE | {LARGE},
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: 3e-3,
+    source="pendulum in tilted gravity, Jacobi's elliptic functions; derived in ptmcalc.laws.pendulum",
+    valid=valid,
+    always=frozenset({SWAY, LARGE}),
+)

@@ -1,0 +1,42 @@
+"""A start or a stop with the load swinging in small angles, exact piece by piece."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.travelling.effects import IN_PLANE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling.linear import linear_course
+from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.moving import motion_of
+from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a start or stop in which the load leaves the plumb line by small angles.
+
+        L u'' + g u = -L x''        with  x'' imposed by a ramp,   or  m x'' = F - W - M g u/L (against the drive)
+
+    Motors give their mean starting torque until full speed, which they then keep; brakes act after their delay along
+    a straight rise. The ropes get shorter evenly while the load is hoisted.
+
+    **Range** angles of a few degrees; a motor whose torque does not depend on its speed; one plane.
+    **Error** between events exact, with the rounding told by `numerics.pendulum.linear`; finite angles are the effect
+    `large_sway`, a motor's curve the effect `torque_curve`.
+    **Source** pendulum under a moved pivot; `numerics.pendulum.linear`.
+    """
+    course = linear_course(motion_of(spec, scene))
+    return Result(loads_of(spec, scene, course), work=course.work)
+
+
+SWAY_LINEAR: Solver[Travelling, Moving] = Solver(
+    name="sway_linear",
+    title="small swing of the load, exact from event to event",
+    fidelity=Fidelity.MODAL,
+    scenes=MOVING_SCENES,
+    represents=IN_PLANE,
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: 2e-3,
+    source="small swing under a moved or pushed pivot; derived in ptmcalc.numerics.pendulum.linear",
+    always=frozenset({SWAY}),
+)

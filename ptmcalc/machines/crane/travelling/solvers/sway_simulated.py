@@ -1,0 +1,51 @@
+"""A start or a stop simulated with the load at any angle."""
+
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.simulated import simulate
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+TOLERANCES = (1e-9, 1e-12)
+
+
+def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
+    """Loads of a start or stop by the equations of crane and load at any angle, from event to event.
+
+        L theta'' + 2 L' theta' + g sin theta = -x'' cos theta,   (m + m_r) x'' = F - W + T sin theta
+
+    Losses of the gear go by the direction of power at each instant; a motor follows its curve, stage by stage; brakes
+    act through the gear and hold the crane at rest as far as they can.
+
+    **Range** a taut rope without mass, one plane, wheels that do not slide.
+    **Error** the difference of two runs of other steps and orders, and what lies between the looks.
+    **Source** `numerics.pendulum.swing`.
+    """
+    done = simulate(spec, scene, TOLERANCES[level])
+    return Result(
+        loads_of(spec, scene, done.course),
+        work=max(done.course.work, 1),
+        window=done.window,
+        health={"energy_residual": done.energy},
+        findings=done.findings,
+        events=done.events,
+        histories=done.histories,
+    )
+
+
+SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
+    name="sway_simulated",
+    title="swing of any angle with motor curve and gear, simulated",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=MOVING_SCENES,
+    represents=IN_PLANE | {LARGE, CURVE},
+    gives=MOVING,
+    run=run,
+    cost=lambda spec, scene, carried, level: 0.06 * (1 + level),
+    source="plane pendulum under a driven crane; Radau collocation, ptmcalc.numerics.pendulum.swing",
+    always=frozenset({SWAY, LARGE, CURVE}),
+    levels=len(TOLERANCES),
+)

@@ -1,0 +1,506 @@
+"""How a designer writes a crane that travels: what moves on its wheels, what hangs on it, what drives and stops it."""
+
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components.buffer import Buffer
+from ptmcalc.components.pendulum import Suspension
+from ptmcalc.components.travel_drive import TravelDrive
+from ptmcalc.machines.crane.travelling.scenes import (
+    AnyScene,
+    Brake,
+    Collision,
+    HoistWhileTravelling,
+    RailStep,
+    Run,
+    Skew,
+    Start,
+    Storm,
+    TravelScene,
+)
+from ptmcalc.spec.fields import (
+    Fraction,
+    Inertia,
+    Mass,
+    Measure,
+    PositiveAngle,
+    PositiveForce,
+    PositiveLength,
+    PositiveMass,
+    PositivePressure,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveSpeed,
+    PositiveTime,
+    RunningTime,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+from ptmcalc.spec.machine import CheckSettings, MachineSpec
+
+Level = Annotated[float, Measure(units.SPAN, at_least=0)]
+WindArea = Annotated[float, Measure(units.FACE, at_least=0)]
+Count = Annotated[int, Field(ge=1, le=16, strict=True)]
+Slope = Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.2)]
+Length = Annotated[float, Measure(units.LENGTH, at_least=0)]
+Phi = Annotated[float, Measure(units.RATIO, above=0, at_most=10)]
+Corner = Literal["A1", "A2", "B1", "B2"]
+DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
+Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
+
+
+class Bridge(Fragment):
+    """What travels besides the trolley: girders, end carriages, the legs of a gantry."""
+
+    mass: PositiveMass
+    """without the trolley"""
+    span: PositiveSpan
+    """from rail A to rail B"""
+    centre: PositiveSpan | None = None
+    """of gravity, from rail A; in the middle when left out"""
+    height: Level = 0.0
+    """of its centre of gravity above the wheels' rails"""
+
+
+class Trolley(Fragment):
+    """The trolley that carries the hoist."""
+
+    mass: PositiveMass
+    """with the hoist, without the hook block"""
+    gauge: PositiveLength | None = None
+    """from its rail A to its rail B; of a trolley that travels"""
+    nearest: PositiveSpan | None = None
+    """least distance of the hook from rail A; of a trolley on a bridge"""
+    farthest: PositiveSpan | None = None
+    """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
+    hook: PositiveLength | None = None
+    """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
+    height: Level = 0.0
+    """of its centre of gravity above the wheels' rails"""
+
+
+class Wheels(Fragment):
+    """The wheels at the four corners: A1 and A2 on rail A, front and rear, B1 and B2 on rail B."""
+
+    diameter: PositiveLength
+    """at the tread"""
+    base: PositiveSpan
+    """from the front to the rear corners, along the rail"""
+    per_corner: Annotated[int, Field(ge=1, le=16, strict=True)] = 1
+    """wheels of a corner, in balanced bogies"""
+    driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
+    """corners with driven wheels, e.g. `[A1, B1]`"""
+    driven_per_corner: Annotated[int, Field(ge=1, le=16, strict=True)] | None = None
+    """driven wheels of such a corner; all when left out"""
+    frame: Literal["hinged", "rigid"] = "hinged"
+    """how the four corners share the loads: girders hinged to their end carriages, or a frame that does not twist"""
+    inertia: Inertia = 0.0
+    """of one wheel"""
+    rating: PositiveForce | None = None
+    """largest load of one wheel, or of the rail under it; needed to check it"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """No corner twice, no more driven wheels than wheels."""
+        driven = given.raw.get("driven")
+        if isinstance(driven, list):
+            for index, corner in enumerate(driven):
+                if corner in driven[:index]:
+                    yield Conflict(("driven", index), f"corner `{corner}` is named twice", "name each corner once")
+        many = given.raw.get("per_corner", 1)
+        some = given.raw.get("driven_per_corner")
+        if isinstance(many, int) and isinstance(some, int) and some > many:
+            reason = f"a corner has {many} wheel{'s' if many != 1 else ''} only"
+            yield Conflict(("driven_per_corner",), reason, f"write `driven_per_corner: {max(many, 1)}` or less")
+
+
+class Rolling(Fragment):
+    """What the wheels resist with."""
+
+    coefficient: Fraction | None = None
+    """all resistance over the weight, or give `lever_arm`"""
+    lever_arm: Length | None = None
+    """of rolling, of steel on steel 0.3 to 1 mm by the diameter"""
+    bearing_friction: Fraction = 0.015
+    """of the wheels' bearings; 0.015 rolling, 0.08 to 0.1 plain"""
+    axle_diameter: PositiveLength | None = None
+    """at the middle of the bearings; a quarter of the wheel when left out"""
+    flange_factor: Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] = 1.5
+    """for flanges that rub, 1.5 to 2.5; 1 with guide rollers"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The resistance is given in one way."""
+        yield from at_most_one(given, "coefficient", "lever_arm")
+        if "coefficient" not in given and "lever_arm" not in given:
+            yield given.missing("lever_arm", "give `lever_arm` or `coefficient`")
+        if "coefficient" in given:
+            for key in ("bearing_friction", "axle_diameter", "flange_factor"):
+                if key in given:
+                    yield Conflict((key,), "it is part of the `coefficient`", f"delete `{key}`")
+
+
+class Rail(Fragment):
+    """What it runs on."""
+
+    slope: Slope = 0.0
+    """rise over length"""
+    adhesion: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None = None
+    """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
+    step: Length = 0.0
+    """height of the largest step"""
+    gap: Length = 0.0
+    """width of the largest gap"""
+    frequency: Annotated[float, Measure(units.FREQUENCY, above=0)] | None = None
+    """of the crane that swings vertically on its wheels; 10 Hz is assumed for a `rail_step`"""
+
+
+class Guide(Fragment):
+    """What keeps the crane on its rails when it runs askew."""
+
+    type: Literal["flanges", "rollers"] = "flanges"
+    """flanges of the wheels, or guide rollers"""
+    clearance: Length
+    """play between guide and rail, both sides together"""
+    wear: Length = 0.0
+    """of guide and rail; of a rail 60 mm wide 6 mm with flanges, 2 mm with rollers"""
+    base: PositiveSpan | None = None
+    """from the foremost to the rearmost guide; the wheel base when left out"""
+    rail_two: Literal["fixed", "movable"] = "fixed"
+    """whether the wheels or legs of the other rail hold sideways"""
+    adhesion: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] = 0.3
+    """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
+    tolerance: Annotated[float, Measure(units.ANGLE, at_least=0)] = 0.001
+    """angle of wheels and rails by tolerances"""
+    edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
+    """by which the play becomes an angle"""
+    rating: PositiveForce | None = None
+    """largest force of a guide; needed to check it"""
+
+
+class Wind(Fragment):
+    """The wind along the rails."""
+
+    area: WindArea
+    """of what travels, facing the wind, without the load"""
+    load_area: WindArea = 0.0
+    """of the load"""
+    shape: PositiveRatio = 1.6
+    """force coefficient of the area"""
+    load_shape: PositiveRatio = 1.2
+    """force coefficient of the load"""
+    height: Level | None = None
+    """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
+    pressure: PositivePressure
+    """in which the crane works: starts, travels, stops"""
+    pressure_max: PositivePressure | None = None
+    """largest in service, against which it still travels; `pressure` when left out"""
+    pressure_storm: PositivePressure | None = None
+    """out of service, in which it must stand; needed for a `storm`"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The pressures rise."""
+        steady, most, storm = (given.number(key) for key in ("pressure", "pressure_max", "pressure_storm"))
+        if steady is not None and most is not None and most < steady:
+            yield Conflict(("pressure_max",), "it is below the `pressure` in which the crane works", "swap them")
+        if most is not None and storm is not None and storm < most:
+            yield Conflict(("pressure_storm",), "it is below the largest pressure in service", "swap them")
+
+
+class Parking(Fragment):
+    """What holds the crane out of service besides its brakes."""
+
+    force: PositiveForce
+    """of rail clamps, pins or storm anchors"""
+
+
+class SpectrumPoint(Fragment):
+    """A part of the crane's working life."""
+
+    share: Share
+    """of all cycles"""
+    load: LoadShare
+    """over the rated load"""
+
+
+class Duty(Fragment):
+    """What the mechanism does all day."""
+
+    type: Literal["S1", "S3", "S4", "S5"] = "S3"
+    """duty type of IEC 60034-1; S4 and S5 count the starts"""
+    factor: DutyFactor | None = None
+    """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
+    starts_per_hour: Rate | None = None
+    """of the motor"""
+    load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
+    """loads over the life; the rated load always, when left out"""
+    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    """hoisting cycles in the life, which with the spectrum give the group of the crane"""
+    hours: RunningTime | None = None
+    """time in motion in the life, which with the spectrum gives the group of the mechanism"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The shares of a spectrum are a whole; what counts starts has some."""
+        points = given.blocks("load_spectrum")
+        shares = [point.number("share") if point else None for point in points]
+        known = [share for share in shares if share is not None]
+        if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
+            reason = f"the shares add up to {sum(known):.3g}"
+            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+        kind = given.word("type")
+        if kind in ("S4", "S5") and "starts_per_hour" not in given:
+            yield given.missing("starts_per_hour", f"the starts heat the motor in {kind}")
+        if kind == "S1" and "factor" in given:
+            yield Conflict(("factor",), "S1 has no rest", "delete `factor`, or write `type: S3`")
+
+
+class Classes(Fragment):
+    """What the crane is classed as, and by which edition its factors are taken."""
+
+    hoisting: Literal["HC1", "HC2", "HC3", "HC4"] | None = None
+    """stiffness class of the hoist, for phi2"""
+    drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
+    """how the hoisting speed is controlled, for phi2"""
+    crane: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
+    """group of the crane, ISO 4301-1"""
+    edition: Literal["by_class", "by_drive", "raised"] = "by_class"
+    """smallest phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
+    lifting_share: Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)] = 0.1
+    """the part by which phi1 differs from 1"""
+    release: Literal["none", "slow", "quick"] = "none"
+    """how a part of the load comes off: by a grab, or by a magnet; for phi3"""
+    released_share: Fraction = 1.0
+    """part of the load that comes off"""
+    drive_change: Literal["centrifugal", "smooth", "sudden"] | None = None
+    """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
+    play: Literal["small", "large"] = "small"
+    """of the travel drive, for phi5"""
+    buffer_edition: Literal["line", "two_values"] = "line"
+    """phi7 along a line by the shape of the buffer's curve (EN 13001-2, ISO 8686-1), or one of two values"""
+
+
+class Declared(Fragment):
+    """Dynamic factors with which the structure has been calculated: what is found must not be above them."""
+
+    phi1: Phi | None = None
+    """weight of the crane as a load is lifted"""
+    phi2: Phi | None = None
+    """lifting a load off the ground"""
+    phi3: Annotated[float, Measure(units.RATIO, at_least=-1, at_most=1)] | None = None
+    """a part of the load comes off; what is found must not be below it"""
+    phi4: Phi | None = None
+    """running over steps and gaps"""
+    phi5: Phi | None = None
+    """changes of the drive forces"""
+    phi6: Phi | None = None
+    """dynamic test load"""
+    phi7: Phi | None = None
+    """buffers"""
+
+
+class TravelChecks(CheckSettings):
+    """Limits of the checks of a crane that travels."""
+
+    start_time: PositiveTime = 15.0
+    """longest start"""
+    brake_time: PositiveTime = 15.0
+    """longest stop"""
+    brake_distance: PositiveSpan | None = None
+    """longest way to a stop; needed to check it"""
+    sway_angle: PositiveAngle = 0.174532925199433
+    """largest angle of the load, 10 deg when left out"""
+    residual_sway: PositiveAngle | None = None
+    """largest angle that stays after the start or stop; needed to check it"""
+    skid_reserve: PositiveRatio = 1.2
+    """least adhesion of a driven or braked wheel over what its drive asks of it"""
+    motor_reserve: PositiveRatio = 1.1
+    """least starting torque over the torque of even travel against the wind"""
+    wind_reserve: PositiveRatio = 1.1
+    """least force that holds the crane over that of the wind out of service"""
+    collision_speed: PositiveSpeed | None = None
+    """largest speed at which a buffer may be hit; that of the buffer when left out"""
+
+
+class Travelling(MachineSpec):
+    """A crane that travels: a bridge or a gantry with its trolley on a runway, or a trolley on its bridge."""
+
+    kind: Literal["crane"]
+    type: Literal["travelling"]
+    travels: Literal["bridge", "gantry", "trolley"] = "bridge"
+    """what the file describes the travel of"""
+    load: PositiveMass
+    """rated load on the hook"""
+    hook_block: Mass = 0.0
+    """hook block and whatever stays on the hook"""
+    bridge: Bridge | None = None
+    """what travels besides the trolley; of a bridge or gantry"""
+    trolley: Trolley
+    """the trolley"""
+    wheels: Wheels
+    """on which it travels"""
+    rolling: Rolling
+    """what the wheels resist with"""
+    rail: Rail = Rail()
+    """what it runs on"""
+    guide: Guide | None = None
+    """what keeps it on its rails; needed for a `skew`"""
+    wind: Wind | None = None
+    """outdoors"""
+    speed: PositiveSpeed
+    """of travel"""
+    drive: TravelDrive
+    """motors, gear, brakes"""
+    suspension: Suspension
+    """how the load hangs"""
+    buffers: Buffer | None = None
+    """at the ends; needed for a `collision`"""
+    parking: Parking | None = None
+    """what holds it out of service besides its brakes"""
+    classes: Classes = Field(default=Classes(), alias="class")
+    """what the crane is classed as"""
+    declared: Declared = Declared()
+    """dynamic factors with which its structure has been calculated"""
+    duty: Duty | None = None
+    """what the mechanism does all day; needed to check the motor's heating and the class"""
+    checks: TravelChecks = TravelChecks()
+    """limits, and checks switched off by code"""
+    scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
+    """what happens to the machine; when left out: even travel, a start loaded and empty, a stop, and what the file has
+    the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing, a storm"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The bridge is there where it travels; the trolley stays on it; scenes have what they need."""
+        yield from super().conflicts(given)
+        yield from _parts(given)
+        yield from _reach(given)
+        yield from _scenes_that_lack(given)
+
+    @property
+    def all_scenes(self) -> Sequence[TravelScene]:
+        if self.scenes is not None:
+            return self.scenes
+        scenes: list[TravelScene] = [Run(), Start(), Start(load="empty"), Brake()]
+        if self.suspension.hoist_speed is not None:
+            scenes.append(HoistWhileTravelling())
+        if self.buffers is not None:
+            scenes.append(Collision())
+        if self.rail.step or self.rail.gap:
+            scenes.append(RailStep())
+        if self.guide is not None and self.bridge is not None:
+            scenes.append(Skew())
+        if self.wind is not None and self.wind.pressure_storm is not None:
+            scenes.append(Storm())
+        return scenes
+
+    @property
+    def settings(self) -> TravelChecks:
+        return self.checks
+
+    @property
+    def gauge(self) -> float:
+        """From rail A to rail B of what travels [m]."""
+        width = self.bridge.span if self.bridge is not None else self.trolley.gauge
+        assert width is not None
+        return width
+
+
+def _parts(given: Given) -> Iterator[Conflict]:
+    """A bridge or gantry has a bridge, and a trolley with a reach on it; a trolley alone has a gauge."""
+    what, trolley = given.word("travels"), given.block("trolley")
+    if what is None:
+        return
+    if what == "trolley":
+        if "bridge" in given:
+            yield Conflict(("bridge",), "a trolley travels on it: it stands still", "delete `bridge`")
+        if trolley is not None and trolley.raw:
+            if "gauge" not in trolley:
+                yield Conflict(("trolley",), "a trolley that travels needs its `gauge`", "add `gauge: 2 m`")
+            for key in ("nearest", "farthest"):
+                if key in trolley:
+                    reason = "it is of a trolley on a bridge that travels"
+                    yield Conflict(("trolley", key), reason, f"delete `{key}`, or write `travels: bridge`")
+        return
+    if "bridge" not in given:
+        yield given.missing("bridge", f"a {what} that travels needs its `bridge`")
+    if trolley is not None and trolley.raw:
+        if "nearest" not in trolley:
+            reason = "how near the hook comes to rail A is missing"
+            yield Conflict(("trolley",), reason, "add `nearest: 1 m`")
+        if "hook" in trolley:
+            reason = "the place of the hook is that of the trolley on its bridge"
+            yield Conflict(("trolley", "hook"), reason, "delete `hook`")
+
+
+def _reach(given: Given) -> Iterator[Conflict]:
+    """The hook stays between the rails unless a gantry has a cantilever; a centre of gravity too."""
+    bridge, trolley = given.block("bridge"), given.block("trolley")
+    if trolley is None:
+        return
+    near, far = trolley.number("nearest"), trolley.number("farthest")
+    if near is not None and far is not None and far < near:
+        yield Conflict(("trolley", "farthest"), "it is nearer to rail A than `nearest`", "swap them")
+    if bridge is not None and (span := bridge.number("span")) is not None:
+        for key, place in (("nearest", near), ("farthest", far)):
+            if place is not None and key in trolley and place > span:
+                reason = f"the trolley is beyond the bridge, whose span is {units.show(span, units.SPAN)}"
+                hint = f"write `{key}: {units.show(0.95 * span, units.SPAN, 3)}` or less, or correct the `span`"
+                yield Conflict(("trolley", key), reason, hint)
+        if near is not None and "farthest" not in trolley and span / 2 < near <= span:
+            reason = "it is beyond the middle of the bridge: where the trolley ends on the other side is missing"
+            far_hint = units.show(span - 0.05 * span, units.SPAN, 3)
+            yield Conflict(("trolley", "nearest"), reason, f"write less, or add `farthest: {far_hint}`")
+        centre = bridge.number("centre")
+        if centre is not None and centre > span:
+            reason = "the centre of gravity is beyond the bridge"
+            yield Conflict(("bridge", "centre"), reason, "write less than the `span`, or correct that")
+    hook, gauge = trolley.number("hook"), trolley.number("gauge")
+    if hook is not None and gauge is not None and hook > gauge:
+        yield Conflict(("trolley", "hook"), "the hook is beyond the rails", "write less than the `gauge`")
+
+
+_NEEDED = {
+    "collision": (("buffers",), "buffers: {type: linear, count: 2, stiffness: 400 kN/m, stroke: 150 mm}"),
+    "storm": (("wind", "pressure_storm"), "wind: {area: 60 m^2, pressure: 150 Pa, pressure_storm: 800 Pa}"),
+    "hoist_while_travelling": (("suspension", "hoist_speed"), "hoist_speed: 0.1 m/s"),
+    "skew": (("guide",), "guide: {type: flanges, clearance: 20 mm}"),
+}
+
+
+def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
+    """What runs onto buffers has some, what is hoisted has a speed and a rope left; a brake that is used is there."""
+    drive, suspension = given.block("drive"), given.block("suspension")
+    rail = given.block("rail")
+    for index, scene in enumerate(given.blocks("scenes")):
+        what = scene.raw.get("type") if scene else None
+        if scene is None or not isinstance(what, str):
+            continue
+        if what in _NEEDED:
+            path, example = _NEEDED[what]
+            block = given.block(path[0])
+            there = path[0] in given and (len(path) == 1 or (block is not None and path[1] in block))
+            if not there:
+                yield Conflict(("scenes", index), f"a `{what}` needs `{'.'.join(path)}`", f"add `{example}`")
+        if what == "skew" and given.word("travels") == "trolley":
+            yield Conflict(("scenes", index), "a trolley is not reckoned to skew here", "delete this scene")
+        if what == "rail_step" and rail is not None and not rail.number("step") and not rail.number("gap"):
+            yield Conflict(("scenes", index), "the rail has neither `step` nor `gap`", "add `rail: {step: 1 mm}`")
+        by_brake = what == "brake" and (scene.word("by") == "brake")
+        if by_brake and drive is not None and drive.raw and "brake" not in drive:
+            yield Conflict(("scenes", index), "the drive has no `brake`", "add `brake: {torque: 60 N*m}` to `drive`")
+        if what == "hoist_while_travelling" and suspension is not None:
+            speed, own = suspension.number("hoist_speed"), scene.number("length")
+            length = own if own is not None else suspension.number("length")
+            lasts = scene.number("time")
+            if speed is None or length is None or lasts is None or scene.word("hoist") != "up":
+                continue
+            if speed * lasts >= length:
+                reason = "the hook would be above the place where its ropes are held"
+                longest = units.show(0.9 * length / speed, units.TIME, 2)
+                yield Conflict(("scenes", index, what, "time"), reason, f"write `time: {longest}` or less")
