@@ -597,9 +597,6 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     ],
     lift_off_standard.fem_lift_off_factor: [("bridge", 0.1), ("bridge", 0.5), ("jib", 2.0)],
     lift_off_standard.standard_lift_off_factor: [
-        (f"HC{k}", f"HD{k}", 0.25, edition)
-        for k in range(1, 5)
-        for edition in ("by_class", "by_drive", "raised")
         (f"HC{k}", drive, 0.25, edition)
         for k in range(1, 5) for edition in ("by_class", "by_drive", "raised") for drive in ("HD1", "HD3")
     ],

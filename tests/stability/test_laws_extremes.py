@@ -902,10 +902,6 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lift_off_standard.fem_lift_off_factor,
         lambda d: (d.shape("bridge", "jib"), *d.positive(1)),
     ),
-    "fem_lift_off_factor": (
-        lift_off_standard.fem_lift_off_factor,
-        lambda d: (d.shape("bridge", "jib"), *d.positive(1)),
-    ),
     "standard_lift_off_factor": (
         lift_off_standard.standard_lift_off_factor,
         lambda d: (str(d.rng.choice(list(lift_off_standard.BETA))), "HD5", *d.positive(1), "by_drive"),
