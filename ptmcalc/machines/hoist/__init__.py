@@ -69,7 +69,7 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
     if chosen or not any(scene.type == "lift" for scene in spec.all_scenes):
         return
     factor = model.class_factor(spec)
-    others = {name: model.class_factor(spec, name) for name in lift_off_standard.EDITIONS}
+    others = {name: model.class_factor(spec, name) for name in (lift_off_standard.BY_CLASS, lift_off_standard.BY_DRIVE)}
     said = [f"`{name}` {other:.3g}" for name, other in others.items() if other is not None and other != factor]
     if factor is not None and said:
         yield Finding(

@@ -58,6 +58,9 @@ OF_THE_DRIVE = (
     LoadInfo("drop_speed", "speed at the end of it", units.SPEED),
 )
 OF_THE_CLASS = (
+    LoadInfo(
+        "equivalent_load_share", "load that tires as much as the spectrum, over the rated", units.RATIO, headline=False
+    ),
     LoadInfo("spectrum_factor", "factor of the load spectrum", units.RATIO, headline=False),
     LoadInfo("mechanism_group", "group of the mechanism that its use asks (M)", units.RATIO, headline=False),
     LoadInfo("crane_group", "group of the crane that its use asks (A)", units.RATIO, headline=False),

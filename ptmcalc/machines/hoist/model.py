@@ -186,12 +186,15 @@ def class_factor(spec: Hoist, edition: str | None = None) -> float | None:
     classes = spec.classes
     if classes.hoisting is None:
         return None
-    main = hook_speed(spec)
+    return standard_factor(spec, classes.hoisting, edition)
+
+
+def standard_factor(spec: Hoist, hoisting: str, edition: str | None = None) -> float:
+    """phi_2 of a hoisting class with the drive class of the file."""
+    classes, main = spec.classes, hook_speed(spec)
     creep = hook_speed(spec, "creep") if spec.speed.creep is not None else main
     speed = lift_off_standard.class_lift_off_speed(classes.drive, classes.combination, main, creep)
-    return lift_off_standard.standard_lift_off_factor(
-        classes.hoisting, classes.drive, speed, edition or classes.edition
-    )
+    return lift_off_standard.standard_lift_off_factor(hoisting, classes.drive, speed, edition or classes.edition)
 
 
 # -- drive ----------------------------------------------------------------------------------------------------------

@@ -40,7 +40,7 @@ def test_the_edition_and_the_combination_of_the_file_count(
     assert check_of(scene_of(report_of(data)), "HST120").limit.value == pytest.approx(factor(data), rel=1e-12)
 
 
-@pytest.mark.parametrize(("drive", "differ"), [("HD1", True), ("HD2", False), ("HD5", True)])
+@pytest.mark.parametrize(("drive", "differ"), [("HD1", False), ("HD2", False), ("HD5", True)])
 def test_editions_that_differ_are_told_where_the_file_names_none(drive: str, differ: bool) -> None:
     speed = {"drum": "12 rpm", "creep": "0.002 m/s"}
     data = changed(LIFT, speed=speed, **{"class": {"hoisting": "HC2", "drive": drive}})
@@ -78,3 +78,13 @@ def test_scenes_up_and_down_have_names_of_their_own() -> None:
     scenes = [{"type": what, "direction": way} for what in ("start", "stop") for way in ("up", "down")]
     labels = [scene.label for scene in hoist_of(changed(PAPER, scenes=scenes)).all_scenes]
     assert labels == ["start_loaded", "start_down_loaded", "stop_loaded", "stop_down_loaded"]
+
+
+@pytest.mark.parametrize(
+    ("structure", "hoisting"), [("10 MN/m", "HC4"), ("200 kN/m", "HC3"), ("100 kN/m", "HC2"), ("50 kN/m", "HC1")]
+)
+def test_the_stretch_under_the_load_gives_a_class_too(structure: str, hoisting: str) -> None:
+    data = changed(LIFT, structure={"stiffness": structure})
+    formulas = load_of(scene_of(report_of(data)), "lift_off_factor").formulas
+    found = next(one.value for one in formulas if one.name == "phi2_by_deflection")
+    assert found == pytest.approx(factor(changed(data, class__hoisting=hoisting)), rel=1e-12)

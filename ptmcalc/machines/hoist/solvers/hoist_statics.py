@@ -188,7 +188,7 @@ def _use(duty: Duty | None, spectrum: list[tuple[float, float]]) -> Numbers:
     if duty is None:
         return {}
     factor = classification.spectrum_factor([share for share, _ in spectrum], [load for _, load in spectrum])
-    loads = {"spectrum_factor": factor}
+    loads = {"spectrum_factor": factor, "equivalent_load_share": classification.equivalent_load(factor)}
     if duty.starts_per_hour is not None:
         loads["starts_per_hour"] = duty.starts_per_hour
     load = classification.load_class(factor)

@@ -4,7 +4,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
-from ptmcalc.laws import lift_off, rope_rod, two_mass
+from ptmcalc.laws import lift_off, lift_off_standard, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.reduced import (
     braked_way,
@@ -155,6 +155,56 @@ def run_rod(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int)
     return _shown(natural_frequency=rope_rod.free_rod_frequency(one.stiffness, rope, drive, one.load_mass))
 
 
+def run_third_mass(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
+    """Natural frequency with a third of the rope's mass added to the load, the drum held.
+
+        w = (K/(M + m_r/3))^(1/2)
+
+    **Range** a drive much heavier than the load, a rigid structure (`is_held`).
+    **Error** none bound here: the drive swings, too.
+    **Source** `laws.rope_rod.third_mass_frequency`, Lord Rayleigh.
+    """
+    one = reduced(spec, scene)
+    return _shown(natural_frequency=rope_rod.third_mass_frequency(one.stiffness, rope_mass(spec, scene), one.load_mass))
+
+
+def run_by_deflection(spec: Hoist, scene: Lift, carried: frozenset[str], level: int) -> Result:
+    """Lift-off by the standard with the hoisting class that the stretch of rope and structure gives.
+
+        delta = Q/K + Q/K_b,   HC1 from 0.8 m, HC2 from 0.3 m, HC3 from 0.15 m, HC4 below
+
+    **Range** the rated load.
+    **Error** none bound, as `run_standard`.
+    **Source** EN 13001-2; `laws.lift_off_standard.stiffness_class`.
+    """
+    one, under = reduced(spec, scene), spec.structure
+    deflection = one.weight / one.stiffness + (one.weight / under.stiffness if under is not None else 0.0)
+    return _shown(lift_off_factor=model.standard_factor(spec, lift_off_standard.stiffness_class(deflection)))
+
+
+def is_full(spec: Hoist, scene: Lift) -> Criterion:
+    """Whether the rated load is lifted.
+
+    **Range** any file.
+    **Error** none.
+    **Source** the file.
+    """
+    return Criterion("-", 0.0 if scene.load == "full" else 1.0, 1.0, "the hook is empty", "")
+
+
+def is_held(spec: Hoist, scene: HoistScene) -> Criterion:
+    """Whether the drive is so heavy, and all else so stiff, that the load swings as on a drum that stands.
+
+    **Range** any file.
+    **Error** an engineering measure: at a tenth of the drive's mass the frequency rises by 5 %.
+    **Source** two masses on a spring.
+    """
+    one = reduced(spec, scene)
+    share = one.load_mass / one.drive_mass if one.drive_mass else 1.0
+    fits = not is_rigid(spec, scene).exceeded
+    return Criterion("M/m_1", share if fits else 1.0, 0.1, "load over drive, or gear and structure give", "")
+
+
 def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
     """Whether rope, drive and load are all that swings.
 
@@ -257,4 +307,40 @@ ROD: Solver[Hoist, HoistScene] = Solver(
     valid=is_rigid,
     decides=False,
 )
-FORMULAS: tuple[AnySolver, ...] = (ROD, TAKEUP, STANDARD, SPEED_SOURCE, BRAKING, HANGING, RELEASE)
+THIRD_MASS: Solver[Hoist, HoistScene] = Solver(
+    name="third_mass",
+    title="frequency with a third of the rope's mass, the drum held",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Lift, Start, Stop, LowerBrake}),
+    represents=frozenset(),
+    gives=frozenset({"natural_frequency"}),
+    run=run_third_mass,
+    cost=_cost,
+    source="Rayleigh's quotient, ptmcalc.laws.rope_rod",
+    valid=is_held,
+    decides=False,
+)
+BY_DEFLECTION: Solver[Hoist, Lift] = Solver(
+    name="phi2_by_deflection",
+    title="lift-off factor of the standards, the class by the stretch under the load",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Lift}),
+    represents=frozenset(),
+    gives=frozenset({"lift_off_factor"}),
+    run=run_by_deflection,
+    cost=_cost,
+    source="EN 13001-2, ISO 8686-1",
+    valid=is_full,
+    decides=False,
+)
+FORMULAS: tuple[AnySolver, ...] = (
+    ROD,
+    THIRD_MASS,
+    TAKEUP,
+    STANDARD,
+    SPEED_SOURCE,
+    BY_DEFLECTION,
+    BRAKING,
+    HANGING,
+    RELEASE,
+)
