@@ -16,8 +16,9 @@ from ptmcalc.machines.hoist.spec import Hoist, Lift
 from ptmcalc.numerics.rope import rule
 from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy
 from ptmcalc.numerics.rope.parts import Haul
+from ptmcalc.numerics.rope.rule import FloatArray
 
-FINENESS = (1.0, 1.6)
+FINENESS = (1.0,)
 """How finely time is divided at each refinement."""
 _COMPARED = 1.37
 """How much finer the run beside the one that counts divides it."""
@@ -92,27 +93,29 @@ def _rope_forces(course: Course) -> Iterator[tuple[tuple[float, float], tuple[fl
 
 def _inside(panels: list[Panel], transit: float, sign: int) -> tuple[float, float] | None:
     """Largest (sign 1) or smallest sum of an extreme of either wave that meet inside the rope, and the time."""
-    down, up = (_turns(panels, what, sign) for what in ("down", "up"))
+    (down, leaving), (up, gone) = (_turns(panels, what, sign) for what in ("down", "up"))
+    first = np.searchsorted(gone, leaving - transit, "right")
+    last = np.searchsorted(gone, leaving + transit, "left")
     best: tuple[float, float] | None = None
-    for value, left in down:
-        for other, gone in up:
-            # the wave down leaves the drum at `left` and is at the load at left + transit; the wave up leaves the load
-            if abs(gone - left) < transit:
-                total = value + other
-                if best is None or sign * total > sign * best[0]:
-                    best = total, (left + gone + transit) / 2
+    for value, time, low, high in zip(down, leaving, first, last, strict=True):
+        if low >= high:
+            continue
+        place = int(low) + int(up[low:high].argmax())
+        total = sign * float(value + up[place])
+        if best is None or sign * total > sign * best[0]:
+            best = total, float(time + gone[place] + transit) / 2
     return best
 
 
-def _turns(panels: list[Panel], what: str, sign: int) -> list[tuple[float, float]]:
-    """Local extremes of a wave, in panels and at their ends: (value, time)."""
+def _turns(panels: list[Panel], what: str, sign: int) -> tuple[FloatArray, FloatArray]:
+    """Local extremes of a wave times the sign, in panels and at their ends, and their times."""
     values = sign * np.array([getattr(panel, what) for panel in panels]) @ rule.DENSE.T
     starts, lengths = (np.array([getattr(panel, one) for panel in panels]) for one in ("start", "length"))
     times = (starts[:, None] + lengths[:, None] * rule.PLACES).ravel()
     flat = values.ravel()
     before, after = np.append(-np.inf, flat[:-1]), np.append(flat[1:], -np.inf)
     places = np.flatnonzero((flat >= before) & (flat >= after))
-    return [(sign * float(flat[k]), float(times[k])) for k in places]
+    return flat[places], times[places]
 
 
 def readings(scene: Moving, case: Case, course: Course) -> motion.Readings:
@@ -243,7 +246,10 @@ def histories(course: Course) -> Mapping[str, History]:
 
 
 def cost(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> float:
-    """Seconds predicted: the panels of two runs, each as long as approximation or the corners of a rod allow."""
-    longest = March(rope_case.haul(spec, scene), rope, FINENESS[level]).longest
+    """Seconds predicted: the panels of two runs, each as long as approximation or the corners of a rod allow, which go
+    to and fro for ever, those of the drive's own course from both ends."""
+    haul = rope_case.haul(spec, scene)
+    longest = March(haul, rope, FINENESS[level]).longest
     panels = rope_case.case(spec, scene).window / longest * (1 + _COMPARED)
-    return 1e-3 + _SECONDS * panels * (_EVENTS if isinstance(rope, Rod) else 1)
+    corners = _EVENTS + 2 * len(haul.breaks) if isinstance(rope, Rod) else 1
+    return 1e-3 + _SECONDS * panels * corners
