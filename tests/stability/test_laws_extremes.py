@@ -41,6 +41,7 @@ from ptmcalc.laws import (
     lift_off_standard,
     loop_bounds,
     motor,
+    pendulum,
     polygon,
     reeving,
     resistance,
@@ -277,6 +278,18 @@ def sections_of_chain(draw: Draw) -> tuple[Any, ...]:
 
 def bands(draw: Draw) -> np.ndarray:
     return chain_resonance.exclusion_bands(np.array(draw.positive(5)), np.array([0.15]))
+
+
+def slowly_hoisted(draw: Draw) -> tuple[float, ...]:
+    """A swing whose rope is at most as fast as its load."""
+    angle, length, other, gravity = draw.positive(4)
+    return angle, length, other, draw.share() * math.sqrt(gravity * min(length, other)), gravity
+
+
+def small_swing(draw: Draw) -> tuple[float, ...]:
+    """A swing so small, short and gently moved that a bound of its error follows."""
+    angle = 10 ** draw.rng.uniform(-12, -1)
+    return angle, draw.share() / angle**2 / 9, draw.share() / angle / 9
 
 
 FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] = {
@@ -841,6 +854,21 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lift_off_standard.standard_lift_off_factor,
         lambda d: (str(d.rng.choice(list(lift_off_standard.BETA))), "HD5", *d.positive(1), "by_drive"),
     ),
+    "swing_frequency": (pendulum.swing_frequency, lambda d: tuple(d.positive(2))),
+    "swing_period": (pendulum.swing_period, lambda d: (*d.positive(2), 3.1 * d.share())),
+    "driven_frequency": (pendulum.driven_frequency, lambda d: tuple(d.positive(4))),
+    "steady_lean": (pendulum.steady_lean, lambda d: tuple(d.positive(2))),
+    "largest_lean": (pendulum.largest_lean, lambda d: tuple(d.positive(2))),
+    "swing_force": (pendulum.swing_force, lambda d: tuple(d.positive(3))),
+    "driven_slow_down": (pendulum.driven_slow_down, lambda d: tuple(d.positive(3))),
+    "ramp_residual": (pendulum.ramp_residual, lambda d: tuple(d.positive(4))),
+    "ramp_swing": (pendulum.ramp_swing, lambda d: tuple(d.positive(4))),
+    "start_stop_residual": (pendulum.start_stop_residual, lambda d: tuple(d.positive(6))),
+    "cancelling_ramp": (pendulum.cancelling_ramp, lambda d: tuple(d.positive(3))),
+    "hoisted_angle": (pendulum.hoisted_angle, lambda d: tuple(d.positive(3))),
+    "hoisted_angle_bounds": (pendulum.hoisted_angle_bounds, slowly_hoisted),
+    "slewing_lean": (pendulum.slewing_lean, lambda d: (*d.positive(4),)),
+    "small_angle_error": (pendulum.small_angle_error, small_swing),
     "rod_root": (rope_rod.rod_root, lambda d: (*d.positive(1), int(d.rng.integers(1, 9)))),
     "rod_frequency": (rope_rod.rod_frequency, lambda d: (*d.positive(3), int(d.rng.integers(1, 9)))),
     "free_rod_root": (rope_rod.free_rod_root, lambda d: tuple(d.positive(2))),
