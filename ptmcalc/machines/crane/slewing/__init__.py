@@ -3,7 +3,11 @@
 from importlib import resources
 
 from ptmcalc.contract.machine import MachineKind
-from ptmcalc.machines.crane.slewing.checks import CHECKS
+from ptmcalc.machines.crane.slewing.assumptions import assumptions
+from ptmcalc.machines.crane.slewing.checks import CHECKS_OF_DRIVE
+from ptmcalc.machines.crane.slewing.checks_swing import CHECKS_OF_SWING
+from ptmcalc.machines.crane.slewing.effects import EFFECTS
+from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
@@ -14,8 +18,10 @@ SLEWING = MachineKind(
     title="slewing crane: jib, slewing drive, brake, ring",
     spec=SlewingCrane,
     loads=LOADS,
-    effects=(),
+    effects=EFFECTS,
     solvers=SOLVERS,
-    checks=CHECKS,
+    checks=(*CHECKS_OF_DRIVE, *CHECKS_OF_SWING),
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    assumed=assumptions,
+    inspect=inspect,
 )

@@ -416,7 +416,8 @@ WIND_BRAKE: OneCheck = only(_blown)(
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
-        what="The closed brake, with the friction of the bearings, holds the crane against the largest wind in service.",
+        what="The closed brake, with the friction of the bearings, holds the crane against the largest wind in"
+        " service.",
         why="A jib that the wind turns with the brake closed strikes what is beside it.",
         formula="(M_B u + M_fr)/M_w,max >= 1, losses of the gear left out",
         source="balance of torques about the slewing axis",

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.laws import bodies, inertia, slewing
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
@@ -94,6 +96,24 @@ def motor_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
         wanted = slewing.torque_for_start(total, spec.speed, curve.ramp_time, steady_torque(spec, scene))
         return min(float(wanted) / (spec.gear.ratio * spec.gear.efficiency), limit)
     return spec.motor.mean_torque(spec.speed * spec.gear.ratio)
+
+
+def motor_follows(spec: SlewingCrane) -> bool:
+    """Whether the drive follows a ramp of speed, with whatever torque that takes up to a limit."""
+    return isinstance(spec.motor.curve, ConverterMotor)
+
+
+def torque_range(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, float] | None:
+    """Smallest, largest and mean torque of a motor curve up to the speed of the crane, None without one [N*m].
+
+    Between sampled speeds a torque curve departs from its samples by no more than they differ from each other.
+    """
+    curve, mean = spec.motor.curve, motor_torque(spec, scene)
+    if curve is None or mean is None or motor_follows(spec):
+        return None
+    torques = spec.motor.count * np.asarray(curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf))
+    between = float(np.max(np.abs(np.diff(torques))))
+    return float(np.min(torques)) - between, float(np.max(torques)) + between, mean
 
 
 def rotor_at_axis(spec: SlewingCrane) -> float:

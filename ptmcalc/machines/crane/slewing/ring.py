@@ -34,25 +34,28 @@ def of_ring(spec: SlewingCrane, scene: SlewingScene) -> dict[str, float]:
     """Forces of the ring in steady slewing, the largest wind along the jib, and the use of the catalogue's curve."""
     if not known(spec) or spec.load is None:
         return {}
-    hanging, radius = model.hanging_mass(spec, scene) * spec.gravity, spec.load.radius
-    wind = spec.ring.wind_force or 0.0
-    turning = hanging * radius + (moment_above(spec) if spec.inertia is None else 0.0)
+    hanging, wind = model.hanging_mass(spec, scene) * spec.gravity, spec.ring.wind_force or 0.0
+    outwards = hanging * spec.load.radius / spec.gravity * spec.speed**2
+    behind = moment_above(spec) / spec.gravity * spec.speed**2
     loads = {
         "ring_force_axial": weight_above(spec) + hanging,
-        "ring_force_radial": abs(turning) / spec.gravity * spec.speed**2 + wind,
-        "ring_moment": _moment(spec, hanging, wind),
+        "ring_force_radial": abs(outwards + behind) + wind,
+        "ring_moment": _moment(spec, hanging, outwards, wind),
     }
     if spec.ring.curve is not None:
         factor = spec.ring.load_factor
         axial = weight_above(spec) + factor * hanging
         bears = borne(spec.ring.curve, axial)
-        loads["ring_utilisation"] = _moment(spec, factor * hanging, wind) / bears if bears > 0 else math.inf
+        loads["ring_utilisation"] = (
+            _moment(spec, factor * hanging, factor * outwards, wind) / bears if bears > 0 else math.inf
+        )
     return loads
 
 
-def _moment(spec: SlewingCrane, hanging: float, wind: float) -> float:
+def _moment(spec: SlewingCrane, hanging: float, outwards: float, wind: float) -> float:
     assert spec.load is not None
-    return abs(moment_above(spec) + hanging * spec.load.radius) + wind * spec.ring.wind_height
+    standing = moment_above(spec) + hanging * spec.load.radius + outwards * spec.ring.head_height
+    return abs(standing) + wind * spec.ring.wind_height
 
 
 def borne(curve: Sequence[RingPoint], axial: float) -> float:

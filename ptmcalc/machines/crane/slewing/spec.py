@@ -195,6 +195,8 @@ class Ring(Fragment):
     """all that rests on it without the load; the sum of the parts when left out"""
     unbalance: Annotated[float, Measure(units.TORQUE)] | None = None
     """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
+    head_height: Radius = 0.0
+    """of the head of the jib over the ring, where the load's swing pulls"""
     wind_height: Radius = 0.0
     """of the middle of the wind's area over the ring"""
     wind_force: PositiveForce | None = None

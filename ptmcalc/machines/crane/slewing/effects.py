@@ -1,0 +1,245 @@
+"""The effects a rotation may call for, each with the number that decides and the most that leaving it out changes.
+
+`consistent` is a rigid crane under constant torques, `slew` carries them all. The order matters: the bound of the swing
+starts from the bars that motor and gust have left.
+"""
+
+import math
+
+from ptmcalc.base.estimate import Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import pendulum
+from ptmcalc.machines.crane.slewing import bounds, chain, model
+from ptmcalc.machines.crane.slewing.bounds import Loads, Offsets
+from ptmcalc.machines.crane.slewing.loads import OF_THE_SWING
+from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.spec.scene import Scene
+
+SCENES: frozenset[type[Scene]] = frozenset({Slew})
+DIRECTION_THRESHOLD = 0.01
+CURVE_THRESHOLD = 0.05
+GUST_THRESHOLD = 0.02
+SWING_THRESHOLD = 0.02
+CENTRIFUGAL_THRESHOLD = 0.01
+SWINGING = frozenset(info.name for info in OF_THE_SWING)
+_BY_DIRECTION = (
+    "torque_inertia_brake",
+    "torque_brake",
+    "torque_equivalent",
+    "torque_pinion",
+    "torque_worm",
+    "power_gearbox",
+)
+
+
+# -- direction of the power -----------------------------------------------------------------------------------------
+
+
+def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
+    """How far the direction of the power moves the torques of the gear in the stop.
+
+        (1 - eta) M_in/M_steady
+
+    **Range** every rotation.
+    **Error** an engineering measure.
+    **Source** theory of reduction: the efficiency goes by the direction of the power through the mesh.
+    """
+    inertia = model.slew_inertia(spec, scene) * spec.speed / chain.allowed_stop(spec)[0]
+    steady = model.steady_torque(spec, scene)
+    value = (1 - spec.gear.efficiency) * (inertia / steady if steady > 0 else math.inf)
+    return Criterion(
+        "(1-η) M_in/M_st", min(value, 1e9), DIRECTION_THRESHOLD, "loss of the gear times inertia over resistance",
+        "power balance of the mesh",
+    )  # fmt: skip
+
+
+def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """What the torques of the stop are when the brake holds the rotor and the losses help: the difference itself.
+
+        M_brake: less gamma J_1 u^2 eta w/t_b;   M_worm of the stop: M eta_r/u instead of M/(u eta)
+
+    **Range** torques of an even stop over the allowed angle.
+    **Error** exact: it is computed both ways.
+    **Source** power balance of the mesh; `laws.gearing`.
+    """
+    start, at_column, _ = start_of(spec, scene)
+    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
+    times = chain.phases(spec, (start, spec.speed * start / 2), stop)
+    if not math.isfinite(times.whole):
+        return {}
+    one, other = (
+        chain.loads(spec, scene, times, chain.torques(spec, scene, at_column, by_direction=by), rounded=False)
+        for by in (False, True)
+    )
+    return {
+        name: Interval(min(other[name] - one[name], 0.0), max(other[name] - one[name], 0.0))
+        for name in _BY_DIRECTION
+        if name in loads and name in one
+    }
+
+
+# -- motor ----------------------------------------------------------------------------------------------------------
+
+
+def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
+    """How far the motor's torque departs from its mean on the way up.
+
+        (M_max - M_min)/M_mean
+
+    **Range** motors with a `curve`; 0 for a given mean torque.
+    **Error** an engineering measure.
+    **Source** the threshold of 5 % is an engineering choice.
+    """
+    spread = model.torque_range(spec, scene)
+    value = (spread[1] - spread[0]) / spread[2] if spread is not None else 0.0
+    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the starting torque over its mean", "the motor's curve")
+
+
+def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """The start lies between those with the smallest and with the largest torque of the curve.
+
+        J w/(M_max - M_r) <= t_s <= J w/(M_min - M_r)
+
+    **Range** a start time of the rigid crane; anything where the smallest torque does not turn the crane, and for the
+    load's swing.
+    **Error** a bound: the momentum given grows faster than with M_min, slower than with M_max.
+    **Source** change of angular momentum.
+    """
+    spread = model.torque_range(spec, scene)
+    if spread is None:
+        return {}
+    steady = model.steady_torque(spec, scene)
+    least, most = (model.at_column(spec, torque) - steady for torque in spread[:2])
+    momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
+    wide = Interval(momentum / most if most > 0 else math.inf, momentum / least if least > 0 else math.inf)
+    return bounds.swing_unknown(loads, SWINGING) | bounds.of_times(spec, scene, loads, wide, None)
+
+
+# -- wind -----------------------------------------------------------------------------------------------------------
+
+
+def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
+    """How much of the torque that accelerates the crane a gust takes.
+
+        M_gust/(M_start - M_steady)
+
+    **Range** every rotation; 0 without a gust.
+    **Error** an engineering measure.
+    **Source** the threshold of 2 % is an engineering choice.
+    """
+    free = start_of(spec, scene)[1] - model.steady_torque(spec, scene)
+    gust = spec.wind.gust_torque
+    value = 0.0 if gust == 0 else gust / free if free > 0 else 1e9
+    return Criterion("M_g/M_a", value, GUST_THRESHOLD, "torque of a gust over what accelerates", "balance of torques")
+
+
+def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """A gust against the start holds it up at most as if it lasted.
+
+        t_s <= J w/(M_start - M_steady - M_gust)
+
+    **Range** a start time of the rigid crane; anything where the gust stops it, and for the load's swing.
+    **Error** a bound: the gust is never stronger than that, and never helps.
+    **Source** change of angular momentum.
+    """
+    gust = spec.wind.gust_torque
+    if gust == 0 or "start_time" not in loads:
+        return {}
+    momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
+    known = loads["start_time"]
+    left = momentum / known.high - gust if known.high > 0 else -1.0
+    wide = Interval(known.low, momentum / left if left > 0 else math.inf)
+    return bounds.swing_unknown(loads, SWINGING) | bounds.of_times(spec, scene, loads, wide, None)
+
+
+# -- load -----------------------------------------------------------------------------------------------------------
+
+
+def _hangs(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    return spec.load is not None and spec.load.rope_length is not None and model.hanging_mass(spec, scene) > 0
+
+
+def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
+    """How far the load swings behind the jib.
+
+        2 a/g,   a = R w/t of the start or of the stop, whichever is the shorter
+
+    **Range** loads on a rope of known length.
+    **Error** an engineering measure: below 0.02 the load moves as one with the jib.
+    **Source** pendulum under a constant acceleration, 2 atan(a/g).
+    """
+    if not _hangs(spec, scene):
+        return None
+    assert spec.load is not None
+    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
+    shortest = min(start_of(spec, scene)[0], stop[0])
+    value = 2 * spec.load.radius * spec.speed / (shortest * spec.gravity) if shortest > 0 else math.inf
+    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "angle of the load's swing [rad]", "pendulum")
+
+
+def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """What a swinging load can do to start, stop and ring, however it swings.
+
+        start:  t_s = (J' w + h)/N,   h = m rho w (rho -+ (rho^2 + J'/m)^(1/2))       (`laws.slewing.momentum_range`)
+        stop:   beta_b <= beta_c + E/(M_B u + R),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + R)
+        ring:   V <= m (g + w_rel^2/L + w^2 R + a R)
+
+    E is the largest energy of crane and load as the stop begins, t_c delay and rise of the brake.
+
+    **Range** a start in which the motor never ceases to drive, which is proved from the largest pull of the rope; a
+    stop whose brake outweighs the wind; anything else is unbounded.
+    **Error** a bound, derived: never exceeded in that model.
+    **Source** derived: Jacobi's integral of the load, energy and angular momentum of the crane.
+    """
+    if not _hangs(spec, scene):
+        return {}
+    return bounds.of_swing(spec, scene, loads)
+
+
+def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
+    """How far the load hangs out in steady slewing.
+
+        w^2 R/g
+
+    **Range** loads on a rope of known length.
+    **Error** an engineering measure.
+    **Source** `laws.pendulum.slewing_lean`.
+    """
+    if not _hangs(spec, scene):
+        return None
+    assert spec.load is not None
+    value = spec.speed**2 * spec.load.radius / spec.gravity
+    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "lean of the load outwards [rad]", "conical pendulum")
+
+
+def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """What the lean of the load adds to the radial force of the ring, and to its moment at the head of the jib.
+
+        dH = m w^2 L sin(theta),   tan(theta) = w^2 (R + L sin(theta))/g;   dM = dH h
+
+    **Range** steady slewing; what it does beside the swing of start and stop lies inside the bound of that.
+    **Error** exact for the steady lean.
+    **Source** `laws.pendulum.slewing_lean`.
+    """
+    load = spec.load
+    if not _hangs(spec, scene) or load is None or load.rope_length is None:
+        return {}
+    lean = pendulum.slewing_lean(spec.speed, load.radius, load.rope_length, spec.gravity)
+    pull = model.hanging_mass(spec, scene) * spec.speed**2 * load.rope_length * math.sin(lean)
+    added = {"ring_force_radial": pull, "ring_moment": pull * spec.ring.head_height}
+    return {name: Interval(0.0, value) for name, value in added.items() if name in loads}
+
+
+EFFECTS: tuple[AnyEffect, ...] = (
+    Effect(
+        "efficiency_direction", "losses of the gear by the direction of the power", SCENES, direction_criterion,
+        direction_bound,
+    ),
+    Effect("slewing_motor_curve", "torque of the motor over its speed", SCENES, curve_criterion, curve_bound),
+    Effect("wind_gust", "gust of the wind against the start", SCENES, gust_criterion, gust_bound),
+    Effect("load_swing", "swing of the load under the jib", SCENES, swing_criterion, swing_bound),
+    Effect(
+        "centrifugal_offset", "lean of the load outwards", SCENES, centrifugal_criterion, centrifugal_bound
+    ),
+)  # fmt: skip

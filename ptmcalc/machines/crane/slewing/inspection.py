@@ -1,0 +1,71 @@
+"""Values of a slewing crane's file that disagree with each other."""
+
+import math
+from collections.abc import Iterator
+
+from ptmcalc.base import units
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.result import Finding
+from ptmcalc.machines.crane.slewing import chain, model
+from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
+
+_TIME_TOLERANCE = 0.02
+_SPEED_TOLERANCE = 0.1
+
+
+def inspect(spec: SlewingCrane) -> Iterator[Finding]:
+    """Torque and time of a start that exclude each other; a motor whose speed is not that of the crane."""
+    scene = spec.all_scenes[0]
+    for block in ("cycle", "handbook"):
+        given = getattr(spec, block)
+        key = "start_time" if given.start_time is not None else "start_angle"
+        time = model.start_time_of(given.start_time, given.start_angle, spec.speed)
+        if time is not None:
+            yield from _exclude(spec, scene, time, (block, key))
+    if spec.motor.speed is not None:
+        turns = spec.motor.speed / spec.gear.ratio
+        if abs(turns / spec.speed - 1) > _SPEED_TOLERANCE:
+            said = units.show(spec.speed, units.ANGULAR_SPEED)
+            yield Finding(
+                "SPC201",
+                f"motor and gear turn the crane at {units.show(turns, units.ANGULAR_SPEED)}, the file says {said}",
+                ("speed",),
+                "correct the speed, or the ratio from motor to crane with its open stage",
+            )
+
+
+def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath) -> Iterator[Finding]:
+    """What to say of a start whose torque takes another time than the one given."""
+    torque = model.motor_torque(spec, scene)
+    if torque is None:
+        return
+    own = chain.start_time(spec, scene)
+    if abs(own / time - 1) <= _TIME_TOLERANCE:
+        return
+    needed = chain.start_torque(spec, scene, time) / (spec.gear.ratio * spec.gear.efficiency)
+    given = spec.motor.count
+    shown, wanted = (units.show(one / given, units.TORQUE) for one in (torque, needed))
+    asked = units.show(time, units.TIME)
+    takes = f"{shown} start it in {units.show(own, units.TIME)}" if math.isfinite(own) else f"{shown} do not start it"
+    yield Finding(
+        "SPC201",
+        f"{shown} and {asked} exclude each other: {takes}, {asked} need {wanted}" + _worth(spec, scene, time, needed),
+        ("motor", spec.motor.torque_key),
+        "correct one of them; `handbook` takes both as they are, everything else the torque",
+        key,
+    )
+
+
+def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) -> str:
+    """The equivalent torques of both readings, each consistent in itself."""
+    stop = chain.allowed_stop(spec)
+    values = []
+    for start, torque in ((chain.start_time(spec, scene), model.motor_torque(spec, scene)), (time, needed)):
+        assert torque is not None
+        if not math.isfinite(start):
+            return ""
+        times = chain.phases(spec, (start, spec.speed * start / 2), stop)
+        at = chain.torques(spec, scene, model.at_column(spec, torque), by_direction=False)
+        found = chain.loads(spec, scene, times, at, rounded=False)["torque_equivalent"]
+        values.append(units.show(found, units.TORQUE))
+    return f"; the equivalent torque at the column is {values[0]} with the torque, {values[1]} with the time"
