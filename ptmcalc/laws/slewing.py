@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,37 +121,36 @@ def geared_stop(
     **Source** derived: power balance of the mesh (`gearing`), phase by phase.
     """
 
-    def acceleration(share: float) -> float:
+    def turns(share: float) -> float:
+        """Above 0 where the load drives."""
+        return motor_brake * share + rotor * (-crane_brake * share - resistance) / inertia
+
+    def acceleration(share: float, *, back: bool) -> float:
         free, held = -crane_brake * share - resistance, motor_brake * share
-        if held + rotor * free / inertia <= 0:
+        if not back:
             return (free - held * efficiency) / (inertia + rotor * efficiency)
         if reverse_efficiency == 0:
             return -held / rotor if rotor > 0 else -math.inf
-        behind = inertia + rotor / reverse_efficiency
-        return (free - held / reverse_efficiency) / behind if behind * reverse_efficiency > 0 else -math.inf
+        behind = inertia * reverse_efficiency + rotor
+        return (free * reverse_efficiency - held) / behind if behind > 0 else -math.inf
 
-    def turns(share: float) -> float:
-        return motor_brake * share + rotor * (-crane_brake * share - resistance) / inertia
-
-    shares = [0.0]
+    shares = [0.0, 1.0]
     if turns(0.0) * turns(1.0) < 0:
-        shares.append(turns(0.0) / (turns(0.0) - turns(1.0)))
-    shares.append(1.0)
-    times = [0.0, *(delay + rise_time * share for share in shares), math.inf]
-    at = [0.0, *shares, 1.0]
+        shares.insert(1, turns(0.0) / (turns(0.0) - turns(1.0)))
+    spans = [(delay, 0.0, 0.0), *((rise_time * (b - a), a, b) for a, b in pairwise(shares)), (math.inf, 1.0, 1.0)]
     time = angle = 0.0
-    for start, end, first, last in zip(times, times[1:], at, at[1:], strict=False):
-        span, a0, a1 = end - start, acceleration(first), acceleration(last)
-        if -math.inf in (a0, a1):
-            return time, angle
+    for span, first, last in spans:
         if span <= 0:
             continue
+        back = turns((first + last) / 2) > 0
+        a0, a1 = acceleration(first, back=back), acceleration(last, back=back)
+        if a0 == -math.inf:
+            return time, angle
         jerk = (a1 - a0) / span
         stop = _first_standstill(speed, a0, jerk)
         if stop <= span:
-            return time + stop, angle + speed * stop + a0 * stop**2 / 2 + jerk * stop**3 / 6
-        if math.isinf(span):
-            return math.inf, math.inf
+            angle += speed * stop + a0 * stop**2 / 2 + jerk * stop**3 / 6
+            return (time + stop, angle) if math.isfinite(stop) else (math.inf, math.inf)
         angle += speed * span + a0 * span**2 / 2 + jerk * span**3 / 6
         speed += a0 * span + jerk * span**2 / 2
         time += span

@@ -56,6 +56,7 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    slewing,
     slider_crank,
     slip_heat,
     sprocket,
@@ -545,6 +546,18 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         (mean, 4e3, 0.5, 130.0, 101.0, 40.0, 0.9, 0.89, up) for mean in (90.0, 200.0) for up in (True, False)
     ],
     hoisting.load_frequency: [(4e6, 12850.0, kb, mb) for kb in (6e6, np.inf) for mb in (0.0, 6500.0)],
+    slewing.fatigue_torque: [(np.array([0.4, 0.5, 0.1]), np.array([1e4, 3e3, 8e3]), 3.0)],
+    slewing.uniform_start_time: [(6.5e4, 0.21, 1e4, 3e3), (6.5e4, 0.21, 3e3, 1e4)],
+    slewing.torque_for_start: [(6.5e4, 0.21, 8.0, 3e3)],
+    slewing.geared_stop: [
+        (6e4, 6.5e3, 0.7, back, 0.21, on_motor, on_crane, against, 0.2, rise)
+        for back in (0.57, -0.2, 0.0)
+        for on_motor, on_crane in ((5e3, 0.0), (0.0, 6e3))
+        for against in (1e3, -2e3)
+        for rise in (0.0, 0.4)
+    ],
+    slewing.swing_reach: [(4e4, 1e3, 5.0, 6.0, 0.21, 9.81), (4e4, 1e3, 5.0, 6.0, 9.0, 9.81)],
+    slewing.momentum_range: [(4e4, 1e3, 5.2, 0.21)],
     hoist_class.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
     hoist_class.equivalent_load: [(0.28, 3.0)],
     hoist_class.use_of_cycles: [(1e5,)],

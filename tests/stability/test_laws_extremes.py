@@ -52,6 +52,7 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    slewing,
     slider_crank,
     slip_heat,
     sprocket,
@@ -822,6 +823,28 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "sinking_acceleration": (
         hoisting.sinking_acceleration,
         lambda d: (*d.positive(5), eta := max(d.share(), 0.51), 2 - 1 / eta),
+    ),
+    "fatigue_torque": (slewing.fatigue_torque, lambda d: ([0.4, 0.5, 0.1], d.positive(3), 0.5 + 9 * d.share())),
+    "uniform_start_time": (
+        lambda *given: min(float(slewing.uniform_start_time(*given)), 1e99),  # infinite where the motor stalls
+        lambda d: tuple(d.positive(4)),
+    ),
+    "torque_for_start": (slewing.torque_for_start, lambda d: tuple(d.positive(4))),
+    "geared_stop": (
+        lambda *given: min(*slewing.geared_stop(*given), 1e99),  # infinite where the wind wins
+        lambda d: (
+            *d.positive(2),
+            max(d.share(), 1e-3),
+            1 - 2 * d.share(),
+            *d.positive(3),
+            d.positive(1)[0] * (1 - 2 * int(d.rng.integers(2))),
+            *d.positive(2),
+        ),
+    ),
+    "swing_reach": (slewing.swing_reach, lambda d: tuple(d.positive(6))),
+    "momentum_range": (
+        lambda *given: (-slewing.momentum_range(*given)[0], slewing.momentum_range(*given)[1]),
+        lambda d: tuple(d.positive(4)),
     ),
     "speed_after_drop": (hoisting.speed_after_drop, lambda d: tuple(d.positive(2))),
     "hoist_start_time": (

@@ -57,15 +57,17 @@ def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath)
 
 
 def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) -> str:
-    """The equivalent torques of both readings, each consistent in itself."""
-    stop = chain.allowed_stop(spec)
-    values = []
-    for start, torque in ((chain.start_time(spec, scene), model.motor_torque(spec, scene)), (time, needed)):
-        assert torque is not None
-        if not math.isfinite(start):
-            return ""
-        times = chain.phases(spec, (start, spec.speed * start / 2), stop)
-        at = chain.torques(spec, scene, model.at_column(spec, torque), by_direction=False)
-        found = chain.loads(spec, scene, times, at, rounded=False)["torque_equivalent"]
-        values.append(units.show(found, units.TORQUE))
-    return f"; the equivalent torque at the column is {values[0]} with the torque, {values[1]} with the time"
+    """The equivalent torques of both readings: of the torque, and of the handbook's chain with the torque it needs."""
+    own, torque = chain.start_time(spec, scene), model.motor_torque(spec, scene)
+    if torque is None or not math.isfinite(own):
+        return ""
+    by_torque = _equivalent(spec, scene, own, torque, rounded=False)
+    by_time = _equivalent(spec, scene, time, needed, rounded=spec.handbook.shares == "rounded")
+    return f"; the equivalent torque at the column is {by_torque} with the torque, {by_time} with the time"
+
+
+def _equivalent(spec: SlewingCrane, scene: SlewingScene, start: float, torque: float, *, rounded: bool) -> str:
+    times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
+    at = chain.torques(spec, scene, model.at_column(spec, torque), by_direction=False)
+    found = chain.loads(spec, scene, times, at, rounded=rounded)["torque_equivalent"]
+    return units.show(found, units.TORQUE)
