@@ -1,6 +1,6 @@
 """Solvers of the slewing crane, one a file, from the cheapest to the richest."""
 
-from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT
+from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
 from ptmcalc.machines.crane.slewing.solvers.handbook import HANDBOOK
 
-SOLVERS = (HANDBOOK, CONSISTENT)
+SOLVERS = (HANDBOOK, CONSISTENT, GEARED)

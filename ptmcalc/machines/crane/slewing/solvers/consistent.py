@@ -20,14 +20,30 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     the allowed angle, and so are the torques of the stop. Beside it what motor, brake, gear and slewing ring are asked.
 
     **Range** a rigid crane under constant torques.
-    **Error** exact for that model. Without `efficiency_direction` rotor and losses of the gear are those of the
-    handbook.
+    **Error** exact for that model; rotor and losses of the gear in the stop are those of the handbook, see `geared`.
     **Source** change of angular momentum; course notes on the slewing crane on a fixed column; IEC 60034-1, ISO 4301-1.
     """
+    return found_by(spec, scene, by_direction=False)
+
+
+def run_geared(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
+    """The chain of `consistent` with the gear's losses by the direction of the power.
+
+        M_brake = J w/t_b + M_w,max - M_fr, the brake holds the rotor;   M_worm of the stop = M_brake eta_r/u
+
+    **Range** a rigid crane under constant torques, the brake on the motor shaft.
+    **Error** exact for that model.
+    **Source** power balance of the mesh (`laws.gearing`); otherwise as `consistent`.
+    """
+    return found_by(spec, scene, by_direction=True)
+
+
+def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool) -> Result:
+    """All of it, rotor and losses of the stop by the handbook or `by_direction` of the power."""
     start, at_column, derived = start_of(spec, scene)
     stop = model.stop(spec, scene)
     times = chain.phases(spec, (start, spec.speed * start / 2), stop or chain.allowed_stop(spec))
-    at = chain.torques(spec, scene, at_column, by_direction="efficiency_direction" in carried)
+    at = chain.torques(spec, scene, at_column, by_direction=by_direction)
     if math.isfinite(times.whole):
         loads = dict(chain.loads(spec, scene, times, at, rounded=False))
     else:
@@ -76,14 +92,27 @@ def of_use(spec: SlewingCrane) -> dict[str, float]:
     return {"spectrum_factor": factor, "crane_group": float(group)}
 
 
+_GIVEN = chain.GIVEN | {info.name for info in (*OF_THE_DRIVE, *OF_THE_RING, *OF_THE_USE)}
+
 CONSISTENT: Solver[SlewingCrane, SlewingScene] = Solver(
     name="consistent",
     title="the chain of a rotation, torque and time of its start fitting each other",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
-    represents=frozenset({"efficiency_direction"}),
-    gives=chain.GIVEN | {info.name for info in (*OF_THE_DRIVE, *OF_THE_RING, *OF_THE_USE)},
+    represents=frozenset(),
+    gives=_GIVEN,
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-4 + 1e-5 * len(carried),
+    cost=lambda spec, scene, carried, level: 1e-4,
     source="change of angular momentum",
+)
+GEARED: Solver[SlewingCrane, SlewingScene] = Solver(
+    name="geared",
+    title="the consistent chain, losses of the gear by the direction of the power",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Slew}),
+    represents=frozenset({"efficiency_direction"}),
+    gives=_GIVEN,
+    run=run_geared,
+    cost=lambda spec, scene, carried, level: 2e-4,
+    source="power balance of the mesh",
 )
