@@ -147,7 +147,7 @@ def _mean(times: tuple[Interval, ...], torques: tuple[float, ...], exponent: flo
 def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
     """Start, stop and ring of a crane whose load swings as it likes."""
     if "cycle_time" not in loads:
-        return {name: ANYTHING for name in (*_OF_TIMES, *_RING) if name in loads}
+        return _unmoved(spec, scene, loads)
     assert spec.load is not None
     assert spec.load.rope_length is not None
     mass, radius, rope = model.hanging_mass(spec, scene), spec.load.radius, spec.load.rope_length
@@ -174,6 +174,17 @@ def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
     stop, end_angle = _stop(spec, scene, driven, reach, most)
     found = of_times(spec, scene, loads, start, stop, turned)
     return found | _ring(spec, scene, loads, pull, end_angle)
+
+
+def _unmoved(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
+    """Of a crane that stalls or that no brake stops: a load that hangs at rest does not help a motor that stalls, and
+    no swing lets a brake hold a wind that is stronger than it can hold."""
+    proved: set[str] = set()
+    if model.torque_range(spec, scene) is None and math.isinf(start_of(spec, scene)[0]):
+        proved.add("start_time")
+    if math.isinf((model.stop(spec, scene) or chain.allowed_stop(spec))[0]):
+        proved |= {"brake_time", "brake_angle"}
+    return {name: ANYTHING for name in (*_OF_TIMES, *_RING) if name in loads and name not in proved}
 
 
 def _stop(

@@ -8,6 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 Loads = Mapping[str, Estimate]
@@ -40,6 +41,17 @@ def blames(*path: str) -> Callable[[SlewingCrane, SlewingScene, Loads], KeyPath]
 def needs(*paths: KeyPath) -> Callable[[SlewingCrane, SlewingScene], tuple[KeyPath, ...]]:
     """Always the same keys."""
     return lambda spec, scene: paths
+
+
+def starts(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the rigid crane starts: of one that stalls (CRN101) no stop is asked."""
+    return math.isfinite(start_of(spec, scene)[0])
+
+
+def turns(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the rigid crane starts and stops: of one that stalls (CRN101), or that no brake stops (CRN105), nothing
+    more is asked."""
+    return math.isfinite(start_of(spec, scene)[0]) and math.isfinite((model.stop(spec, scene) or (0.0, 0.0))[0])
 
 
 # -- start ----------------------------------------------------------------------------------------------------------
@@ -122,20 +134,22 @@ def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(spec.checks.least_start_time)
 
 
-HARSH: OneCheck = Check(
-    code="CRN103",
-    title="a start that is too harsh",
-    scenes=SLEWING,
-    loads=("start_time",),
-    sense=Sense.AT_LEAST,
-    limit=_shortest_start,
-    needs=no_needs,
-    blame=lambda spec, scene, loads: torque_key(spec, scene),
-    repair=_torque_repair,
-    what="The crane takes at least the time asked to come to its speed.",
-    why="A motor far too strong throws the load about, and jerks gear and jib.",
-    formula="t_s >= 1 s",
-    source="handbooks of lifting machines",
+HARSH: OneCheck = only(turns)(
+    Check(
+        code="CRN103",
+        title="a start that is too harsh",
+        scenes=SLEWING,
+        loads=("start_time",),
+        sense=Sense.AT_LEAST,
+        limit=_shortest_start,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: torque_key(spec, scene),
+        repair=_torque_repair,
+        what="The crane takes at least the time asked to come to its speed.",
+        why="A motor far too strong throws the load about, and jerks gear and jib.",
+        formula="t_s >= 1 s",
+        source="handbooks of lifting machines",
+    )
 )
 
 
@@ -149,20 +163,22 @@ def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(1.0)
 
 
-SHORT: OneCheck = Check(
-    code="CRN106",
-    title="a rotation too short for start and stop",
-    scenes=SLEWING,
-    loads=("rotation_used",),
-    sense=Sense.AT_MOST,
-    limit=_whole_rotation,
-    needs=no_needs,
-    blame=blames("cycle", "rotation"),
-    repair=at("cycle", "rotation"),
-    what="Start and stop together take no more than the angle of the rotation.",
-    why="A crane that never reaches its speed has another cycle than the one computed here.",
-    formula="(beta_s + beta_b)/beta <= 1",
-    source="course notes on the slewing crane on a fixed column (3.5.2.3)",
+SHORT: OneCheck = only(turns)(
+    Check(
+        code="CRN106",
+        title="a rotation too short for start and stop",
+        scenes=SLEWING,
+        loads=("rotation_used",),
+        sense=Sense.AT_MOST,
+        limit=_whole_rotation,
+        needs=no_needs,
+        blame=blames("cycle", "rotation"),
+        repair=at("cycle", "rotation"),
+        what="Start and stop together take no more than the angle of the rotation.",
+        why="A crane that never reaches its speed has another cycle than the one computed here.",
+        formula="(beta_s + beta_b)/beta <= 1",
+        source="course notes on the slewing crane on a fixed column (3.5.2.3)",
+    )
 )
 
 # -- stop -----------------------------------------------------------------------------------------------------------
@@ -178,20 +194,22 @@ def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(spec.cycle.brake_angle)
 
 
-BRAKE_ANGLE: OneCheck = Check(
-    code="CRN104",
-    title="a stop over too large an angle",
-    scenes=SLEWING,
-    loads=("brake_angle",),
-    sense=Sense.AT_MOST,
-    limit=_allowed_angle,
-    needs=needs(("brake",)),
-    blame=blames("brake", "torque"),
-    repair=at("brake", "torque"),
-    what="The brake, with its delay, stops the crane within the allowed angle against the largest wind.",
-    why="A jib that runs on hits what stands in its way, and the operator cannot place the load.",
-    formula="beta_b <= beta",
-    source="power balance of the gear (laws.slewing.geared_stop); course notes on the slewing crane",
+BRAKE_ANGLE: OneCheck = only(starts)(
+    Check(
+        code="CRN104",
+        title="a stop over too large an angle",
+        scenes=SLEWING,
+        loads=("brake_angle",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_angle,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The brake, with its delay, stops the crane within the allowed angle against the largest wind.",
+        why="A jib that runs on hits what stands in its way, and the operator cannot place the load.",
+        formula="beta_b <= beta",
+        source="power balance of the gear (laws.slewing.geared_stop); course notes on the slewing crane",
+    )
 )
 
 
@@ -205,20 +223,22 @@ def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(spec.checks.brake_time)
 
 
-BRAKE_TIME: OneCheck = Check(
-    code="CRN105",
-    title="a stop that takes too long",
-    scenes=SLEWING,
-    loads=("brake_time",),
-    sense=Sense.AT_MOST,
-    limit=_longest_stop,
-    needs=needs(("brake",)),
-    blame=blames("brake", "torque"),
-    repair=at("brake", "torque"),
-    what="The brake, with its delay, stops the crane within the time asked against the largest wind.",
-    why="What takes long to stop is not stopped in time; a brake below the wind does not stop it at all.",
-    formula="t_b <= 10 s",
-    source="power balance of the gear (laws.slewing.geared_stop)",
+BRAKE_TIME: OneCheck = only(starts)(
+    Check(
+        code="CRN105",
+        title="a stop that takes too long",
+        scenes=SLEWING,
+        loads=("brake_time",),
+        sense=Sense.AT_MOST,
+        limit=_longest_stop,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The brake, with its delay, stops the crane within the time asked against the largest wind.",
+        why="What takes long to stop is not stopped in time; a brake below the wind does not stop it at all.",
+        formula="t_b <= 10 s",
+        source="power balance of the gear (laws.slewing.geared_stop)",
+    )
 )
 
 # -- motor and gear -------------------------------------------------------------------------------------------------
@@ -238,20 +258,22 @@ def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(1.0)
 
 
-HEATING: OneCheck = Check(
-    code="CRN107",
-    title="a motor that gets too hot",
-    scenes=SLEWING,
-    loads=("heating_utilisation",),
-    sense=Sense.AT_MOST,
-    limit=_all_of_it,
-    needs=lambda spec, scene: () if spec.motor.rated is not None else (("motor", "rated_torque"),),
-    blame=lambda spec, scene, loads: _rating(spec, scene),
-    repair=_rating,
-    what="Start and steady slewing heat the motor no more than its rated torque does at the duty of the cycle.",
-    why="The life of the winding's insulation is halved by every ten degrees.",
-    formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
-    source="IEC 60034-1",
+HEATING: OneCheck = only(turns)(
+    Check(
+        code="CRN107",
+        title="a motor that gets too hot",
+        scenes=SLEWING,
+        loads=("heating_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_all_of_it,
+        needs=lambda spec, scene: () if spec.motor.rated is not None else (("motor", "rated_torque"),),
+        blame=lambda spec, scene, loads: _rating(spec, scene),
+        repair=_rating,
+        what="Start and steady slewing heat the motor no more than its rated torque does at the duty of the cycle.",
+        why="The life of the winding's insulation is halved by every ten degrees.",
+        formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
+        source="IEC 60034-1",
+    )
 )
 
 

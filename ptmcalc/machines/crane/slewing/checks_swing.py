@@ -4,7 +4,8 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_repair
-from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only, turns
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -20,36 +21,47 @@ def _allowed_sway(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 
 _ROPE = (("load",), ("load", "rope_length"))
 
-RADIAL: OneCheck = Check(
-    code="CRN110",
-    title="too much swing of the load outwards",
-    scenes=SLEWING,
-    loads=("sway_radial_max",),
-    sense=Sense.AT_MOST,
-    limit=_allowed_sway,
-    needs=needs(*_ROPE),
-    blame=blames("speed"),
-    repair=at("speed"),
-    what="In the start, the rotation and the stop the rope hangs no further from the plumb line outwards or inwards"
-    " than allowed.",
-    why="A load that swings out adds to the tilting moment, and hits what is beside its way.",
-    formula="theta_r <= 10 deg",
-    source="spherical pendulum on a slewing jib",
+
+def _swings(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether something hangs on the rope of a crane that moves, and its swing is not left out by the file."""
+    nothing = spec.load is not None and model.hanging_mass(spec, scene) == 0
+    return turns(spec, scene) and not nothing and spec.effects.get("load_swing") != "off"
+
+
+RADIAL: OneCheck = only(_swings)(
+    Check(
+        code="CRN110",
+        title="too much swing of the load outwards",
+        scenes=SLEWING,
+        loads=("sway_radial_max",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_sway,
+        needs=needs(*_ROPE),
+        blame=blames("speed"),
+        repair=at("speed"),
+        what="In the start, the rotation and the stop the rope hangs no further from the plumb line outwards or inwards"
+        " than allowed.",
+        why="A load that swings out adds to the tilting moment, and hits what is beside its way.",
+        formula="theta_r <= 10 deg",
+        source="spherical pendulum on a slewing jib",
+    )
 )
-TANGENTIAL: OneCheck = Check(
-    code="CRN111",
-    title="too much swing of the load along its way",
-    scenes=SLEWING,
-    loads=("sway_tangential_max",),
-    sense=Sense.AT_MOST,
-    limit=_allowed_sway,
-    needs=needs(*_ROPE),
-    blame=blames("speed"),
-    repair=at("speed"),
-    what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
-    why="The rope then pulls the jib sideways, and the load cannot be put down.",
-    formula="theta_t <= 10 deg",
-    source="spherical pendulum on a slewing jib",
+TANGENTIAL: OneCheck = only(_swings)(
+    Check(
+        code="CRN111",
+        title="too much swing of the load along its way",
+        scenes=SLEWING,
+        loads=("sway_tangential_max",),
+        sense=Sense.AT_MOST,
+        limit=_allowed_sway,
+        needs=needs(*_ROPE),
+        blame=blames("speed"),
+        repair=at("speed"),
+        what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
+        why="The rope then pulls the jib sideways, and the load cannot be put down.",
+        formula="theta_t <= 10 deg",
+        source="spherical pendulum on a slewing jib",
+    )
 )
 
 

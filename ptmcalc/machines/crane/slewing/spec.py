@@ -45,9 +45,9 @@ class Load(Fragment):
     """rated load with its grab or sling"""
     hook_block: Mass = 0.0
     """hook block and whatever stays on the hook"""
-    radius: PositiveSpan
+    radius: PositiveSpan = Field(examples=["8 m"])
     """from the slewing axis to the head of the jib, where the rope hangs"""
-    rope_length: PositiveSpan | None = None
+    rope_length: PositiveSpan | None = Field(default=None, examples=["6 m"])
     """from the head of the jib to the middle of the load; needed to see the load swing"""
 
 
@@ -82,11 +82,11 @@ class Wind(Fragment):
     """largest torque in service, for the brake and for a motor that must hold; the steady one when left out"""
     gust: Torque | None = None
     """torque of a gust that comes on top of the steady wind"""
-    area: SweptArea | None = None
+    area: SweptArea | None = Field(default=None, examples=["12 m^2"])
     """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
-    arm: PositiveSpan | None = None
+    arm: PositiveSpan | None = Field(default=None, examples=["4 m"])
     """from the slewing axis to the middle of the area"""
-    steady_pressure: PositivePressure | None = None
+    steady_pressure: PositivePressure | None = Field(default=None, examples=["50 Pa"])
     """of the wind of a working day"""
     maximum_pressure: PositivePressure | None = None
     """largest in service; 250 Pa by most standards"""
@@ -103,8 +103,8 @@ class Wind(Fragment):
         for torque in ("steady", "maximum", "gust"):
             pressure = f"{torque}_pressure"
             yield from at_most_one(given, torque, pressure)
-            for key in ("area", "arm"):
-                yield from together(given, pressure, key, "a pressure acts on an area at an arm")
+            if pressure in given and "area" not in given:
+                yield from together(given, pressure, "area", "a pressure acts on an area")
         for key, other in (("area", "arm"), ("arm", "area")):
             yield from together(given, key, other, "the torque of an area goes by its arm")
         if "area" in given and not any(f"{t}_pressure" in given for t in ("steady", "maximum", "gust")):
@@ -141,7 +141,7 @@ class Cycle(Fragment):
 
     rotation: PositiveAngle = 3.141592653589793
     """from pick-up to put-down; 180 deg when left out"""
-    brake_angle: BrakeAngle
+    brake_angle: BrakeAngle = Field(examples=["15 deg"])
     """largest allowed angle of a stop: 15 deg in light duty"""
     start_time: PositiveTime | None = None
     """in which it comes to speed, where the motor's torque does not say it"""
@@ -296,9 +296,9 @@ class SlewingCrane(MachineSpec):
     """the counterweight"""
     jib: Jib | None = None
     """the jib"""
-    inertia: PositiveInertia | None = None
+    inertia: PositiveInertia | None = Field(default=None, examples=["60000 kg*m^2"])
     """of all that slews about the axis, the load at its radius included, instead of the parts"""
-    speed: PositiveAngularSpeed
+    speed: PositiveAngularSpeed = Field(examples=["2 rpm"])
     """of slewing"""
     friction: Torque
     """torque of all bearings about the slewing axis"""

@@ -2,5 +2,6 @@
 
 from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
 from ptmcalc.machines.crane.slewing.solvers.handbook import HANDBOOK
+from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
 
-SOLVERS = (HANDBOOK, CONSISTENT, GEARED)
+SOLVERS = (HANDBOOK, CONSISTENT, GEARED, SLEW)
