@@ -150,7 +150,7 @@ def _type_of(kind: AnyKind, document: Document, data: Mapping[str, Any]) -> tupl
         hint = f"is {quote(slip)} meant for it? " * bool(slip) + f"add `type: {next(iter(types))}`"
         reason = f"`type` is missing: a {kind.name} is one of {choice}"
         return None, [Diagnostic("SPC103", reason, document.key_span(("kind",)), ("type",), hint)]
-    if named not in types:
+    if named not in tuple(types):
         reason = f"`type` is {describe(named)}, not one of {choice}"
         hint = did_you_mean(named if isinstance(named, str) else "", types, "write one of ")
         return None, [Diagnostic("SPC112", reason, place, ("type",), hint)]

@@ -35,7 +35,7 @@ MOST_EVALUATIONS = {
     "chain_drive/inclined_scraper.yaml": 100_000,
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
-    "crane_slewing.yaml": 10,
+    "crane_slewing.yaml": 300,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 

@@ -24,7 +24,7 @@ _STATE = ("along", "across", "along_rate", "across_rate")
 _INHERITED = 10.0
 """By how much an error of the state with which a piece begins may have grown by the end of it."""
 _AT_SPEED = 1e-9
-_MOST_STEPS = 6000
+_MOST_STEPS = 3000
 
 
 @dataclass(frozen=True, slots=True)

@@ -116,7 +116,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     load = spec.load
     if load is None or load.rope_length is None:
         return 0.0
-    omega = math.sqrt(spec.gravity / load.rope_length)
+    omega = math.sqrt((spec.gravity + spec.speed**2 * load.radius) / load.rope_length)
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     whole = 3 * start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
     if not math.isfinite(whole):
