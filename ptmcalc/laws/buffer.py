@@ -6,6 +6,8 @@ stiffness c of the column between them; it is the lower end that strikes.
 """
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 TIP_STOPPED, WHOLE = "tip_stopped", "whole"
+LINE, TWO_VALUES = "line", "two_values"
+"""Editions of phi_7: a line from 1.25 to 1.6 over the shape of the buffer's curve (ISO 8686-1, EN 13001-2, EN 1991-3;
+recommended), or only its ends, as older rules have it for springs and for hydraulic buffers."""
+COLLISION_SPEED: Mapping[str, float] = MappingProxyType({"full": 1.0, "en_1991_3": 0.7, "snip": 0.5})
+"""Speed at the buffer over the rated one [1]: without any slowing down; of EN 1991-3, and of EN 13001-2 where
+something slows the crane down; of SNiP 2.01.07-85. Quoted from secondary sources; to be confirmed."""
+_STEPS = 200
+"""More than Newton's method on a convex function takes from a start at most twice too far."""
 
 
 def _stopping_force(push: float, tension: float) -> float:
@@ -170,46 +180,202 @@ def driven_buffer(drive_force: float, mass: float, stiffness: float, speed: floa
     return force, force / stiffness
 
 
-def orifice_buffer_speed(path: ArrayLike, mass: float, coefficient: float, speed: float) -> FloatArray:
+def constant_force_stroke(push: float, force: float, mass: float, speed: float) -> float:
+    """Stroke of a buffer of constant force that a crane runs onto with its drive on.
+
+        s = m v^2 / (2 (F - P))
+
+    Args:
+        push: P, of the drive, constant; below 0 for a brake [N].
+        force: F, of the buffer [N].
+        mass: m, of `collision_mass` [kg].
+        speed: v, at first contact [m/s].
+
+    Returns:
+        s; infinite for P >= F, a drive that pushes the buffer through [m].
+
+    **Range** friction buffers, hydraulic ones of ideal orifices.
+    **Error** exact for that buffer.
+    **Source** energy m v^2/2 + P s = F s.
+    """
+    return mass * speed * speed / (2 * (force - push)) if force > push else math.inf
+
+
+def progressive_buffer(
+    push: float, mass: float, speed: float, end_force: float, stroke: float, power: float
+) -> tuple[float, float]:
+    """Largest force and stroke of a buffer whose force grows as a power of its stroke: rubber, cellular plastic.
+
+        F = F_e (u/s)^p,   m v^2/2 + P u = F_e s/(p + 1) (u/s)^(p + 1)
+
+    Args:
+        push: P, of the drive, constant; below 0 for a brake [N].
+        mass: m, of `collision_mass` [kg].
+        speed: v, at first contact [m/s].
+        end_force: F_e, at the end of the stroke [N].
+        stroke: s [m].
+        power: p, above 0: 1 for a spring, 2 to 3 for cellular plastic [1].
+
+    Returns:
+        (F [N], u [m]); where u is more than s the buffer bottoms out, with `speed_left`.
+
+    **Range** a buffer without damping; its curve continued beyond its end.
+    **Error** exact for that curve.
+    **Source** energy; Newton's method on a convex function, from beyond its root.
+    """
+    energy, push_share = mass * speed / (end_force * stroke) * speed / 2, push / end_force
+    if energy == 0 and push <= 0:
+        return 0.0, 0.0
+    x = (2 * (power + 1) * energy) ** (1 / (power + 1))
+    if push > 0:
+        x = max(x, (2 * (power + 1) * push_share) ** (1 / power))
+    for _ in range(_STEPS):
+        curve = x**power
+        step = (x * curve / (power + 1) - push_share * x - energy) / (curve - push_share)
+        if not 0 < x - step < x:
+            break
+        x -= step
+    return end_force * x**power, stroke * x
+
+
+def speed_left(push: float, mass: float, speed: float, energy: float, stroke: float) -> float:
+    """Speed at which a crane meets the end of a buffer that is too weak for it.
+
+        v_1 = (v^2 + 2 (P s - E)/m)^(1/2)
+
+    Args:
+        push: P, of the drive, constant; below 0 for a brake [N].
+        mass: m, of `collision_mass` [kg].
+        speed: v, at first contact [m/s].
+        energy: E, the buffer takes over its whole stroke: c s^2/2, F s, F_e s/(p + 1) [J].
+        stroke: s [m].
+
+    Returns:
+        v_1; 0 where the crane stops before the end [m/s].
+
+    **Range** a buffer whose force goes by its stroke and does not fall; for orifices `orifice_buffer_speed`.
+    **Error** exact.
+    **Source** energy.
+    """
+    return math.sqrt(max(speed * speed + 2 * (push * stroke - energy) / mass, 0.0))
+
+
+def collision_mass(crane: float, load: float, guidance: float) -> float:
+    """Mass that a buffer has to stop.
+
+        m = m_c + k m_l
+
+    Args:
+        crane: m_c, of all that is stiff, with rotating parts that stay in gear: J u^2/r^2 [kg].
+        load: m_l [kg].
+        guidance: k, 0 for a load that hangs and swings on, 1 for a guided one, between for rope pyramids [1].
+
+    Returns:
+        m [kg].
+
+    **Range** a stroke much shorter than a period of the pendulum.
+    **Error** exact for k = 1; a hanging load still pulls with the horizontal part of its rope's force.
+    **Source** SNiP 2.01.07-85 and EN 13001-2: hanging loads do not count, guided ones do.
+    """
+    return crane + guidance * load
+
+
+def meeting(
+    mass_one: float, mass_two: float, speed_one: float, speed_two: float, push_one: float, push_two: float
+) -> tuple[float, float, float]:
+    """Two cranes that run into each other, as one mass that runs into the buffers between them.
+
+        m = m_1 m_2/(m_1 + m_2),   v = v_1 + v_2,   P = (P_1 m_2 + P_2 m_1)/(m_1 + m_2)
+
+    Args:
+        mass_one: m_1, of the first crane, of `collision_mass` [kg].
+        mass_two: m_2, of the second one [kg].
+        speed_one: v_1, towards the other [m/s].
+        speed_two: v_2, towards the first; below 0 where it runs away from it [m/s].
+        push_one: P_1, of the first drive, towards the other [N].
+        push_two: P_2, of the second drive, towards the first [N].
+
+    Returns:
+        (m [kg], v [m/s], P [N]) for the laws of one crane; springs between them by `series_stiffness`, constant
+        forces by the weaker one, orifices by `series_orifice`.
+
+    **Range** free cranes; one against a wall is the limit of a second mass without end.
+    **Error** exact.
+    **Source** derived: motion of both relative to each other.
+    """
+    total = mass_one + mass_two
+    reduced = mass_one * (mass_two / total)
+    return reduced, speed_one + speed_two, push_one * (mass_two / total) + push_two * (mass_one / total)
+
+
+def series_orifice(coefficient_one: float, coefficient_two: float) -> float:
+    """Two hydraulic buffers with fixed orifices one against the other.
+
+        k = (k_1^(-1/2) + k_2^(-1/2))^-2
+
+    Args:
+        coefficient_one: k_1, force over the square of the speed [kg/m].
+        coefficient_two: k_2 [kg/m].
+
+    Returns:
+        k, for the speed of both together [kg/m].
+
+    **Range** no mass between them that matters.
+    **Error** exact.
+    **Source** derived: one force k_i v_i^2, speeds added.
+    """
+    low, high = sorted((coefficient_one, coefficient_two))
+    return low / (1 + math.sqrt(low / high)) ** 2
+
+
+def orifice_buffer_speed(
+    path: ArrayLike, mass: float, coefficient: float, speed: float, push: float = 0.0
+) -> FloatArray:
     """Speed along the stroke of a hydraulic buffer with one fixed orifice.
 
-        v = v_0 exp(-k x/m)
+        v^2 = v_0^2 q + (P/k) (1 - q),   q = exp(-2 k x/m)
 
     Args:
         path: x, from first contact [m].
         mass: m; a freely hanging load does not count, a rigidly guided one does [kg].
         coefficient: k, force over the square of the speed [kg/m].
         speed: v_0, at first contact [m/s].
+        push: P, of a drive that is still on; below 0 for a brake [N].
 
     Returns:
-        v; it never becomes 0, the end of the stroke meets what is left [m/s].
+        v; without a brake it never becomes 0, the end of the stroke meets what is left; with a brake 0 from where the
+        crane stops [m/s].
 
-    **Range** drive off, turbulent flow, no return spring.
+    **Range** turbulent flow, no return spring, a constant push.
     **Error** exact for that buffer.
-    **Source** derived: m v dv/dx = -k v^2.
+    **Source** derived: m v dv/dx = P - k v^2.
     """
-    return np.asarray(speed * np.exp(-coefficient * np.asarray(path, float) / mass))
+    rate = -2 * coefficient * np.asarray(path, float) / mass
+    return np.asarray(np.sqrt(np.maximum(speed**2 * np.exp(rate) - push / coefficient * np.expm1(rate), 0.0)))
 
 
-def orifice_buffer_force(path: ArrayLike, mass: float, coefficient: float, speed: float) -> FloatArray:
+def orifice_buffer_force(
+    path: ArrayLike, mass: float, coefficient: float, speed: float, push: float = 0.0
+) -> FloatArray:
     """Force along the stroke of a hydraulic buffer with one fixed orifice.
 
-        F = k v^2 = k v_0^2 exp(-2 k x/m)
+        F = k v^2,   v of `orifice_buffer_speed`
 
     Args:
         path: x, from first contact [m].
         mass: m; a freely hanging load does not count, a rigidly guided one does [kg].
         coefficient: k, force over the square of the speed [kg/m].
         speed: v_0, at first contact [m/s].
+        push: P, of a drive that is still on; below 0 for a brake [N].
 
     Returns:
-        F, largest at first contact [N].
+        F, largest at first contact unless the push is more; it tends to the push [N].
 
-    **Range** drive off, turbulent flow, no return spring.
+    **Range** turbulent flow, no return spring, a constant push.
     **Error** exact for that buffer.
     **Source** derived: as `orifice_buffer_speed`.
     """
-    return coefficient * orifice_buffer_speed(path, mass, coefficient, speed) ** 2
+    return coefficient * orifice_buffer_speed(path, mass, coefficient, speed, push) ** 2
 
 
 def orifice_buffer_path(time: ArrayLike, mass: float, coefficient: float, speed: float) -> FloatArray:
@@ -233,24 +399,72 @@ def orifice_buffer_path(time: ArrayLike, mass: float, coefficient: float, speed:
     return np.asarray(mass / coefficient * np.log1p(coefficient * speed / mass * np.asarray(time, float)))
 
 
-def buffer_factor(energy_share: float) -> float:
+def energy_share(forces: FloatArray, paths: FloatArray) -> float:
+    """Shape of a buffer's curve: the energy it takes over largest force times stroke.
+
+        xi = integral F du/(F_max u_max)
+
+    Args:
+        forces: F, at points of the curve, from first contact to the end, shape (n,) [N].
+        paths: u, rising from 0, shape (n,) [m].
+
+    Returns:
+        xi: 1/2 for a spring, 1 for a constant force, 1/(p + 1) for a force as u^p [1].
+
+    **Range** the curve of a collision, straight between the points.
+    **Error** exact for such a curve.
+    **Source** EN 13001-2, ISO 8686-1.
+    """
+    F, u = np.asarray(forces, float), np.asarray(paths, float)
+    return float(np.sum((F[1:] + F[:-1]) / np.max(F) * (np.diff(u) / u[-1])) / 2)
+
+
+def orifice_energy_share(mass: float, coefficient: float, stroke: float) -> float:
+    """Shape of the curve of a hydraulic buffer with one fixed orifice.
+
+        xi = (1 - exp(-z))/z,   z = 2 k s/m
+
+    Args:
+        mass: m [kg].
+        coefficient: k, force over the square of the speed [kg/m].
+        stroke: s [m].
+
+    Returns:
+        xi, whatever the speed [1].
+
+    **Range** drive off.
+    **Error** exact for that buffer; one with many orifices comes near 1.
+    **Source** derived: integral of `orifice_buffer_force`.
+    """
+    z = 2 * coefficient * (stroke / mass)
+    return -math.expm1(-z) / z
+
+
+def buffer_factor(energy_share: float, edition: str = LINE) -> float:
     """Dynamic factor phi_7 of buffer forces, by the shape of the buffer's curve.
 
-        phi_7 = 1.25 for xi <= 0.5,   1.25 + 0.7 (xi - 0.5) above
+        line:       phi_7 = 1.25 for xi <= 0.5,   1.25 + 0.7 (xi - 0.5) above
+        two_values: phi_7 = 1.25 for xi <= 0.5,   1.6 above
 
     Args:
         energy_share: xi, energy taken up over largest force times stroke: 0.5 linear, 1 constant force [1].
+        edition: `line` or `two_values`.
 
     Returns:
         phi_7 [1].
 
     **Range** 0 <= xi <= 1.
     **Error** none: a convention of the standard.
-    **Source** EN 13001-2 and ISO 8686-1, buffer forces; to be compared with the edition in force.
+    **Source** EN 13001-2, ISO 8686-1 and EN 1991-3, buffer forces; two values as older rules for springs and hydraulic
+    buffers are quoted; to be compared with the edition in force.
 
     Raises:
-        ValueError: for a share outside 0 to 1.
+        ValueError: for a share outside 0 to 1 or another edition.
     """
     if not 0 <= energy_share <= 1:
         raise ValueError("the energy of a buffer lies between 0 and 1 of its largest force times its stroke")
+    if edition not in (LINE, TWO_VALUES):
+        raise ValueError(f"phi_7 goes by a {LINE} or by {TWO_VALUES}")
+    if edition == TWO_VALUES:
+        return 1.25 if energy_share <= 0.5 else 1.6
     return 1.25 + 0.7 * max(energy_share - 0.5, 0.0)

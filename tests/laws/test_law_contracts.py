@@ -34,6 +34,7 @@ from ptmcalc.laws import (
     chain_selection,
     chain_start,
     chain_wear,
+    classification,
     coulomb,
     duty,
     equalising,
@@ -47,6 +48,7 @@ from ptmcalc.laws import (
     motor,
     pendulum,
     polygon,
+    rail,
     reeving,
     resistance,
     response,
@@ -56,17 +58,22 @@ from ptmcalc.laws import (
     shaft,
     shock,
     similarity,
+    skew,
+    skid,
     slewing,
     slider_crank,
     slip_heat,
     sprocket,
+    standard_factors,
     start_profile,
     stopping,
     strand_tension,
+    travel,
     two_mass,
     vertical_curve,
     vibration,
     wave,
+    wheel_loads,
     winding,
     wire_rope,
 )
@@ -138,6 +145,9 @@ FLOWS = ("drive", "brake", "energy")
 READINGS = ("tip_stopped", "whole")
 CRANK = (0.06, 0.42, 0.02)  # radius, rod, offset
 HOIST = (2e4, 0.9, 400.0, 40.0)  # static torque, rotor, load, ratio
+MASSES = tuple(map(np.array, ([18e4, 3e5], [11.2, 3.0], [0.1, 0.3], [-9e3, 1e4], [2e3, -5e3], [0.8, 2.0])))
+PAIRS = (np.array([0.0, 4.2]), np.array([1.0, 0.0]), np.array([2e5, 1.6e5]))  # distances, coupling, weights
+SKEW_EDITIONS = ("en_13001_2", "en_1991_3")
 MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("ballast", 0.1, 1.0, 1.0, 1.0)]
 
 PACKINGS = ("nested", "square")
@@ -199,10 +209,18 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     buffer.linear_buffer: [(5e3, 6e5, 0.8)],
     buffer.constant_force_buffer: [(5e3, 0.15, 0.8)],
     buffer.driven_buffer: [(4e3, 5e3, 6e5, 0.8), (-4e3, 5e3, 6e5, 0.8)],
-    buffer.orifice_buffer_speed: [(0.2, 5e3, 9e3, 0.8)],
-    buffer.orifice_buffer_force: [(0.2, 5e3, 9e3, 0.8)],
+    buffer.constant_force_stroke: [(4e3, 2e4, 5e3, 0.8), (2e4, 2e4, 5e3, 0.8)],
+    buffer.progressive_buffer: [(push, 5e3, 0.8, 6e4, 0.12, p) for push in (4e3, 0.0, -4e3) for p in (0.5, 1.0, 2.5)],
+    buffer.speed_left: [(4e3, 5e3, 0.8, 900.0, 0.12), (4e3, 5e3, 0.8, 9e3, 0.12)],
+    buffer.collision_mass: [(5e3, 2e3, 0.4)],
+    buffer.meeting: [(3e4, 5e4, 0.8, 0.5, 4e3, -1e3)],
+    buffer.series_orifice: [(9e3, 4e4)],
+    buffer.orifice_buffer_speed: [(0.2, 5e3, 9e3, 0.8, push) for push in (0.0, 4e3, -2e4)],
+    buffer.orifice_buffer_force: [(0.2, 5e3, 9e3, 0.8, push) for push in (0.0, 4e3, -4e3)],
+    buffer.energy_share: [(np.array([0.0, 3e4, 4e4]), np.array([0.0, 0.05, 0.12]))],
+    buffer.orifice_energy_share: [(5e3, 9e3, 0.2)],
     buffer.orifice_buffer_path: [(0.7, 5e3, 9e3, 0.8)],
-    buffer.buffer_factor: [(0.3,), (0.8,)],
+    buffer.buffer_factor: [(xi, edition) for xi in (0.3, 0.8) for edition in ("line", "two_values")],
     coulomb.coulomb_slide: [
         (100.0, 50.0, p, v, t) for p in (-20.0, 120.0) for v in (-1.0, 0.0, 1.0) for t in (0.7, 9.0)
     ],
@@ -558,12 +576,13 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     ],
     slewing.swing_reach: [(4e4, 1e3, 5.0, 6.0, 0.21, 9.81), (4e4, 1e3, 5.0, 6.0, 9.0, 9.81)],
     slewing.momentum_range: [(4e4, 1e3, 5.2, 0.21)],
-    hoist_class.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
-    hoist_class.equivalent_load: [(0.28, 3.0)],
-    hoist_class.use_of_cycles: [(1e5,)],
-    hoist_class.use_of_hours: [(5e3,)],
-    hoist_class.load_class: [(0.28,), (1.0,)],
-    hoist_class.group: [(3, 3)],
+    classification.spectrum_factor: [(np.array([0.2, 0.3, 0.5]), np.array([1.0, 0.6, 0.3]), 3.0)],
+    classification.equivalent_load: [(0.28, 3.0)],
+    classification.use_of_cycles: [(1e5,)],
+    classification.use_of_hours: [(5e3,)],
+    classification.load_class: [(0.28,), (1.0,)],
+    classification.load_class_en_13001: [(0.28,), (0.01,)],
+    classification.group: [(3, 3)],
     hoist_class.rope_safety_of_group: [("M5", layers, hot) for layers in (1, 3) for hot in (True, False)],
     lift_off.speed_source_factor: [(0.25, 0.04, 9.81)],
     lift_off.elasticity_number: [(0.4, 8e4, 5e4, 18e3, 5e3, 1.2e6), (0.0, 8e4, 5e4, 18e3, 5e3, 1.2e6)],
@@ -574,10 +593,12 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     lift_off.release_factor: [(0.4, 0.5)],
     lift_off_standard.stiffness_class: [(x,) for x in (0.9, 0.4, 0.2, 0.1)],
     lift_off_standard.class_lift_off_speed: [
-        (f"HD{k}", combination, 0.4, 0.1) for k in range(1, 6) for combination in ("regular", "exceptional")
+        (f"HD{k}", combination, 0.4, 0.1, "filled") for k in range(1, 6) for combination in ("regular", "exceptional")
     ],
+    lift_off_standard.fem_lift_off_factor: [("bridge", 0.1), ("bridge", 0.5), ("jib", 2.0)],
     lift_off_standard.standard_lift_off_factor: [
-        (f"HC{k}", "HD3", 0.25, edition) for k in range(1, 5) for edition in ("by_class", "by_drive")
+        (f"HC{k}", drive, 0.25, edition)
+        for k in range(1, 5) for edition in ("by_class", "by_drive", "raised") for drive in ("HD1", "HD3")
     ],
     rope_rod.rod_root: [(0.06, 1), (9.0, 3), (0.0, 2)],
     rope_rod.rod_frequency: [(1.4e5, 180.0, 3e3, 1), (1.4e5, 180.0, 3e3, 2), (1.4e5, 0.0, 3e3, 1)],
@@ -603,6 +624,54 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     winding.crossover_ratio: [(2, 1.2566, 21.9)],
     winding.crossover_rise: [(0.0175, 0.0152), (0.0175, 0.0175)],
     winding.winding_radius: [(0.159, 0.0152, rise, 2, 1.05, 3.0) for rise in (0.0, 0.0023)],
+    wheel_loads.corner_loads: [(*MASSES, 22.5, 4.2, frame) for frame in ("hinged", "rigid")],
+    wheel_loads.corner_load_range: [
+        (MASSES[0], MASSES[1], MASSES[1] + 9.0, *MASSES[2:], 22.5, 4.2, frame) for frame in ("hinged", "rigid")
+    ],
+    wheel_loads.wheels_of_rail: [
+        (60e3, 100e3, np.array([-2.6, -1.6, 1.5, 2.5]), carriage) for carriage in ("equalised", "rigid")
+    ],
+    wheel_loads.mean_wheel_load: [(30e3, 160e3)],
+    wheel_loads.wheel_spectrum_factor: [(np.array([4e4, 9e4]), np.array([0.3, 0.7]), 3.0)],
+    wheel_loads.even_travel_factor: [(0.0, 3.0), (0.3, 10 / 3), (1.0, 3.0)],
+    travel.rolling_coefficient: [(0.015, 0.1, 0.0005, 0.4, 1.5)],
+    travel.wind_pressure: [(20.0, 1.25)],
+    travel.wind_force: [(250.0, 30.0, 1.6)],
+    travel.travel_resistance: [(v, 3e5, 0.01, 0.004, -5e3) for v in (0.7, -0.7)],
+    travel.holding_force: [(3e5, 0.006, 0.0, 2e4), (3e5, 0.006, 0.002, 0.0)],
+    standard_factors.hoisting_factors: [(0.1,)],
+    standard_factors.drive_factor: [
+        *((change, much, "by_change") for change in ("smooth", "sudden") for much in (False, True)),
+        *(("two_step", much, "by_control") for much in (False, True)),
+    ],
+    standard_factors.load_test_factors: [(1.4,)],
+    rail.rail_acceleration: [(1.4, 0.315)],
+    rail.step_number: [(26.0, 1.4, 0.315, 0.002)],
+    rail.gap_number: [(26.0, 1.4, 0.03)],
+    rail.residual_step: [(a,) for a in (0.4, 1.0, 3.3)],
+    rail.residual_gap: [(a,) for a in (0.4, 1.0, 3.3)],
+    rail.step_extremes: [(a,) for a in (0.4, 1.0, 1.2, 3.3)],
+    rail.gap_extremes: [(a,) for a in (0.4, 0.7, 1.0, 1.2, 3.3)],
+    rail.wheel_modes: [(3e4, 1.2e4, 2e7, 4e5), (2e4, 2e4, 8e6, 8e6)],
+    rail.rail_factor: [(1.4, 0.315, 9.81, xi) for xi in (1.6, -1.2)],
+    rail.waviness_acceleration: [(1.4, 0.6, 0.004)],
+    skew.skew_angle: [(x, 0.006, 4.2, 0.01, 0.001, e) for x in (0.008, 0.02) for e in ("full", *SKEW_EDITIONS)],
+    skew.skew_friction: [(0.006, 0.3)],
+    skew.slip_pole: [(*PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
+    skew.skew_forces: [(0.24, *PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
+    skew.skew_equilibrium: [(0.3, 0.006, *PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
+    skew.start_side_forces: [(12e3, 0.2, 22.5, 4.2)],
+    skid.wheel_grip: [(4e3, 0.25, 9e4, 0.006, 12.0, 0.3)],
+    skid.driven_forces: [(24e3, 0.36, 2354.0, np.array([0.5, 0.5]))],
+    skid.skid_reserve: [(0.14, 5e4, 5e3), (0.14, 5e4, -5e3)],
+    skid.slip_accelerations: [(24e3, w, 0.14, np.full(2, 0.5), np.full(2, 58e3), np.array([300.0, -300.0]))
+                              for w in (2354.0, -2354.0)],
+    skid.rail_force: [(a, push, 3600.0, 0.14, 58e3, 300.0) for push in (4e3, 3e4, -3e4) for a in (0.2, -0.2)],
+    skid.slipping_acceleration: [
+        (np.full(2, push), np.full(2, 3600.0), 24e3, 2354.0, 0.14, np.array([58e3, 30e3]), np.array([300.0, -300.0]))
+        for push in (4e3, 7e3, 3e4, -3e4)
+    ],
+    skid.slip_motor_torque: [(0.59, 31200.0, 2354.0, 0.2, 20.0, 0.9)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -624,6 +693,7 @@ IN_PRINTED_UNITS = {
     chain_selection.lubrication,
     lift_off_standard.stiffness_class,
     lift_off_standard.standard_lift_off_factor,
+    lift_off_standard.fem_lift_off_factor,
 }
 """Laws whose numbers belong to units that are mixed in print: their factors are told in SI."""
 
@@ -633,7 +703,12 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     brake.brake_stop: [(ValueError, (3.2, 104.0, 700.0, 0.0, 0.1, 0.3, "sudden"))],
     brake.brake_torque_for_time: [(ValueError, (3.2, 104.0, 0.9, 0.0, 0.1, 0.3, "sudden"))],
     brake.braking_torque: [(ValueError, (0.9, 700.0, 0.1, 0.3, "sudden"))],
-    buffer.buffer_factor: [(ValueError, (1.1,)), (ValueError, (-0.1,)), (ValueError, (np.nan,))],
+    buffer.buffer_factor: [
+        (ValueError, (1.1,)),
+        (ValueError, (-0.1,)),
+        (ValueError, (np.nan,)),
+        (ValueError, (0.5, "2004")),
+    ],
     buffer.collision_force: [(ValueError, (5e3, 2e3, 6e5, 0.8, 4e3, "all"))],
     coulomb.coulomb_decay: [(ValueError, (0.1, 0.0, 20.0, 1e4, 4.0))],
     sprocket.speed_ripple: [(ValueError, (8, "smallest"))],
@@ -671,11 +746,35 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     lift_off_standard.class_lift_off_speed: [
         (ValueError, ("HD6", "regular", 0.4, 0.1)),
         (ValueError, ("HD1", "A1", 0.4, 0.1)),
+        (ValueError, ("HD1", "regular", 0.4, 0.1, "2004")),
+        (ValueError, ("HD1", "exceptional", 0.4, 0.1, "printed")),
+        (ValueError, ("HD3", "exceptional", 0.4, 0.1, "printed")),
     ],
+    lift_off_standard.fem_lift_off_factor: [(ValueError, ("tower", 0.5))],
     lift_off_standard.standard_lift_off_factor: [
         (ValueError, ("HC5", "HD1", 0.4, "by_class")),
         (ValueError, ("HC1", "HD6", 0.4, "by_class")),
         (ValueError, ("HC1", "HD1", 0.4, "2004")),
+    ],
+    standard_factors.hoisting_factors: [(ValueError, (0.11,)), (ValueError, (-0.1,)), (ValueError, (np.nan,))],
+    standard_factors.drive_factor: [
+        (ValueError, ("two_step", False)),
+        (ValueError, ("sudden", False, "by_control")),
+        (ValueError, ("sudden", False, "2004")),
+    ],
+    skew.skew_angle: [(ValueError, (0.02, 0.006, 4.2, 0.01, 0.001, "iso_8686"))],
+    skew.slip_pole: [
+        (ValueError, (*PAIRS, 0.35, 22.5, "hinged")),
+        (ValueError, (np.zeros(2), *PAIRS[1:], 0.35, 22.5, "fixed")),
+    ],
+    skew.skew_equilibrium: [(ValueError, (0.3, 0.006, *PAIRS, 0.35, 22.5, "hinged"))],
+    skew.skew_forces: [(ValueError, (0.24, *PAIRS, 0.35, 22.5, "hinged"))],
+    wheel_loads.corner_loads: [(ValueError, (*MASSES, 22.5, 4.2, "three_legs"))],
+    wheel_loads.corner_load_range: [(ValueError, (*MASSES[:2], *MASSES[1:], 22.5, 4.2, "three_legs"))],
+    wheel_loads.wheels_of_rail: [
+        (ValueError, (60e3, 100e3, np.array([-2.0, 2.0]), "sprung")),
+        (ValueError, (60e3, 100e3, np.array([-2.0, 0.0, 2.0]), "equalised")),
+        (ValueError, (60e3, 100e3, np.array([2.0, -2.0]), "rigid")),
     ],
     winding.winding_radius: [(ValueError, (0.159, 0.0152, 0.0023, 2, 3.2, 3.0))],
 }

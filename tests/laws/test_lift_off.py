@@ -92,7 +92,34 @@ class TestStandard:
             for drive, speed in zip(lift_off_standard.DRIVES, speeds, strict=True):
                 assert lift_off_standard.class_lift_off_speed(drive, combination, 0.4, 0.1) == speed
 
+    def test_what_is_printed_is_not_filled_in_otherwise(self) -> None:
+        for combination in (lift_off_standard.REGULAR, lift_off_standard.EXCEPTIONAL):
+            for drive in ("HD2", "HD4", "HD5"):
+                both = {
+                    lift_off_standard.class_lift_off_speed(drive, combination, 0.4, 0.1, edition)
+                    for edition in (lift_off_standard.FILLED, lift_off_standard.PRINTED)
+                }
+                assert len(both) == 1
+
     def test_editions(self) -> None:
         assert lift_off_standard.standard_lift_off_factor("HC4", "HD5", 0.0, "by_drive") == 1.05
         assert lift_off_standard.standard_lift_off_factor("HC4", "HD5", 0.0, "by_class") == 1.20
         assert lift_off_standard.standard_lift_off_factor("HC4", "HD4", 0.0, "by_drive") == 1.20
+
+    def test_an_edition_that_raises_the_hard_drive(self) -> None:
+        for drive in lift_off_standard.DRIVES:
+            for name, hard in (("HC1", 1.1), ("HC2", 1.2), ("HC3", 1.3), ("HC4", 1.4)):
+                usual, raised = (
+                    lift_off_standard.standard_lift_off_factor(name, drive, 0.3, edition)
+                    for edition in (lift_off_standard.BY_CLASS, lift_off_standard.RAISED)
+                )
+                assert raised == pytest.approx(
+                    hard + lift_off_standard.BETA[name] * 0.3 if drive == "HD1" else usual, rel=1e-14
+                )
+
+    @pytest.mark.parametrize(
+        ("structure", "speed", "factor"),
+        [("bridge", 0.1, 1.15), ("bridge", 0.5, 1.3), ("bridge", 1.5, 1.6), ("jib", 0.4, 1.15), ("jib", 1.0, 1.3)],
+    )
+    def test_fem(self, structure: str, speed: float, factor: float) -> None:
+        assert lift_off_standard.fem_lift_off_factor(structure, speed) == pytest.approx(factor, rel=1e-14)

@@ -6,7 +6,7 @@ import pytest
 from support.machines import changed, load_of, report_of, scene_of
 from support.slewing import COURSE, NOTES
 
-from ptmcalc.laws import hoist_class
+from ptmcalc.laws import classification
 
 HANDBOOK = {
     "brake_time": (2.5, 1e-9),
@@ -107,6 +107,6 @@ def test_the_group_of_a_load_spectrum() -> None:
     scene = scene_of(report_of(data))
     assert load_of(scene, "spectrum_factor").estimate.value == pytest.approx(0.2783, rel=1e-9)
     assert load_of(scene, "crane_group").estimate.value == 4
-    assert hoist_class.use_of_cycles(1e5) == 3
-    assert hoist_class.load_class(0.2783) == 3
-    assert hoist_class.equivalent_load(0.2783) == pytest.approx(0.652887, rel=1e-6)
+    assert classification.use_of_cycles(1e5) == 3
+    assert classification.load_class(0.2783) == 3
+    assert classification.equivalent_load(0.2783) == pytest.approx(0.652887, rel=1e-6)

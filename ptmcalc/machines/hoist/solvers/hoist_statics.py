@@ -6,7 +6,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import hoist_class, hoisting, reeving, rope_drum, wire_rope
+from ptmcalc.laws import classification, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.drive_data import Duty, Motor
 from ptmcalc.machines.hoist.loads import STATIC
@@ -25,7 +25,7 @@ def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> 
     **Error** exact for that model: what is not known of it stands among the assumptions. The heating torque takes the
     largest static torque of the lift for all of it: on the safe side by the growth of the radius over the layers.
     **Source** balance of every sheave (`laws.reeving`), geometry of the drum (`laws.rope_drum`), power balance of the
-    gearbox (`laws.gearing`), IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.hoist_class`).
+    gearbox (`laws.gearing`), IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.classification`).
     """
     loads = _of_the_rope(spec, scene) | _of_the_drum(spec, scene)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
@@ -187,15 +187,15 @@ def _of_the_use(spec: Hoist) -> dict[str, Found]:
 def _use(duty: Duty | None, spectrum: list[tuple[float, float]]) -> Numbers:
     if duty is None:
         return {}
-    factor = hoist_class.spectrum_factor([share for share, _ in spectrum], [load for _, load in spectrum])
+    factor = classification.spectrum_factor([share for share, _ in spectrum], [load for _, load in spectrum])
     loads = {"spectrum_factor": factor}
     if duty.starts_per_hour is not None:
         loads["starts_per_hour"] = duty.starts_per_hour
-    load = hoist_class.load_class(factor)
+    load = classification.load_class(factor)
     if duty.hours is not None:
-        loads["mechanism_group"] = float(hoist_class.group(hoist_class.use_of_hours(duty.hours / 3600), load))
+        loads["mechanism_group"] = float(classification.group(classification.use_of_hours(duty.hours / 3600), load))
     if duty.cycles is not None:
-        loads["crane_group"] = float(hoist_class.group(hoist_class.use_of_cycles(duty.cycles), load))
+        loads["crane_group"] = float(classification.group(classification.use_of_cycles(duty.cycles), load))
     return loads
 
 

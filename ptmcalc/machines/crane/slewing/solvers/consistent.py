@@ -5,7 +5,7 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import hoist_class
+from ptmcalc.laws import classification
 from ptmcalc.machines.crane.slewing import chain, drive, model, ring
 from ptmcalc.machines.crane.slewing.loads import OF_THE_DRIVE, OF_THE_RING, OF_THE_USE
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
@@ -87,8 +87,8 @@ def of_use(spec: SlewingCrane) -> dict[str, float]:
     points = given.load_spectrum
     factor = 1.0
     if points is not None:
-        factor = hoist_class.spectrum_factor([one.share for one in points], [one.load for one in points])
-    group = hoist_class.group(hoist_class.use_of_cycles(given.cycles), hoist_class.load_class(factor))
+        factor = classification.spectrum_factor([one.share for one in points], [one.load for one in points])
+    group = classification.group(classification.use_of_cycles(given.cycles), classification.load_class(factor))
     return {"spectrum_factor": factor, "crane_group": float(group)}
 
 
