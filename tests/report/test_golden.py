@@ -21,7 +21,11 @@ from support.command import ROOT, report_of_file
 from ptmcalc.report import Format, render
 
 GOLDEN = ROOT / "tests" / "golden"
-MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
+MACHINES = {
+    "conveyor": "specs/conveyor.yaml",
+    "slipping": "tests/cli/specs/slipping.yaml",
+    "crane_slewing": "specs/crane_slewing.yaml",
+}
 VIEWS = {"table": (Format.TABLE, False), "table.verbose": (Format.TABLE, True), "plain": (Format.PLAIN, False)}
 CLOSE = 1e-6
 STORED_DIGITS = 9  # more than are compared, so that rounding cannot make two close numbers differ

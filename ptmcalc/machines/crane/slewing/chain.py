@@ -69,18 +69,23 @@ def torques(
 ) -> Torques:
     """Torques of the phases: as the handbook carries rotor and losses, or `by_direction` of the power in the gear.
 
-    In an even stop over the allowed angle the brake holds the rotor, so that the gear carries what the crane alone
-    needs, and its losses help the brake.
+    In an even stop over the allowed angle a brake on the motor shaft holds the rotor, so that the gear carries what the
+    crane alone needs, and its losses help the brake; one on the slewing axis has the rotor driving through the gear.
     """
     gear, steady = spec.gear, model.steady_torque(spec, scene)
     braked = model.slew_inertia(spec, scene)
-    if not by_direction:
+    on_axis = spec.brake is not None and spec.brake.shaft == "crane"
+    if on_axis or not by_direction:
         braked += model.rotor_at_column(spec, rule)
     inertia = float(slewing.torque_for_start(braked, spec.speed, allowed_stop(spec)[0], 0.0))
     stop = inertia + model.driving_wind(spec, scene) - spec.friction
     forward = gear.ratio * gear.efficiency
-    back = gear.back / gear.ratio if by_direction and stop > 0 else 1 / forward
-    return Torques(torque_start, steady, inertia, stop, (torque_start / forward, steady / forward, stop * back))
+    fast = stop / forward
+    if by_direction and on_axis:
+        fast = model.rotor_at_column(spec, rule) * spec.speed / allowed_stop(spec)[0] / forward
+    elif by_direction and stop > 0:
+        fast = stop * gear.back / gear.ratio
+    return Torques(torque_start, steady, inertia, stop, (torque_start / forward, steady / forward, fast))
 
 
 def loads(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques, *, rounded: bool) -> Mapping[str, float]:

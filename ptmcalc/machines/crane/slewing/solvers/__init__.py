@@ -2,6 +2,7 @@
 
 from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
 from ptmcalc.machines.crane.slewing.solvers.handbook import HANDBOOK
+from ptmcalc.machines.crane.slewing.solvers.leans import LEANS
 from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
 
-SOLVERS = (HANDBOOK, CONSISTENT, GEARED, SLEW)
+SOLVERS = (HANDBOOK, LEANS, CONSISTENT, GEARED, SLEW)

@@ -97,7 +97,7 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     }
 
 
-def _hangs(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
+def hangs(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
     """Whether nothing hangs on the rope.
 
         1 without a load or the length of its rope
@@ -134,6 +134,6 @@ SLEW: Solver[SlewingCrane, SlewingScene] = Solver(
     run=run,
     cost=_cost,
     source="equations of motion of a spherical pendulum on a slewing jib",
-    valid=_hangs,
+    valid=hangs,
     always=ALWAYS,
 )
