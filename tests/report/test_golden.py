@@ -88,6 +88,7 @@ def test_text(name: str, view: str) -> None:
 def test_every_snapshot_belongs_to_a_test() -> None:
     expected = {f"{name}.json" for name in MACHINES}
     expected |= {f"{name}.{view}.txt" for name in MACHINES for view in VIEWS}
+    expected |= {f"{name}.plain.txt" for name in SIMULATED}
     assert {path.name for path in GOLDEN.iterdir()} == expected
 
 
