@@ -139,6 +139,7 @@ def test_a_motor_curve_is_followed() -> None:
     }
     slow = changed(
         BRIDGE,
+        rail__adhesion=0.9,
         drive__acceleration=None,
         drive__motor={"count": 2, "inertia": "0.006 kg*m^2", "coupling_inertia": "0.002 kg*m^2", "curve": curve},
     )
