@@ -1,4 +1,4 @@
-"""Bars of a travelling crane's small angles against an integration of its own at any angle: they hold, and are needed."""
+"""Bars of a travelling crane's small angles against an integration at any angle: they hold, and are needed."""
 
 import math
 

@@ -36,6 +36,9 @@ MOST_EVALUATIONS = {
     "hoist.yaml": 30_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
     "crane_slewing.yaml": 10,
+    "crane_travelling.yaml": 200,
+    "crane/container_gantry.yaml": 400,
+    "crane/hoist_trolley.yaml": 400,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 

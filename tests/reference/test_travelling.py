@@ -1,4 +1,4 @@
-"""The worked cases of travelling cranes, through design files: C19 (skid of driven wheels), C27 (spectrum and group)."""
+"""The worked cases of travelling cranes, through design files: C19 (skid of driven wheels), C27 (spectrum, group)."""
 
 from typing import Any
 

@@ -59,7 +59,7 @@ def absurd_crane(rng: np.random.Generator) -> dict[str, Any]:
     return data
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", range(16))
 def test_absurd_sizes_through_a_whole_check(seed: int) -> None:
     data = absurd_crane(np.random.default_rng([SEED, seed]))
     with warnings.catch_warnings():

@@ -25,7 +25,7 @@ from ptmcalc.numerics.pendulum.swing import Swing, swing
 FloatArray = NDArray[np.float64]
 
 SIGNALS = ("acceleration", "pull_along", "tension")
-_DOUBLINGS = 8
+_DOUBLINGS = 3
 _SHOWN = 400
 _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
@@ -120,6 +120,23 @@ class Run:
             for event in leg.swing.events
             if event.time <= leg.lasts
         )
+
+
+def turns(spec: Travelling, scene: Moving) -> float:
+    """Radians through which the load swings in a start or stop, with two swings after it; 0 where nothing is simulated.
+
+    It is what a simulation costs.
+    """
+    motion = motion_of(spec, scene)
+    if not motion.load or stalls(motion):
+        return 0.0
+    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise
+    shortest = min(motion.length, motion.length - motion.hoisting * motion.hoist_time)
+    if shortest <= 0:
+        return math.inf
+    mass = motion.body + motion.rotor
+    stiffer = 1.0 if motion.ramp is not None else 1 + motion.load / mass
+    return lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi
 
 
 def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:

@@ -30,7 +30,12 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
 
 
 def valid(spec: Travelling, scene: Moving) -> Criterion:
-    """Whether the scene is a ramp of that kind."""
+    """Whether the scene is a sudden ramp with ropes of constant length, no wind or slope at the load.
+
+    **Range** every start and stop.
+    **Error** none: the scene tells.
+    **Source** the range of `laws.pendulum.ramp_swing`.
+    """
     fits = regular(motion_of(spec, scene))
     return Criterion("ramp", 0.0 if fits else math.inf, 1.0, "whether the scene is a sudden ramp", "scene")
 
