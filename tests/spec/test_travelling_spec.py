@@ -56,6 +56,12 @@ def test_a_trolley_beyond_the_bridge(key: str) -> None:
     assert f"{key}: 21.4 m" in found.hint
 
 
+def test_a_trolley_before_the_bridge_unless_on_a_cantilever() -> None:
+    assert "beyond the bridge" in faulty(crane(trolley__nearest="-3 m"), "trolley", "nearest").message
+    reach = {"trolley__nearest": "-3 m", "trolley__farthest": "26 m"}
+    assert problems(crane(travels="gantry", bridge__cantilever_a="4 m", bridge__cantilever_b="4 m", **reach)) == []
+
+
 def test_a_trolley_that_stops_before_it_starts() -> None:
     found = faulty(crane(trolley__nearest="15 m", trolley__farthest="3 m"), "trolley", "farthest")
     assert "nearer to rail A" in found.message

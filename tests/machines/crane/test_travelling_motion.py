@@ -11,6 +11,9 @@ from support.travel_ode import Machine
 from support.travelling import BRIDGE, as_file, crane, crane_of, scene_report, value
 
 from ptmcalc.contract.result import Found
+from ptmcalc.engine.check import Options, check
+from ptmcalc.engine.load import load_text
+from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.solvers.sway_exact import SWAY_EXACT
 from ptmcalc.machines.crane.travelling.solvers.sway_linear import SWAY_LINEAR
@@ -210,3 +213,42 @@ def test_the_history_of_a_swing(tmp_path: Any) -> None:
     sway = load_of(scene, "sway_angle_max")
     assert sway.history is not None
     assert np.max(np.abs(sway.history.values)) == pytest.approx(sway.estimate.value, rel=1e-3)
+
+
+def test_a_load_on_a_cantilever_lifts_the_other_rail() -> None:
+    """By levers: 10.25 t and 2.2 t 3 m beyond rail A of 22.5 m, 13 t in the middle."""
+    data = crane(travels="gantry", bridge__cantilever_a="4 m", trolley__nearest="-3 m", scenes=[{"type": "run"}])
+    far_rail = (13000 / 2 - 12450 * 3 / 22.5) * 9.81 / 2
+    assert value(data, "wheel_load_min") == pytest.approx(far_rail)
+
+
+def test_the_files_to_start_from_pass() -> None:
+    template = next(one for one in load_kind("crane").types if one.type == "travelling").template
+    report = check(load_text(template.encode(), "crane.yaml"), Options())
+    assert report.verdict == "pass"
+    assert [one.message for one in report.diagnostics if one.severity != "note"] == []
+
+
+def test_a_hit_buffer_that_is_too_short_tells_the_speed_left() -> None:
+    buffers = {"type": "linear", "stiffness": "100 kN/m", "stroke": "100 mm", "rating": "60 kN"}
+    scene = scene_report(crane(buffers=buffers, scenes=[{"type": "collision"}]))
+    mass = 15200 + 2 * 0.008 * 22**2 * 0.9 / 0.1575**2
+    left = math.sqrt(1.05**2 - 2e5 * 0.1**2 / mass)
+    assert load_of(scene, "buffer_speed_left").estimate.value == pytest.approx(left, rel=1e-6)
+    assert "is left at the end of their stroke" in load_of(scene, "buffer_stroke").note
+    assert {one.code: one.verdict for one in scene.checks}["CRN170"] == "fail"
+
+
+def test_two_cranes_that_meet_are_a_wall_to_each_other() -> None:
+    """Equal ones at equal speeds; a crane at rest takes half of the speed."""
+    buffers = {"type": "linear", "stiffness": "100 kN/m", "stroke": "1 m", "rating": "600 kN"}
+    mass = 15200 + 2 * 0.008 * 22**2 * 0.9 / 0.1575**2
+    scenes = [
+        {"type": "collision"},
+        {"type": "collision", "other_mass": f"{mass!r} kg", "other_speed": "1.05 m/s", "name": "equal"},
+        {"type": "collision", "other_mass": f"{mass!r} kg", "name": "standing"},
+    ]
+    data = crane(buffers=buffers, scenes=scenes)
+    wall, equal, standing = (value(data, "buffer_force", name) for name in ("collision_loaded", "equal", "standing"))
+    assert equal == pytest.approx(wall)
+    assert standing == pytest.approx(wall / 2)
