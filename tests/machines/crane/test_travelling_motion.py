@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from support import travel_ode
-from support.machines import changed, load_of
+from support.machines import changed, load_of, report_of, scene_of
 from support.travel_ode import Machine
 from support.travelling import BRIDGE, as_file, crane, crane_of, scene_report, value
 
@@ -252,3 +252,18 @@ def test_two_cranes_that_meet_are_a_wall_to_each_other() -> None:
     wall, equal, standing = (value(data, "buffer_force", name) for name in ("collision_loaded", "equal", "standing"))
     assert equal == pytest.approx(wall)
     assert standing == pytest.approx(wall / 2)
+
+
+def test_wheels_that_slide_are_said_once() -> None:
+    report = report_of(crane(drive__acceleration="0.9 m/s^2"))
+    said = [one.message for one in report.diagnostics if one.code == "NUM102"]
+    assert len(said) == 1
+    assert "driven wheels slide" in said[0]
+
+
+def test_brakes_that_do_not_stop_it_are_said_once() -> None:
+    wind = {"area": "200 m^2", "pressure": "250 Pa"}
+    data = crane(wind=wind, drive__brake__torque="4 N*m", scenes=[{"type": "brake", "by": "brake"}])
+    report = report_of(data)
+    assert [one.code for one in report.diagnostics if one.severity == "warning"] == ["NUM110"]
+    assert {one.code: one.verdict for one in scene_of(report).checks}["CRN151"] == "fail"

@@ -5,7 +5,7 @@ from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.simulated import simulate, turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -28,12 +28,13 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     **Source** `numerics.pendulum.swing`.
     """
     done = simulate(spec, scene, TOLERANCES[level])
+    loads = loads_of(spec, scene, done.course)
     return Result(
-        loads_of(spec, scene, done.course),
+        loads,
         work=max(done.course.work, 1),
         window=done.window,
         health={"energy_residual": done.energy},
-        findings=done.findings,
+        findings=(*done.findings, *findings_of(spec, scene, loads)),
         events=done.events,
         histories=done.histories,
     )
