@@ -1,0 +1,114 @@
+"""A motion as it is kept: polynomials over steps, and what is read from them."""
+
+import math
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.numerics import panels
+from ptmcalc.numerics.collocation import integrals
+from ptmcalc.numerics.extremes import Extremes
+from ptmcalc.numerics.pendulum.equations import Leg
+from ptmcalc.numerics.record import Event
+
+FloatArray = NDArray[np.float64]
+
+HALVES = 2
+"""Panels that are looked at in a step."""
+PLACES = np.concatenate([(k + panels.NODES) / HALVES for k in range(HALVES)])
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    leg: Leg
+    start: float
+    length: float
+    used: float
+    """share of it up to the event that ended it"""
+    state: FloatArray
+    row: FloatArray
+    """Legendre coefficients of the derivative, shape (states, nodes)"""
+
+    @property
+    def end(self) -> float:
+        return self.start + self.used * self.length
+
+    def states(self, share: FloatArray) -> FloatArray:
+        """States at shares of the step, shape (states, shares)."""
+        moved = self.row @ integrals(self.row.shape[1], share).T
+        return np.asarray(self.state[:, None] + self.length * moved)
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """One run."""
+
+    steps: list[Step]
+    events: tuple[Event, ...]
+    finished: str
+    _starts: list[float] = field(repr=False)
+    jerks: dict[str, float]
+    """work done at once"""
+
+    def index(self, time: float) -> int:
+        return min(max(bisect_right(self._starts, time) - 1, 0), len(self.steps) - 1)
+
+    def runs(self, since: float, until: float) -> Iterator[tuple[Leg, list[Step]]]:
+        """Steps that share their equations."""
+        row: list[Step] = []
+        for step in self.steps[self.index(since) : self.index(until) + 1]:
+            if row and row[-1].leg is not step.leg:
+                yield row[-1].leg, row
+                row = []
+            row.append(step)
+        if row:
+            yield row[-1].leg, row
+
+    def at(self, names: tuple[str, ...], times: FloatArray) -> FloatArray:
+        """Signals at times, shape (names, times); the later side at an event."""
+        result = np.empty((len(names), len(times)))
+        where = np.clip(np.searchsorted(self._starts, times, "right") - 1, 0, len(self.steps) - 1)
+        for index in np.unique(where):
+            step, inside = self.steps[index], where == index
+            share = (times[inside] - step.start) / step.length if step.length else np.zeros(int(inside.sum()))
+            states = step.states(np.clip(share, 0.0, step.used))
+            result[:, inside] = step.leg.signals(names, times[inside], states)
+        return result
+
+    def extreme(self, name: str, sign: int, since: float, until: float) -> tuple[float, float, float]:
+        """Value, time, and the largest magnitude met."""
+        found, size = Extremes.of(1, sign), 0.0
+        for leg, steps in self.runs(since, until):
+            starts, lengths, states, times = [], [], [], []
+            for step in steps:
+                low, high = max(since, step.start), min(until, step.end)
+                if high < low:
+                    continue
+                span = (high - low) / HALVES
+                share = (low - step.start + (high - low) * PLACES) / step.length if step.length else 0 * PLACES
+                states.append(step.states(np.clip(share, 0.0, step.used)))
+                times.append(low + (high - low) * PLACES)
+                starts += [low + k * span for k in range(HALVES)]
+                lengths += [span] * HALVES
+            if not starts:
+                continue
+            values = leg.signals((name,), np.concatenate(times), np.concatenate(states, axis=1))[0]
+            size = max(size, float(np.abs(values).max()))
+            by_panel = values.reshape(len(starts), panels.COUNT)
+            found.see(np.array(starts), np.array(lengths), by_panel[:, :, None])
+        found.settle()
+        return float(found.values[0]), float(found.at[0]), size
+
+    def polished(self, name: str, value: float, time: float, since: float, until: float) -> float:
+        """The signal itself at the place of a peak, from whichever side is nearer to what was seen."""
+        best = math.inf, value
+        for index in {self.index(time), self.index(np.nextafter(time, -math.inf))}:
+            step = self.steps[index]
+            if step.start <= time <= step.end and since <= time <= until and step.length:
+                share = np.array([min((time - step.start) / step.length, step.used)])
+                seen = float(step.leg.signals((name,), np.array([time]), step.states(share))[0, 0])
+                best = min(best, (abs(seen - value), seen))
+        return best[1]
