@@ -154,6 +154,51 @@ class TestAgainstCartesianCoordinates:
         assert found.works().residual < 1e-12
         assert found.works().works["grip"] < 0
 
+    def test_a_jib_on_a_tilted_axis_with_an_unbalance(self) -> None:
+        tilt, downhill, moment, inertia = 0.04, 0.9, 2e4, 3e5
+        pivot = Jib(Pieces.constant(15.0), tilt, downhill, moment)
+        load = Load(3e3, Pieces.constant(8.0), -math.atan(math.tan(tilt) * math.sin(downhill)))
+        found = swing(Case(G, pivot, Axis(inertia, speed=0.1), load), 9.0)
+
+        def force(t: float, s: float, v: float) -> float:
+            return moment * G * math.sin(tilt) * math.sin(downhill - s)
+
+        hanging = Hanging(G, 3e3, inertia, still(8.0), still(15.0), force, tilt=tilt, downhill=downhill)
+        across = math.atan(math.tan(tilt) * math.cos(downhill))
+        y = hanging.run(hanging.start(0.0, 0.1, 0.0, across), (9.0,))  # square to the axis along, plumb across
+        assert float(found.at("position", 9.0)) == pytest.approx(y[0], rel=CLOSE)
+        assert float(found.at("speed", 9.0)) == pytest.approx(y[1], rel=CLOSE)
+        assert found.works().residual < 1e-12
+
+    def test_a_sudden_change_of_the_hoisting_speed_is_the_limit_of_a_quick_one(self) -> None:
+        """Momentum, angles and energy behind the jerk; also of an axis that is free to give way."""
+
+        def hauled(time: float) -> Pieces:
+            quick = Pieces.through(((1.0, 0.0), (1.0 + time, -0.7)))
+            return quick.integral(9.0) if time else Pieces.through(((1.0, 9.0), (9.0, 3.4)))
+
+        for pivot, axis in (
+            (Rail(), Axis(700.0, Push(300.0))),
+            (Jib(Pieces.constant(6.0)), Axis(700.0 * 36, speed=0.05)),
+            (Rail(), Axis(700.0, Follow(ramp(1.0, 2.5)))),
+        ):
+            at = []
+            for time in (0.0, 1e-5):
+                found = swing(Case(G, pivot, axis, Load(2e3, hauled(time), 0.2, 0.1, 0.1, 0.0)), 7.0)
+                assert found.works().residual < 1e-11
+                at.append([float(found.at(name, 7.0)) for name in ("along", "across", "speed", "along_rate")])
+            assert at[0] == pytest.approx(at[1], abs=2e-5)
+
+    def test_a_sudden_change_of_the_radius_is_the_limit_of_a_quick_one(self) -> None:
+        at = []
+        for time in (0.0, 1e-5):
+            quick = Pieces.through(((1.0, 0.0), (1.0 + time, 0.6), (4.0, 0.6), (4.0 + time, 0.0))).integral(9.0)
+            way = quick if time else Pieces.through(((1.0, 9.0), (4.0, 10.8)))
+            found = swing(Case(G, Jib(way), Axis(3e4, speed=0.1), Load(2e3, Pieces.constant(7.0), 0.1)), 7.0)
+            assert found.works().residual < 1e-11
+            at.append([float(found.at(name, 7.0)) for name in ("along", "across", "speed", "across_rate")])
+        assert at[0] == pytest.approx(at[1], abs=2e-5)
+
 
 class TestClosedForms:
     @pytest.mark.parametrize("angle", [1e-6, 0.1, 1.0, 1.5])
@@ -211,6 +256,40 @@ class TestClosedForms:
         rolling = swing(Case(G, Rail(0.05), Axis(900.0), load), 9.0)
         assert rolling.largest("along").value == pytest.approx(2 * 0.05, rel=1e-9)  # a = g sin, tilted as the rail
         assert rolling.works().residual < 1e-13
+
+    def test_the_amplitude_is_what_a_free_swing_comes_to(self) -> None:
+        load = Load(500.0, Pieces.constant(7.0), 0.2, -0.1, 0.1, 0.3)
+        found = swing(Case(G, Rail(), Axis(1.0, Follow(Pieces())), load), 60.0)
+        said = found.at("amplitude", np.linspace(0, 60, 40))
+        assert said == pytest.approx(said[0], rel=1e-8)
+        assert found.largest("sway").value == pytest.approx(said[0], rel=1e-8)
+
+    def test_a_gust_on_the_load(self) -> None:
+        load = Load(500.0, Pieces.constant(6.0), wind_along=Pieces.constant(400.0))
+        found = swing(Case(G, Rail(), Axis(1.0, Follow(Pieces())), load), 9.0)
+        assert found.largest("along").value == pytest.approx(2 * math.atan(400 / 500 / G), rel=1e-10)
+        assert found.works().residual < 1e-12
+
+    def test_a_field_over_position_and_speed(self) -> None:
+        """A spring and a damper of a trolley without a load worth naming."""
+        axis = Axis(100.0, field=lambda t, s, v: -400.0 * s - 40.0 * v, position=0.5)
+        found = swing(Case(G, Rail(), axis, Load(1e-9, Pieces.constant(6.0))), 5.0)
+        turn = math.sqrt(4 - 0.04)
+        t = np.linspace(0, 5, 20)
+        wanted = 0.5 * np.exp(-0.2 * t) * (np.cos(turn * t) + 0.2 / turn * np.sin(turn * t))
+        assert found.at("position", t) == pytest.approx(wanted, abs=1e-9)
+
+    def test_when_a_signal_goes_through_a_level(self) -> None:
+        found = swing(Case(G, Rail(), Axis(9.0, Follow(ramp(1.2, 4.0))), Load(5.0, Pieces.constant(6.0))), 9.0)
+        half = found.crossing("speed", 0.6)
+        assert half is not None
+        assert half.time == pytest.approx(2.0, abs=1e-11)
+        place = found.crossing("position", 2.4 + 1.2 * 3.0)
+        assert place is not None
+        assert place.time == pytest.approx(7.0, abs=1e-11)
+        assert place.bar < 1e-9
+        assert found.crossing("speed", 1.3) is None
+        assert found.crossing("speed", 0.6, rising=False) is None
 
     def test_momentum_about_the_axis_stays(self) -> None:
         """A jib left alone: angular momentum of jib and load."""

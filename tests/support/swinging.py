@@ -23,7 +23,8 @@ def still(value: float) -> Way:
 
 @dataclass
 class Hanging:
-    """`force(t, s, v)` on the axis, or `imposed(t)`: its acceleration. `radius` None is a rail."""
+    """`force(t, s, v)` on the axis, or `imposed(t)`: its acceleration. `radius` None is a rail. Gravity leans by `tilt`
+    from the axis of a jib, towards the direction `downhill`."""
 
     gravity: float
     mass: float
@@ -32,6 +33,14 @@ class Hanging:
     radius: Way | None = None
     force: Callable[[float, float, float], float] = lambda t, s, v: 0.0
     imposed: Callable[[float], float] | None = None
+    tilt: float = 0.0
+    downhill: float = 0.0
+
+    @property
+    def weight(self) -> Array:
+        flat = self.gravity * math.sin(self.tilt)
+        down = -self.gravity * math.cos(self.tilt)
+        return np.array([flat * math.cos(self.downhill), flat * math.sin(self.downhill), down])
 
     def pivot(self, t: float, s: float, v: float) -> tuple[Array, Array, Array, Array]:
         """S, its rate, dS/ds, and the part of its acceleration without s''."""
@@ -63,7 +72,7 @@ class Hanging:
         length, l1, l2 = self.length(t)
         d, w = x - place, u - speed
         # (x'' - S'').d + |w|^2 = L'^2 + L L'';  x'' = g - k d (k = tension/(M L)),  S'' = own + by s''
-        g = np.array([0, 0, -self.gravity])
+        g = self.weight
         right = l1 * l1 + length * l2 - w @ w
         free = g @ d - own @ d
         if self.imposed is not None or held:
@@ -78,7 +87,7 @@ class Hanging:
     def pull(self, t: float, y: Array) -> float:
         """What the load does to an axis at rest."""
         rate = self.rate(t, y, held=True)
-        k = -(rate[5:8] - np.array([0, 0, -self.gravity]))
+        k = -(rate[5:8] - self.weight)
         return float(self.mass * k @ self.pivot(t, y[0], y[1])[2])
 
     def run(self, y: Array, breaks: tuple[float, ...], begin: float = 0.0, held: bool = False, **more: object) -> Array:

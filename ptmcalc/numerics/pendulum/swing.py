@@ -89,6 +89,16 @@ class Swing:
         top, bottom = self.largest(name, since, until), self.smallest(name, since, until)
         return top if top.value >= -bottom.value else bottom
 
+    def crossing(self, name: str, level: float, since: float = 0.0, rising: bool = True) -> Peak | None:
+        """When a signal first goes through a level, with the bar of that time; None where it never does.
+
+        A signal that only touches the level between two places that are looked at may go unseen.
+        """
+        one, two = (track.crossing(name, level, since, rising) for track in (self._fine, self._coarse))
+        if one is None:
+            return None
+        return Peak(level, one, abs(one - two) + _DUST * self.end if two is not None else math.inf)
+
     def history(self, names: tuple[str, ...] = SIGNALS) -> tuple[FloatArray, FloatArray]:
         """Times of all places that were looked at, and signals there, shape (names, times)."""
         times, values = [], []
@@ -143,8 +153,9 @@ def swing(case: Case, end: float, *, tolerance: float = TOLERANCE, most_steps: i
     Returns:
         the motion.
 
-    **Range** a taut rope without mass, a load as a point. A sudden change of the hoisting speed pulls the rope, but its
-    jerk is no signal.
+    **Range** a taut rope without mass, a load as a point. A sudden change of the speed of rope or radius is an impulse
+    that moves the load and an axis free to give way, but is no signal; where it would have to push, as when hoisting
+    stops at once, a real rope goes slack: give such a length a ramp, and it is told.
     **Error** told with every number: the difference of two runs, of tolerances 300 apart.
     **Source** equations of motion (`equations`), Radau collocation.
 

@@ -102,6 +102,26 @@ class Track:
         found.settle()
         return float(found.values[0]), float(found.at[0]), size
 
+    def crossing(self, name: str, level: float, since: float, rising: bool) -> float | None:
+        """The first time from `since` on at which a signal goes through a level, or None."""
+        sign = -1 if rising else 1
+        for step in self.steps[self.index(since) :]:
+            begin, end = max(since, step.start), step.end
+            if not end > begin:
+                continue
+            span = end - begin
+            for half in range(HALVES):
+                low = begin + half * span / HALVES
+                times = low + span / HALVES * panels.NODES
+                share = np.clip((times - step.start) / step.length, 0.0, step.used)
+                values = sign * (step.leg.signals((name,), times, step.states(share))[0] - level)
+                above, below = values[:-1] > 0, values[1:] <= 0
+                if (above & below).any():
+                    first = int(np.argmax(above & below))
+                    place = panels.root(values, float(panels.NODES[first]), float(panels.NODES[first + 1]))
+                    return low + span / HALVES * place
+        return None
+
     def polished(self, name: str, value: float, time: float, since: float, until: float) -> float:
         """The signal itself at the place of a peak, from whichever side is nearer to what was seen."""
         best = math.inf, value
