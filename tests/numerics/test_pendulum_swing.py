@@ -337,6 +337,21 @@ class TestDrives:
             abs(swing(Case(G, Rail(), free, Load(1500.0, Pieces.constant(5.0))), 22.0).farthest("motor").value) > 2500
         )
 
+    def test_a_limit_behind_a_gear_whose_power_turns_round(self) -> None:
+        """The force in front of a lossy gear has a corner where the power turns; the limit is kept on either side."""
+        gear = Gear(1300.0, 0.52, 0.45)
+        axis = Axis(4300.0, Follow(ramp(0.3, 9.5), limit=127.0, until=5.5), friction=4.2, gear=gear)
+        found = swing(Case(G, Rail(), axis, Load(820.0, Pieces.constant(4.7), 0.043, 0.31, 0.0, -0.22)), 9.0)
+        assert any(e.after == "high" for e in found.events)
+        assert abs(found.farthest("motor").value) == pytest.approx(127.0, rel=1e-8)
+        t = np.linspace(0, 9, 2000)
+        drive, motor, grip = (found.at(name, t) for name in ("drive", "motor", "grip"))
+        moving = found.at("speed", t) > 1e-6
+        into = motor - 1300 * found.at("acceleration", t)
+        wanted = np.where(into > 0, 0.52 * into, into / 0.45)
+        assert drive[moving] == pytest.approx(wanted[moving], abs=1e-6)
+        assert grip[moving] == pytest.approx(-4.2)
+
     def test_a_start_below_friction_stays_at_rest(self) -> None:
         axis = Axis(1e5, Push(900.0), friction=1000.0)
         found = swing(Case(G, Jib(Pieces.constant(10.0)), axis, Load(500.0, Pieces.constant(6.0))), 30.0)

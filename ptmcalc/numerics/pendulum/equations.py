@@ -250,9 +250,8 @@ class Leg:
                 return asked - grip, asked - grip, grip
             grip = np.zeros_like(v) + self.gripped(time)
             drive = asked - grip
-            gear = axis.gear
-            into = np.where(drive * mode.side >= 0, drive / gear.forward, drive * gear.reverse)
-            return drive, into + gear.rotor * now.acceleration + mode.side * self.inner(time), grip
+            into = drive / self.factor + axis.gear.rotor * now.acceleration
+            return drive, into + mode.side * self.inner(time), grip
         motor = np.zeros_like(v) + self.driven(time, v)
         if mode.side == 0:
             return motor, motor, -now.other - motor

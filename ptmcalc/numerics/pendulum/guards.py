@@ -1,6 +1,7 @@
 """What ends a mode: guards that stay at 0 or above as long as it holds, and where the first of them crosses."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,7 @@ NOISE = 1e-11
 """Share of its size below which a guard is not below 0."""
 _NEAR = 1e-5
 """Share of a step by which the panels may place a root wrongly."""
-_SECANTS = 4
+_SECANTS, _HALVINGS = 4, 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,13 +32,11 @@ class Guards:
     approach: int
 
     def first(self, step: Step) -> tuple[float, str] | None:
-        states = step.states(PLACES)
-        names, values = self.values(step.leg, step.start + step.length * PLACES, states)
-        sizes = np.abs(values).max(axis=1)
-        noise = NOISE * np.maximum(sizes, self._sizes(names))
+        """Share of a step at which the first guard crosses, and which one."""
+        names, values = self.values(step.leg, step.start + step.length * PLACES, step.states(PLACES))
+        noise = NOISE * np.maximum(np.abs(values).max(axis=1), self._sizes(names))
         by_panel = values.reshape(len(names), HALVES, panels.COUNT)
-        controls = by_panel @ panels.TO_BERNSTEIN.T
-        low = (controls < -noise[:, None, None]).any(axis=2)
+        low = (by_panel @ panels.TO_BERNSTEIN.T < -noise[:, None, None]).any(axis=2)
         if not low.any():
             return None
         for half in range(HALVES):
@@ -45,23 +44,22 @@ class Guards:
             for k in np.flatnonzero(low[:, half]).tolist():
                 place = panels.crossing(by_panel[k, half], float(noise[k]))
                 if place is not None:
-                    found.append((self._polished(step, names[k], (half + place) / HALVES), names[k]))
+                    share = self._polished(step, k, (half + place) / HALVES, values[k], float(noise[k]))
+                    found.append((share, names[k]))
             if found:
                 share, name = min(found)
                 return share, name
         return None
 
-    def _polished(self, step: Step, name: str, share: float) -> float:
-        """A root of a guard on the step's polynomial itself, by the secant rule from that of the panel."""
-        names = self.values(step.leg, np.array([step.start]), step.state[:, None])[0]
-        k = names.index(name)
+    def _polished(self, step: Step, k: int, share: float, values: FloatArray, noise: float) -> float:
+        """A root of a guard on the step's polynomial itself, by the secant rule from that of the panel; a guard with a
+        corner, which the panel misplaces, by false position between the places where its sign changes."""
 
         def value(x: float) -> float:
             at = np.array([x])
             return float(self.values(step.leg, step.start + step.length * at, step.states(at))[1][k, 0])
 
-        one = max(share - _NEAR, 0.0)
-        two = share
+        one, two = max(share - _NEAR, 0.0), share
         if one == two:
             return share
         f_one, f_two = value(one), value(two)
@@ -75,7 +73,10 @@ class Guards:
             if two == one:
                 break
             f_two = value(two)
-        return two
+        below = np.flatnonzero(values < -noise)
+        if abs(f_two) <= noise or not len(below) or below[0] == 0 or not values[below[0] - 1] > 0:
+            return two
+        return _bracketed(value, float(PLACES[below[0] - 1]), float(PLACES[below[0]]), noise)
 
     def values(self, leg: Leg, time: FloatArray, z: FloatArray) -> tuple[list[str], FloatArray]:
         """What stays at 0 or above as long as the mode holds."""
@@ -84,9 +85,13 @@ class Guards:
         v, s = z[SPEED], z[POSITION]
         found: dict[str, FloatArray] = {"tension": leg.tension(now, z)}
         if mode.drive == KEEP:
-            if math.isfinite(leg.limit):
-                motor = leg.forces(time, z, now)[1]
-                found["high"], found["low"] = leg.limit - motor, leg.limit + motor
+            geared = mode.side != 0 and leg.lossy
+            if geared or math.isfinite(leg.limit):
+                drive, motor, _ = leg.forces(time, z, now)
+                if math.isfinite(leg.limit):
+                    found["high"], found["low"] = leg.limit - motor, leg.limit + motor
+                if geared:
+                    found["gear"] = drive * mode.side * (1 if mode.forward else -1)
             if mode.side:
                 found["stop"] = mode.side * v
         else:
@@ -126,3 +131,23 @@ class Guards:
         of = {"tension": self.weight, "stop": self.speed, "met": self.speed, "reached": self.speed,
               "knot_down": self.speed, "knot_up": self.speed}  # fmt: skip
         return np.array([of.get(name, self.position if name[:6] == "buffer" else self.force) for name in names])
+
+
+def _bracketed(value: Callable[[float], float], left: float, right: float, noise: float) -> float:
+    """A root between a place where a function is above 0 and one where it is below (Illinois)."""
+    above, below = value(left), value(right)
+    side = 0
+    for _ in range(_HALVINGS):
+        middle = right - below * (right - left) / (below - above)
+        found = value(middle)
+        if abs(found) <= noise:
+            return middle
+        if found > 0:
+            left, above = middle, found
+            below = below / 2 if side > 0 else below
+            side = 1
+        else:
+            right, below = middle, found
+            above = above / 2 if side < 0 else above
+            side = -1
+    return right

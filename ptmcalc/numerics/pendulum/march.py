@@ -187,11 +187,14 @@ class March:
             state[SPEED] = self._kept(time)
             z = state[:, None]
             mode = Mode(KEEP, 0, self._heading(time), True, contacts)
-            if math.isfinite(self._limit()):
+            leg = self._leg(mode, time)
+            if mode.side and leg.lossy:
+                pushed = float(leg.forces(at, z, leg.now(at, z))[0][0]) * mode.side >= 0
+                mode = mode._replace(forward=bool(forced.get("forward", pushed)))
                 leg = self._leg(mode, time)
-                motor = float(leg.forces(at, z, leg.now(at, z))[1][0])
-                if abs(motor) > self._limit() * (1 + NOISE):
-                    drive = HIGH if motor > 0 else LOW
+            motor = float(leg.forces(at, z, leg.now(at, z))[1][0])
+            if abs(motor) > self._limit() * (1 + NOISE):
+                drive = HIGH if motor > 0 else LOW
             if drive == KEEP:
                 return mode, state
         piece = -1
