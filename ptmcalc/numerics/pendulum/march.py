@@ -34,6 +34,8 @@ FloatArray = NDArray[np.float64]
 
 _MOST_AT_ONCE = 60
 """Events without progress in time."""
+_PLACED = 1e-7
+"""Share of the speeds by which a crossing may have missed the speed it is about."""
 _SWINGS = 0.05
 """Speed of the pivot over (g L)^(1/2) that its load may give it, for the scale."""
 
@@ -82,9 +84,7 @@ class March:
                 break
             if fired is not None:
                 before = mode
-                if time >= stop:
-                    self._jerk(time, leg, state)
-                mode, state = self._react(time, state, mode, fired)
+                mode, state = self._react(time, state, mode, fired, leg if time >= stop else None)
                 self._say(time, before, mode)
                 leg = self._leg(mode, time)
             elif time >= self.end:
@@ -139,7 +139,10 @@ class March:
 
     # --- what follows -------------------------------------------------------------------------------------------
 
-    def _react(self, time: float, state: FloatArray, mode: Mode, fired: str) -> tuple[Mode, FloatArray]:
+    def _react(
+        self, time: float, state: FloatArray, mode: Mode, fired: str, ending: Leg | None
+    ) -> tuple[Mode, FloatArray]:
+        """What follows a guard that has crossed; `ending` are the equations where an input breaks at the same time."""
         if fired == "tension":
             raise NumericsError("NUM102", f"the rope goes slack at {time:.6g} s")
         forced: dict[str, object] = {}
@@ -156,7 +159,8 @@ class March:
             if mode.side:
                 forced["side"] = mode.side
         elif fired in ("met", "reached"):
-            state[SPEED] = self._kept(time)
+            if abs(state[SPEED] - self._kept(time)) <= _PLACED * self.speeds:  # not where a jerk has led beyond it
+                state[SPEED] = self._kept(time)
             if fired == "reached":
                 self.stage = KEEP if self._limit() > 0 else OFF
                 self._tell(time, "drive", LAW, "speed reached")
@@ -170,6 +174,9 @@ class March:
             forced["contacts"] = tuple(met if i == k else one for i, one in enumerate(mode.contacts))
             if mode.side:
                 forced["side"] = mode.side
+        if ending is not None:
+            self._jerk(time, ending, state)
+            forced = {name: one for name, one in forced.items() if name in ("contacts", "drive")}
         return self._choose(time, state, mode, forced)
 
     def _choose(
