@@ -199,6 +199,42 @@ def gap_extremes(number: float) -> tuple[float, float]:
     return max(more, rest), max(less, rest)
 
 
+def wheel_modes(
+    mass: float, hung_mass: float, stiffness: float, hung_stiffness: float
+) -> tuple[float, float, float, float]:
+    """Two modes of a crane over its wheels with a second mass on it: frequencies and shares of the force at the wheels.
+
+        w_k^2, v_k of [(c_1 + c_2)/m_1, -c_2/(m_1 m_2)^(1/2); -c_2/(m_1 m_2)^(1/2), c_2/m_2]
+        p_k = (v_k1 m_1^(1/2) + v_k2 m_2^(1/2))^2/(m_1 + m_2)
+
+    At the wheels the load is 1 + a/g sum p_k u_k of the weight; at most 1 + a/g sum p_k more_k, with `step_extremes`
+    or `gap_extremes` of each mode's number, and so with less_k.
+
+    Args:
+        mass: m_1, on the wheels: the structure [kg].
+        hung_mass: m_2, on the structure: the load on its rope, or the trolley on its bridge [kg].
+        stiffness: c_1, between wheels and structure [N/m].
+        hung_stiffness: c_2, between the masses [N/m].
+
+    Returns:
+        (w_1 [rad/s], w_2 [rad/s], p_1 [1], p_2 [1]), the lower mode first; p_1 + p_2 = 1.
+
+    **Range** undamped; a rope that stays taut.
+    **Error** exact; the sum of both extremes is a bound, reached behind the place where the frequencies are strangers.
+    **Source** derived: eigenvectors of the two masses; effective masses under a moved foot.
+    """
+    a, d = (stiffness + hung_stiffness) / mass, hung_stiffness / hung_mass
+    b = hung_stiffness / (math.sqrt(mass) * math.sqrt(hung_mass))
+    high = (a + d) / 2 + math.hypot((a - d) / 2, b)
+    low = stiffness / mass * (hung_stiffness / hung_mass) / high
+    turn = math.atan2(-2 * b, a - d) / 2
+    total = mass + hung_mass
+    one, two = math.sqrt(mass / total), math.sqrt(hung_mass / total)
+    share = (math.cos(turn) * one + math.sin(turn) * two) ** 2
+    other = (math.cos(turn) * two - math.sin(turn) * one) ** 2
+    return math.sqrt(low), math.sqrt(high), other, share
+
+
 def rail_factor(speed: float, radius: float, gravity: float, answer: float) -> float:
     """Dynamic factor phi_4 of travel over a step or a gap.
 

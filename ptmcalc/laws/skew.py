@@ -128,7 +128,7 @@ def slip_pole(
     Raises:
         ValueError: for another kind of rail 2, or no wheels behind the guide.
 
-    **Range** slip forces that grow with the slip; the guide on rail 1, whose wheels are fixed.
+    **Range** slip forces that grow with the slip; the guide on rail 1, whose wheels are fixed and carry something.
     **Error** exact for that law of friction.
     **Source** derived: moments about the guide of wheels that slip in proportion to their distance from the pole; for
     equal pairs that of EN 13001-2, ISO 8686-1 and EN 1991-3 (CFF, IFF, CFM, IFM).

@@ -639,6 +639,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rail.residual_gap: [(a,) for a in (0.4, 1.0, 3.3)],
     rail.step_extremes: [(a,) for a in (0.4, 1.0, 1.2, 3.3)],
     rail.gap_extremes: [(a,) for a in (0.4, 0.7, 1.0, 1.2, 3.3)],
+    rail.wheel_modes: [(3e4, 1.2e4, 2e7, 4e5), (2e4, 2e4, 8e6, 8e6)],
     rail.rail_factor: [(1.4, 0.315, 9.81, xi) for xi in (1.6, -1.2)],
     rail.waviness_acceleration: [(1.4, 0.6, 0.004)],
     skew.skew_angle: [(x, 0.006, 4.2, 0.01, 0.001, e) for x in (0.008, 0.02) for e in ("full", *SKEW_EDITIONS)],

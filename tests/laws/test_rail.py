@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.linalg import eigh
 
 from ptmcalc.laws import rail
 
@@ -73,6 +74,49 @@ class TestPulses:
         assert max(max(rail.gap_extremes(float(a))) for a in numbers) == pytest.approx(3.9641, rel=1e-4)
         assert rail.step_extremes(1e5) == pytest.approx((2.0, 2.0), rel=1e-4)
         assert rail.gap_extremes(1e5) == pytest.approx((2.0, 2.0), rel=1e-4)
+
+
+class TestTwoMasses:
+    CASES = [(3e4, 1.2e4, 2e7, 4e5), (2e4, 2e4, 8e6, 8e6), (1e4, 5e4, 3e7, 1e6), (2e4, 1.0, 8e6, 1e9)]
+
+    @pytest.mark.parametrize("given", CASES)
+    def test_modes_by_linear_algebra(self, given: tuple[float, float, float, float]) -> None:
+        m1, m2, c1, c2 = given
+        masses, stiffness = np.array([m1, m2]), np.array([[c1 + c2, -c2], [-c2, c2]])
+        squares, vectors = eigh(stiffness, np.diag(masses))
+        effective = (vectors.T @ masses) ** 2
+        w1, w2, p1, p2 = rail.wheel_modes(*given)
+        assert (w1, w2) == pytest.approx(np.sqrt(squares), rel=1e-9)
+        assert (p1, p2) == pytest.approx(effective / (m1 + m2), rel=1e-6, abs=1e-9)
+        assert p1 + p2 == pytest.approx(1.0, rel=1e-14)
+
+    @pytest.mark.parametrize("given", CASES[:3])
+    @pytest.mark.parametrize("climb", [0.01, 0.05, 0.2])
+    def test_no_load_at_the_wheels_is_beyond_the_sum_of_both(
+        self, given: tuple[float, float, float, float], climb: float
+    ) -> None:
+        """Both masses integrated over a step climbed in that time."""
+        m1, m2, c1, c2 = given
+        turn = math.pi / climb  # per second
+        w1, w2, p1, p2 = rail.wheel_modes(*given)
+
+        def rate(t: float, y: np.ndarray) -> list[float]:
+            push = math.cos(turn * t) if t <= climb else 0.0  # acceleration of the wheel; paths seen from the wheel
+            link = c2 * (y[0] - y[1])
+            return [y[2], y[3], (-c1 * y[0] - link) / m1 - push, link / m2 - push]
+
+        state, pulls = np.zeros(4), []
+        for start, end in ((0.0, climb), (np.nextafter(climb, 9), climb + 40 * math.pi / w1)):
+            t = np.linspace(start, end, 20001)
+            run = solve_ivp(rate, (start, end), state, t_eval=t, rtol=1e-9, atol=1e-14, max_step=climb)
+            state = run.y[:, -1]
+            pulls.append(-c1 * run.y[0] / (m1 + m2))
+        seen = np.concatenate(pulls)
+        extremes = [rail.step_extremes(w * climb / math.pi) for w in (w1, w2)]
+        more, less = (p1 * extremes[0][k] + p2 * extremes[1][k] for k in (0, 1))
+        assert np.max(seen) <= more * (1 + 1e-6)
+        assert -np.min(seen) <= less * (1 + 1e-6)
+        assert np.max(seen) > 0.75 * more  # and near to it
 
 
 class TestNumbers:

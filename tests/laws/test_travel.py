@@ -64,6 +64,15 @@ class TestCaseC19:
         limit = skid.slip_motor_torque(float(slips[0]), reduced, resistance, self.RADIUS, self.RATIO, self.ETA)
         assert limit == pytest.approx(230.208, rel=1e-5)
 
+    def test_what_the_driven_wheels_take_themselves_never_reaches_the_rail(self) -> None:
+        """The printed reserve lets the rail carry all of the resistance; half of it is the driven wheels' own."""
+        a, load = 0.35723077, self.MASS * GRAVITY / 4
+        wheel_torque = (self.MASS * a + 2354.4) / 2 * self.RADIUS
+        force = skid.wheel_grip(wheel_torque, self.RADIUS, load, self.W, 0.0, a)
+        balance = 2 * float(force) - 2 * self.W * load  # driven wheels push, the others are pushed
+        assert balance == pytest.approx(self.MASS * a, rel=1e-9)
+        assert skid.skid_reserve(self.MU, load, force) == pytest.approx(1.69022, rel=1e-5)
+
     def test_the_motors_spin_their_wheels(self) -> None:
         """Twice the torque: the crane stays at the acceleration of its grip, the rims run away."""
         push = 2 * 250.0 * self.RATIO * self.ETA / self.RADIUS

@@ -943,6 +943,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "residual_gap": (rail.residual_gap, lambda d: tuple(d.positive(1))),
     "step_extremes": (rail.step_extremes, lambda d: tuple(d.positive(1))),
     "gap_extremes": (rail.gap_extremes, lambda d: tuple(d.positive(1))),
+    "wheel_modes": (rail.wheel_modes, lambda d: tuple(d.positive(4))),
     "rail_factor": (rail.rail_factor, lambda d: tuple(d.positive(4))),
     "waviness_acceleration": (rail.waviness_acceleration, lambda d: tuple(d.positive(3))),
     "skew_angle": (skew.skew_angle, lambda d: (*d.positive(5), d.shape("full", "en_13001_2", "en_1991_3"))),
