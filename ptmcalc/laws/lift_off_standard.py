@@ -19,6 +19,8 @@ FEM_SLOPE = {"bridge": 0.6, "jib": 0.3}
 FEM_SPEED, FEM_LEAST = 1.0, 1.15
 """Speed up to which FEM 1.001 lets its factor grow [m/s], and the least factor: of FEM alone, not of EN 13001-2."""
 DRIVES = ("HD1", "HD2", "HD3", "HD4", "HD5")
+FILLED, PRINTED = "filled", "printed"
+"""Speeds of HD1 and HD3 in C1, for which EN 13001-2 prints a dash: filled in as an open code does, or refused."""
 REGULAR, EXCEPTIONAL = "regular", "exceptional"
 """Load combinations A1 and B1, and C1."""
 STIFFNESS_LIMITS = ((0.8, "HC1"), (0.3, "HC2"), (0.15, "HC3"))
@@ -43,7 +45,9 @@ def stiffness_class(deflection: float) -> str:
     return next((name for least, name in STIFFNESS_LIMITS if deflection >= least), "HC4")
 
 
-def class_lift_off_speed(drive_class: str, combination: str, main_speed: float, creep_speed: float) -> float:
+def class_lift_off_speed(
+    drive_class: str, combination: str, main_speed: float, creep_speed: float, edition: str = FILLED
+) -> float:
     """Hoisting speed that the standard takes at lift-off.
 
         A1, B1:  HD1 v_max,  HD2 and HD3 v_creep,  HD4 0.5 v_max,  HD5 0
@@ -55,19 +59,23 @@ def class_lift_off_speed(drive_class: str, combination: str, main_speed: float, 
         combination: `regular` (A1, B1) or `exceptional` (C1).
         main_speed: v_max, of the hook [m/s].
         creep_speed: v_creep, of the hook [m/s].
+        edition: `filled` or `printed`.
 
     Returns:
         v_h [m/s].
 
     **Range** those classes.
-    **Error** none: a definition; where EN 13001-2 prints a dash for C1 (HD1, HD3) an open design code is followed.
+    **Error** none: a definition; where EN 13001-2 prints a dash (C1 of HD1 and HD3) `filled` follows an open design
+    code.
     **Source** EN 13001-2 and ISO 8686-1, table of lift-off speeds.
 
     Raises:
-        ValueError: for another class or combination.
+        ValueError: for another class, combination or edition, and for a speed that is not printed.
     """
-    if drive_class not in DRIVES or combination not in (REGULAR, EXCEPTIONAL):
+    if drive_class not in DRIVES or combination not in (REGULAR, EXCEPTIONAL) or edition not in (FILLED, PRINTED):
         raise ValueError(f"a drive class is one of {DRIVES}, a combination {REGULAR} or {EXCEPTIONAL}")
+    if edition == PRINTED and combination == EXCEPTIONAL and drive_class in ("HD1", "HD3"):
+        raise ValueError(f"the standard prints no lift-off speed of {drive_class} for the exceptional combination")
     if combination == EXCEPTIONAL:
         return main_speed if drive_class in ("HD1", "HD2", "HD4") else main_speed / 2
     speeds = {"HD1": main_speed, "HD2": creep_speed, "HD3": creep_speed, "HD4": main_speed / 2}

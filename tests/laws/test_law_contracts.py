@@ -580,7 +580,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     lift_off.release_factor: [(0.4, 0.5)],
     lift_off_standard.stiffness_class: [(x,) for x in (0.9, 0.4, 0.2, 0.1)],
     lift_off_standard.class_lift_off_speed: [
-        (f"HD{k}", combination, 0.4, 0.1) for k in range(1, 6) for combination in ("regular", "exceptional")
+        (f"HD{k}", combination, 0.4, 0.1, "filled") for k in range(1, 6) for combination in ("regular", "exceptional")
     ],
     lift_off_standard.fem_lift_off_factor: [("bridge", 0.1), ("bridge", 0.5), ("jib", 2.0)],
     lift_off_standard.standard_lift_off_factor: [
@@ -733,6 +733,9 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     lift_off_standard.class_lift_off_speed: [
         (ValueError, ("HD6", "regular", 0.4, 0.1)),
         (ValueError, ("HD1", "A1", 0.4, 0.1)),
+        (ValueError, ("HD1", "regular", 0.4, 0.1, "2004")),
+        (ValueError, ("HD1", "exceptional", 0.4, 0.1, "printed")),
+        (ValueError, ("HD3", "exceptional", 0.4, 0.1, "printed")),
     ],
     lift_off_standard.fem_lift_off_factor: [(ValueError, ("tower", 0.5))],
     lift_off_standard.standard_lift_off_factor: [

@@ -92,6 +92,15 @@ class TestStandard:
             for drive, speed in zip(lift_off_standard.DRIVES, speeds, strict=True):
                 assert lift_off_standard.class_lift_off_speed(drive, combination, 0.4, 0.1) == speed
 
+    def test_what_is_printed_is_not_filled_in_otherwise(self) -> None:
+        for combination in (lift_off_standard.REGULAR, lift_off_standard.EXCEPTIONAL):
+            for drive in ("HD2", "HD4", "HD5"):
+                both = {
+                    lift_off_standard.class_lift_off_speed(drive, combination, 0.4, 0.1, edition)
+                    for edition in (lift_off_standard.FILLED, lift_off_standard.PRINTED)
+                }
+                assert len(both) == 1
+
     def test_editions(self) -> None:
         assert lift_off_standard.standard_lift_off_factor("HC4", "HD5", 0.0, "by_drive") == 1.05
         assert lift_off_standard.standard_lift_off_factor("HC4", "HD5", 0.0, "by_class") == 1.20

@@ -873,7 +873,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "release_factor": (lift_off.release_factor, lambda d: (d.share(), d.share())),
     "class_lift_off_speed": (
         lift_off_standard.class_lift_off_speed,
-        lambda d: (str(d.rng.choice(lift_off_standard.DRIVES)), "regular", *d.positive(2)),
+        lambda d: (str(d.rng.choice(lift_off_standard.DRIVES)), "regular", *d.positive(2), "printed"),
     ),
     "fem_lift_off_factor": (
         lift_off_standard.fem_lift_off_factor,
