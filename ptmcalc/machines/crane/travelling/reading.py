@@ -8,9 +8,11 @@ import numpy as np
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, of
+from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.checks import rate_key
 from ptmcalc.machines.crane.travelling.course import Course, State, extreme
+from ptmcalc.machines.crane.travelling.moving import motion_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_corners
@@ -65,7 +67,11 @@ def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found
         loads[name] = Found(worst.estimate, note=f"{wheels.where(worst.state, largest)}, {worst.phase}")
     if model.hanging(spec, scene):
         period = 2 * math.pi * math.sqrt(model.rope_length(spec, scene) / spec.gravity)
-        loads["sway_period"] = loads["sway_free_ramp"] = Found(Estimate.exact(period))
+        loads["sway_period"] = Found(Estimate.exact(period))
+        rigid = motion_of(spec, scene).rigid_time
+        if math.isfinite(rigid):
+            free = pendulum.cancelling_ramp(spec.speed, spec.speed / rigid, period)
+            loads["sway_free_ramp"] = Found(Estimate.exact(free))
     return loads
 
 
