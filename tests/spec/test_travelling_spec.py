@@ -189,3 +189,11 @@ def test_all_problems_at_once() -> None:
         ("trolley", "farthest"),
         ("rail", "slope"),
     } <= paths
+
+
+def test_a_gear_that_locks_itself() -> None:
+    found = faulty(crane(drive__gear__efficiency=0.45), "drive", "gear", "efficiency")
+    assert "locks itself" in found.message
+    assert problems(crane(drive__gear={"ratio": 22, "efficiency": 0.45, "reverse_efficiency": 0.2})) == []
+    negative = crane(drive__gear={"ratio": 22, "efficiency": 0.45, "reverse_efficiency": -0.2})
+    assert faulty(negative, "drive", "gear", "reverse_efficiency").code == "SPC110"

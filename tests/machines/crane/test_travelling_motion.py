@@ -271,3 +271,13 @@ def test_brakes_that_do_not_stop_it_are_said_once() -> None:
     report = report_of(data)
     assert [one.code for one in report.diagnostics if one.severity == "warning"] == ["NUM110"]
     assert {one.code: one.verdict for one in scene_of(report).checks}["CRN151"] == "fail"
+
+
+def test_a_crane_that_coasts_to_rest_before_its_brakes_act() -> None:
+    """m v^2/2 is what the wheels take; the load takes and gives back a little."""
+    data = crane(drive__brake={"torque": "16 N*m", "delay": "60 s"}, scenes=[{"type": "brake", "by": "brake"}])
+    scene = scene_report(data)
+    rotor = 2 * 0.008 * 22**2 * 0.9 / 0.1575**2
+    coasts = (25450 + rotor) * 1.05 / (0.01 * 25450 * 9.81)
+    assert load_of(scene, "brake_time").estimate.value == pytest.approx(coasts, rel=0.1)
+    assert load_of(scene, "brake_time").estimate.bounded

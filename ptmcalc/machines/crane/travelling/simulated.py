@@ -162,7 +162,7 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
 
 def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: float) -> tuple[float, list[Leg]]:
     """Legs until full speed or rest, and when that is."""
-    guess = linear_course(motion).time.value
+    guess = motion.rigid_time + (0.0 if motion.starts else motion.delay + motion.rise)
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
     drives = _drives(spec, motion)
