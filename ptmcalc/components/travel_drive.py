@@ -18,8 +18,9 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
 
-ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
+ReverseEfficiency = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
 DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
+_SELF_LOCKING = 0.5
 Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
 
 
@@ -61,6 +62,16 @@ class TravelGear(Gear):
 
     reverse_efficiency: ReverseEfficiency | None = None
     """from wheel to motor; 2 - 1/efficiency when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A gear that locks itself would let the wheels slide at every stop."""
+        yield from super().conflicts(given)
+        forward = given.number("efficiency")
+        locks = forward is not None and forward <= _SELF_LOCKING
+        if locks and "efficiency" in given and "reverse_efficiency" not in given:
+            reason = "a gear of half the power or less locks itself: its wheels slide at every stop"
+            yield Conflict(("efficiency",), reason, "write more, or give its `reverse_efficiency: 0.1`")
 
 
 class TravelBrake(Fragment):

@@ -43,6 +43,10 @@ MOST_EVALUATIONS = {
     "hoist/winding_paper/height_40_rope_16.yaml": 10,
     "hoist/winding_paper/height_40_rope_17_5.yaml": 10,
     "crane_slewing.yaml": 300,
+    "crane_slewing.yaml": 10,
+    "crane_travelling.yaml": 200,
+    "crane/container_gantry.yaml": 400,
+    "crane/hoist_trolley.yaml": 400,
 }
 """Work of all scenes of a file that its check may take: cells and stretches of motion carried on by a step."""
 

@@ -19,9 +19,8 @@ def of_the_structure(spec: Travelling) -> dict[str, float]:
         phi2 = lift_off_standard.standard_lift_off_factor(given.hoisting, given.drive, at, given.edition)
         found["phi2"] = phi2
         found["phi6"] = standard_factors.load_test_factors(phi2)[0]
-    if given.release != "none":
-        share = given.released_share * spec.load / (spec.load + spec.hook_block)
-        found["phi3"] = float(lift_off.release_factor(share, _QUICKNESS[given.release]))
+    share = given.released_share * spec.load / (spec.load + spec.hook_block) if given.release != "none" else 0.0
+    found["phi3"] = float(lift_off.release_factor(share, _QUICKNESS.get(given.release, 0.0)))
     return found
 
 

@@ -167,7 +167,7 @@ def _stop(journey: _Journey) -> None:
         mass = motion.body + motion.rotor
         journey.go("delay", Pieces.constant(-drag / mass), motion.load / mass, motion.delay, 0.0, motion.rotor)
         if min(float(journey.stretches[-1].swing.smallest(linear.SPEED).value), journey.speed) <= 0:
-            raise NumericsError("NUM102", "it stops before its brakes act: give no delay, or look at a coast")
+            raise NumericsError("NUM102", "it coasts to rest before its brakes act")
     mass = motion.body + motion.rotor_braked
     push = Pieces.constant(-(motion.force + drag) / mass)
     force = motion.force

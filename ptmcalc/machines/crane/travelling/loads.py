@@ -51,7 +51,7 @@ OF_MOTION = (
     LoadInfo("sway_angle_max", "largest angle of the load", units.ANGLE, governing=True),
     LoadInfo("sway_residual", "angle in which the load swings on", units.ANGLE, governing=True),
     LoadInfo("sway_period", "period of the load", units.TIME),
-    LoadInfo("sway_free_ramp", "ramp that leaves no swing: one period", units.TIME, headline=False),
+    LoadInfo("sway_free_ramp", "shortest ramp, no steeper, that leaves no swing", units.TIME, headline=False),
     LoadInfo("horizontal_force", "largest horizontal force of the load on the crane", units.FORCE, governing=True),
     LoadInfo("traction_max", "largest force of the driven wheels on the rails", units.FORCE),
     LoadInfo("torque_motor_max", "largest torque of all motors along the ramp", units.TORQUE),

@@ -1,17 +1,36 @@
 """The loads that a start or a stop comes to."""
 
 import math
+from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, of
+from ptmcalc.contract.result import Finding, Found, of
+from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.checks import rate_key
 from ptmcalc.machines.crane.travelling.course import Course, State, extreme
+from ptmcalc.machines.crane.travelling.moving import motion_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_corners
+
+STALL = "stall: the motors do not bring the crane to full speed against friction, wind and slope"
+RUNAWAY = "the brakes do not stop the crane against wind and slope"
+SLIDES = "driven wheels slide: times, swing and wheel loads are those of wheels that hold, and decide nothing"
+
+
+def findings_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> tuple[Finding, ...]:
+    """What a start or stop says of itself: that it does not come about, or leaves what is reckoned with."""
+    if math.isinf(loads["start_time" if model.starts(scene) else "brake_time"].estimate.value):
+        why, hint = (STALL, "give it more torque") if model.starts(scene) else (RUNAWAY, "give it stronger brakes")
+        return (Finding("NUM110", why, rate_key(spec, scene), hint),)
+    if loads["skid_reserve_min"].estimate.low < 1:
+        hint = "accelerate and brake less, drive more wheels, or give `rail.adhesion` its value"
+        return (Finding("NUM102", SLIDES, rate_key(spec, scene), hint),)
+    return ()
 
 
 def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found]:
@@ -40,8 +59,7 @@ def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found
     loads = {name: Found(estimate) for name, estimate in found.items()}
     if math.isinf(course.time.value):
         name = "start_time" if starts else "brake_time"
-        why = "stall: the motors do not bring it to full speed" if starts else "the brakes do not stop it"
-        loads[name] = Found(course.time, note=why)
+        loads[name] = Found(course.time, note=STALL if starts else RUNAWAY)
     least = min(grips, key=lambda corner: grips[corner].value)
     loads["skid_reserve_min"] = Found(extreme(grips.values(), largest=False), note=f"wheels of corner {least}")
     for name, largest in (("wheel_load_max", True), ("wheel_load_min", False)):
@@ -49,7 +67,11 @@ def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found
         loads[name] = Found(worst.estimate, note=f"{wheels.where(worst.state, largest)}, {worst.phase}")
     if model.hanging(spec, scene):
         period = 2 * math.pi * math.sqrt(model.rope_length(spec, scene) / spec.gravity)
-        loads["sway_period"] = loads["sway_free_ramp"] = Found(Estimate.exact(period))
+        loads["sway_period"] = Found(Estimate.exact(period))
+        rigid = motion_of(spec, scene).rigid_time
+        if math.isfinite(rigid):
+            free = pendulum.cancelling_ramp(spec.speed, spec.speed / rigid, period)
+            loads["sway_free_ramp"] = Found(Estimate.exact(free))
     return loads
 
 

@@ -25,7 +25,7 @@ from ptmcalc.numerics.pendulum.swing import Swing, swing
 FloatArray = NDArray[np.float64]
 
 SIGNALS = ("acceleration", "pull_along", "tension")
-_DOUBLINGS = 8
+_DOUBLINGS = 3
 _SHOWN = 400
 _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
@@ -122,6 +122,23 @@ class Run:
         )
 
 
+def turns(spec: Travelling, scene: Moving) -> float:
+    """Radians through which the load swings in a start or stop, with two swings after it; 0 where nothing is simulated.
+
+    It is what a simulation costs.
+    """
+    motion = motion_of(spec, scene)
+    if not motion.load or stalls(motion):
+        return 0.0
+    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise
+    shortest = min(motion.length, motion.length - motion.hoisting * motion.hoist_time)
+    if shortest <= 0:
+        return math.inf
+    mass = motion.body + motion.rotor
+    stiffer = 1.0 if motion.ramp is not None else 1 + motion.load / mass
+    return lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi
+
+
 def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
     """A start or a stop as it happens.
 
@@ -145,7 +162,7 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
 
 def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: float) -> tuple[float, list[Leg]]:
     """Legs until full speed or rest, and when that is."""
-    guess = linear_course(motion).time.value
+    guess = motion.rigid_time + (0.0 if motion.starts else motion.delay + motion.rise)
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
     drives = _drives(spec, motion)

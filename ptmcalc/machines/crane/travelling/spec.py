@@ -41,6 +41,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 
 Level = Annotated[float, Measure(units.SPAN, at_least=0)]
+Place = Annotated[float, Measure(units.SPAN)]
 WindArea = Annotated[float, Measure(units.FACE, at_least=0)]
 Count = Annotated[int, Field(ge=1, le=16, strict=True)]
 Slope = Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.2)]
@@ -64,6 +65,10 @@ class Bridge(Fragment):
     """of gravity, from rail A; in the middle when left out"""
     height: Level = 0.0
     """of its centre of gravity above the wheels' rails"""
+    cantilever_a: Level = 0.0
+    """of a gantry, beyond rail A"""
+    cantilever_b: Level = 0.0
+    """of a gantry, beyond rail B"""
 
 
 class Trolley(Fragment):
@@ -73,9 +78,9 @@ class Trolley(Fragment):
     """with the hoist, without the hook block"""
     gauge: PositiveLength | None = None
     """from its rail A to its rail B; of a trolley that travels"""
-    nearest: PositiveSpan | None = None
-    """least distance of the hook from rail A; of a trolley on a bridge"""
-    farthest: PositiveSpan | None = None
+    nearest: Place | None = None
+    """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
+    farthest: Place | None = None
     """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
     hook: PositiveLength | None = None
     """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
@@ -447,10 +452,12 @@ def _reach(given: Given) -> Iterator[Conflict]:
     if near is not None and far is not None and far < near:
         yield Conflict(("trolley", "farthest"), "it is nearer to rail A than `nearest`", "swap them")
     if bridge is not None and (span := bridge.number("span")) is not None:
+        least, most = -(bridge.number("cantilever_a") or 0.0), span + (bridge.number("cantilever_b") or 0.0)
         for key, place in (("nearest", near), ("farthest", far)):
-            if place is not None and key in trolley and place > span:
+            if place is not None and key in trolley and not least <= place <= most:
                 reason = f"the trolley is beyond the bridge, whose span is {units.show(span, units.SPAN)}"
-                hint = f"write `{key}: {units.show(0.95 * span, units.SPAN, 3)}` or less, or correct the `span`"
+                end = f"`{key}: {units.show(0.95 * span, units.SPAN, 3)}` or less" if place > most else f"`{key}: 1 m`"
+                hint = f"write {end}, or correct the `span` (of a gantry, give its cantilevers)"
                 yield Conflict(("trolley", key), reason, hint)
         if near is not None and "farthest" not in trolley and span / 2 < near <= span:
             reason = "it is beyond the middle of the bridge: where the trolley ends on the other side is missing"

@@ -9,7 +9,7 @@ from ptmcalc.machines.crane.travelling.effects import IN_PLANE, LARGE, MOVING_SC
 from ptmcalc.machines.crane.travelling.finite import exact_course, regular
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.moving import motion_of
-from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -26,11 +26,17 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     **Source** `laws.pendulum.ramp_swing`.
     """
     motion = motion_of(spec, scene)
-    return Result(loads_of(spec, scene, exact_course(motion)), work=1)
+    loads = loads_of(spec, scene, exact_course(motion))
+    return Result(loads, work=1, findings=findings_of(spec, scene, loads))
 
 
 def valid(spec: Travelling, scene: Moving) -> Criterion:
-    """Whether the scene is a ramp of that kind."""
+    """Whether the scene is a sudden ramp with ropes of constant length, no wind or slope at the load.
+
+    **Range** every start and stop.
+    **Error** none: the scene tells.
+    **Source** the range of `laws.pendulum.ramp_swing`.
+    """
     fits = regular(motion_of(spec, scene))
     return Criterion("ramp", 0.0 if fits else math.inf, 1.0, "whether the scene is a sudden ramp", "scene")
 

@@ -6,7 +6,7 @@ from ptmcalc.machines.crane.travelling.effects import IN_PLANE, MOVING_SCENES, S
 from ptmcalc.machines.crane.travelling.linear import linear_course
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.moving import motion_of
-from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -25,7 +25,8 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     **Source** pendulum under a moved pivot; `numerics.pendulum.linear`.
     """
     course = linear_course(motion_of(spec, scene))
-    return Result(loads_of(spec, scene, course), work=course.work)
+    loads = loads_of(spec, scene, course)
+    return Result(loads, work=course.work, findings=findings_of(spec, scene, loads))
 
 
 SWAY_LINEAR: Solver[Travelling, Moving] = Solver(

@@ -1,15 +1,18 @@
 """A start or a stop simulated with the load at any angle."""
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.reading import loads_of
+from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.simulated import simulate
+from ptmcalc.machines.crane.travelling.simulated import simulate, turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 TOLERANCES = (1e-9, 1e-12)
+MOST_TURNS = 400.0
+"""Radians of swing that are followed: starts of cranes take 2 to 60."""
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
@@ -25,15 +28,28 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     **Source** `numerics.pendulum.swing`.
     """
     done = simulate(spec, scene, TOLERANCES[level])
+    loads = loads_of(spec, scene, done.course)
     return Result(
-        loads_of(spec, scene, done.course),
+        loads,
         work=max(done.course.work, 1),
         window=done.window,
         health={"energy_residual": done.energy},
-        findings=done.findings,
+        findings=(*done.findings, *findings_of(spec, scene, loads)),
         events=done.events,
         histories=done.histories,
     )
+
+
+def valid(spec: Travelling, scene: Moving) -> Criterion:
+    """Radians through which the load swings in the scene, against those that are followed.
+
+        omega t <= 400
+
+    **Range** every start and stop.
+    **Error** none: a limit of work.
+    **Source** starts and stops of cranes take 2 to 60 radians.
+    """
+    return Criterion("ωt", turns(spec, scene), MOST_TURNS, "radians of swing in the scene", "work")
 
 
 SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
@@ -44,7 +60,8 @@ SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     represents=IN_PLANE | {LARGE, CURVE},
     gives=MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: 0.06 * (1 + level),
+    cost=lambda spec, scene, carried, level: 0.01 + 2e-3 * min(turns(spec, scene), 1e6) * (1 + level),
+    valid=valid,
     source="plane pendulum under a driven crane; Radau collocation, ptmcalc.numerics.pendulum.swing",
     always=frozenset({SWAY, LARGE, CURVE}),
     levels=len(TOLERANCES),

@@ -1,0 +1,105 @@
+"""Bars of a travelling crane's small angles against an integration at any angle: they hold, and are needed."""
+
+import math
+
+import numpy as np
+import pytest
+from support import travel_ode
+from support.machines import loaded
+from support.travel_ode import Machine, Seen
+from support.travelling import as_file
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.engine.plan import Rung, plan_scene
+from ptmcalc.engine.registry import load_kind
+from ptmcalc.engine.run import widen
+from ptmcalc.machines.crane.travelling.effects import IN_PLANE
+from ptmcalc.machines.crane.travelling.solvers.sway_linear import SWAY_LINEAR
+
+SEED, MACHINES, TIGHTER = 1907, 40, 1 / 3
+KIND = next(one for one in load_kind("crane").types if one.type == "travelling")
+
+
+def random_ramp(rng: np.random.Generator) -> Machine:
+    """A start or stop along a ramp, from gentle to as steep as nobody drives."""
+    ramp = float(10 ** rng.uniform(-1.3, 0.6))
+    length = float(rng.uniform(1.0, 20.0))
+    swings = float(rng.uniform(0.15, 3.0))
+    speed = ramp * swings * 2 * math.pi * math.sqrt(length / 9.81)
+    load = float(10 ** rng.uniform(2.5, 4.5))
+    body = float(rng.uniform(0.5, 4.0)) * load + 1200.0
+    return Machine(bool(rng.integers(2)), speed, load, body, length, 0.005 * (load + body) * 9.81, ramp=ramp)
+
+
+def truths(one: Machine, seen: Seen) -> dict[str, float]:
+    """What the witness says of each load, with levers of its own."""
+    wheels = [_wheels(one, *state) for state in seen.states]
+    grips = [
+        0.5 * min(loads) / abs(traction / 4) if traction else math.inf
+        for loads, (_, _, _, traction) in zip(wheels, seen.states, strict=True)
+    ]
+    return {
+        "sway_angle_max": seen.sway,
+        "sway_residual": seen.residual,
+        "horizontal_force": max(map(abs, seen.pulls)),
+        "wheel_load_max": max(map(max, wheels)),
+        "wheel_load_min": min(map(min, wheels)),
+        "traction_max": max(abs(state[3]) for state in seen.states),
+        "skid_reserve_min": min(grips) if min(map(min, wheels)) > 0 else 0.0,
+    }
+
+
+def _wheels(one: Machine, a: float, pull: float, weight: float, traction: float) -> list[float]:
+    """Trolley of 1 t with its hook 1 m from either rail of 20 m, 1.5 m high; the rest in the middle, 1 m high."""
+    g, base, body = 9.81, 4.0, one.body - 1000.0
+    loads = []
+    for share in (0.95, 0.05):
+        down = (body * g / 2 + (1000 * g + weight) * share) / 2
+        back = (body * a * 1.0 / 2 + (1000 * a + pull) * 1.5 * share) / base
+        loads += [down - back, down + back]
+    return loads
+
+
+def misses(bar: Estimate, truth: float, share: float = 1.0) -> bool:
+    """Whether the truth lies outside of a bar, or of a part of it; the witness itself is good to a millionth."""
+    low, high = bar.value - share * (bar.value - bar.low), bar.value + share * (bar.high - bar.value)
+    slack = 2e-6 * abs(truth)
+    return not low - slack <= truth <= high + slack
+
+
+def test_bars_of_finite_angles_hold_and_a_third_of_them_would_not() -> None:
+    rng = np.random.default_rng(SEED)
+    outside, tight = [], set()
+    for number in range(MACHINES):
+        one = random_ramp(rng)
+        spec = loaded(as_file(one)).spec
+        assert spec is not None
+        plan = plan_scene(KIND, spec, spec.all_scenes[0])
+        result = SWAY_LINEAR.run(spec, plan.scene, IN_PLANE, 0)  # type: ignore[arg-type]
+        estimates = widen(plan, spec, Rung(SWAY_LINEAR, IN_PLANE, 0, 0.0), result)
+        for name, truth in truths(one, travel_ode.travel(one)).items():
+            bar = estimates[name]
+            if not bar.bounded:
+                continue
+            if misses(bar, truth):
+                outside.append((number, name, bar, truth))
+            if misses(bar, truth, TIGHTER):
+                tight.add(name)
+    assert outside == []
+    assert {"sway_residual", "horizontal_force", "traction_max"} <= tight
+
+
+@pytest.mark.parametrize("what", ["hoisting", "wind", "torque"])
+def test_what_has_no_bound_is_not_bounded(what: str) -> None:
+    one = Machine(True, 1.0, 1e4, 2e4, 8.0, 1500.0, ramp=0.15)
+    changes = {
+        "hoisting": {"hoisting": 0.1},
+        "wind": {"wind_on_load": 500.0},
+        "torque": {"ramp": None, "force": 6000.0},
+    }
+    data = as_file(Machine(**{**one.__dict__, **changes[what]}))
+    spec = loaded(data).spec
+    assert spec is not None
+    plan = plan_scene(KIND, spec, spec.all_scenes[0])
+    result = SWAY_LINEAR.run(spec, plan.scene, IN_PLANE, 0)  # type: ignore[arg-type]
+    assert not widen(plan, spec, Rung(SWAY_LINEAR, IN_PLANE, 0, 0.0), result)["sway_angle_max"].bounded
