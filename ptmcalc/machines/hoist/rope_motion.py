@@ -188,6 +188,10 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
     other = play(spec, scene, rope, window, _COMPARED * finer)
     own, beside = readings(scene, case, course), readings(scene, case, other)
     found = motion.with_bars(scene, case, own, [beside], _UNSEEN)
+    if isinstance(scene, Lift) and not case.weak and not math.isfinite(course.first("lift")):
+        # a strong drive that has not lifted yet: what a longer look would show is not known
+        forces = {name for name, one in found.items() if math.isfinite(one.estimate.value)}
+        found |= {name: Found(Estimate.unknown(found[name].estimate.value), found[name].at) for name in forces}
     findings, remarks = [], _remarks(scene, case, course, own)
     slack, residual = _slack_at(course), max(course.residual, other.residual)
     if math.isfinite(slack):
