@@ -593,7 +593,11 @@ def test_the_schema_shows_a_unit_to_copy_wherever_one_is_needed(kind: str) -> No
 def test_new_prints_the_template(kind: str) -> None:
     done = ptmcalc("new", kind)
     assert (done.status, done.err) == (0, "")
-    assert done.out == load_kind(kind).template
+    first, *others = load_kind(kind).types or (load_kind(kind),)
+    assert done.out.endswith(first.template)
+    said = done.out.removesuffix(first.template)
+    assert all(f"ptmcalc new {kind} {other.type}" in said for other in others)
+    assert bool(said) == bool(others)
     assert f"kind: {kind}" in done.out
 
 

@@ -43,7 +43,6 @@ MOST_EVALUATIONS = {
     "hoist/winding_paper/height_40_rope_16.yaml": 10,
     "hoist/winding_paper/height_40_rope_17_5.yaml": 10,
     "crane_slewing.yaml": 300,
-    "crane_slewing.yaml": 10,
     "crane_travelling.yaml": 200,
     "crane/container_gantry.yaml": 400,
     "crane/hoist_trolley.yaml": 400,
