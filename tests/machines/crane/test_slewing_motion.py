@@ -118,10 +118,38 @@ def test_a_gust_holds_the_start_up() -> None:
     assert load_of(scene_of(blown), "start_time").estimate.low > calm
 
 
+def test_a_gust_above_the_largest_wind_is_held_like_it() -> None:
+    """Steady wind and gust are 1.5 + 6 kN*m, motor and brake 9.72 and 10.8 kN*m, friction 2 kN*m."""
+    scene = scene_of(report_of(changed(YARD, wind__gust="6 kN*m")))
+    assert load_of(scene, "wind_reserve_motor").estimate.value == pytest.approx(9720 / 9500)
+    assert load_of(scene, "wind_reserve_brake").estimate.value == pytest.approx(12800 / 7500)
+    quiet = scene_of(report_of(changed(YARD, wind__gust="1 kN*m")))
+    assert load_of(quiet, "wind_reserve_brake").estimate.value == pytest.approx(12800 / 4000)
+
+
+@pytest.mark.parametrize("start", [{"cycle__start_time": "10 s"}, {"cycle__start_angle": "30 deg"}])
+def test_a_given_start_at_the_limit_is_decided(start: dict[str, str]) -> None:
+    """30 deg at 1 rpm are 10 s, the longest start allowed: no computation can make another time of it."""
+    report = report_of(changed(YARD, motor__mean_starting_torque=None, **start))
+    (judgement,) = (one for _, one in report.judgements if one.code == "CRN102")
+    assert judgement.verdict.value == "pass"
+    assert load_of(scene_of(report), "start_time").estimate.value == pytest.approx(10.0, abs=1e-12)
+
+
+def test_a_curve_that_ends_below_the_speed_leaves_nothing_undecided() -> None:
+    """The mean would start the crane, and no solver can bring it to its speed: that is the verdict."""
+    curve = {"type": "linear", "starting_torque": "40 N*m", "no_load_speed": "880 rpm"}
+    report = report_of(changed(YARD, motor__mean_starting_torque=None, motor__curve=curve))
+    verdicts = {judgement.code: judgement.verdict.value for _, judgement in report.judgements}
+    assert verdicts["CRN118"] == "fail"
+    assert verdicts["CRN101"] == "pass"
+    assert "undecided" not in verdicts.values()
+
+
 def test_a_gust_decides_a_verdict() -> None:
     """Without the gust the start is short enough, with it the crane takes too long."""
     assert report_of(YARD).verdict == "pass"
-    report = report_of(changed(YARD, wind__gust="9 kN*m"))
+    report = report_of(changed(YARD, wind__gust="6 kN*m", wind__gust_time="9 s"))
     failed = {judgement.code for _, judgement in report.judgements if judgement.verdict.value == "fail"}
     assert failed == {"CRN102"}
     gust = next(effect for effect in scene_of(report).effects if effect.name == "wind_gust")

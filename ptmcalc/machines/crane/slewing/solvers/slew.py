@@ -38,6 +38,8 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     loads |= drive.of_drive(spec, scene, moved.phases, at)
     bar = 10 * moved.bar
     found = {name: Found(Estimate.within(value, bar * abs(value))) for name, value in loads.items()}
+    if moved.phases.start[0] == model.ramp(spec):
+        found["start_time"] = Found(Estimate.exact(moved.phases.start[0]))
     for name, signal in _SIGNALS.items():
         peak = moved.farthest(signal)
         found[name] = Found(Estimate.within(peak.value, peak.bar), at={"time": peak.time})
