@@ -127,6 +127,25 @@ def test_a_gust_above_the_largest_wind_is_held_like_it() -> None:
     assert load_of(quiet, "wind_reserve_brake").estimate.value == pytest.approx(12800 / 4000)
 
 
+def test_the_ring_bears_the_crane_without_its_load_too() -> None:
+    """A counterweight that wins: -230 kN*m alone, next to nothing with 1.25 times the load."""
+    moment = 230e3 / 9.81 + 8000 * 0.3 + 1200 * 4
+    heavy = changed(YARD, counterweight={"mass": f"{moment / 2.6} kg", "radius": "2.6 m"})
+    heavy["ring"] = {"curve": [{"axial": "0 kN", "moment": "200 kN*m"}, {"axial": "900 kN", "moment": "200 kN*m"}]}
+    scene = scene_of(report_of(heavy))
+    assert load_of(scene, "ring_utilisation").estimate.value == pytest.approx(230 / 200)
+    assert load_of(scene, "ring_moment").estimate.value < 20e3
+
+
+def test_the_radial_force_of_the_ring_has_the_inertia_of_what_stands_above_it() -> None:
+    """A brake that locks: 17.8 t m behind the axis lose 1 rpm in the time of the stop, evenly at best."""
+    scene = scene_of(report_of(changed(YARD, brake__torque="300 N*m", counterweight__radius="5 m")))
+    stop = load_of(scene, "brake_time").estimate.value - 0.1
+    dragged = (5000 * 5 - 8000 * 0.3 - 1200 * 4) * 0.9 * 2 * math.pi / 60 / stop
+    assert load_of(scene, "ring_force_radial").estimate.high > dragged > 20e3
+    assert load_of(scene, "ring_force_radial").estimate.high < 3 * dragged
+
+
 @pytest.mark.parametrize("start", [{"cycle__start_time": "10 s"}, {"cycle__start_angle": "30 deg"}])
 def test_a_given_start_at_the_limit_is_decided(start: dict[str, str]) -> None:
     """30 deg at 1 rpm are 10 s, the longest start allowed: no computation can make another time of it."""

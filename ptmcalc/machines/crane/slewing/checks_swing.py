@@ -88,9 +88,10 @@ RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
         ),
         blame=blames("ring", "curve"),
         repair=no_repair,
-        what="With the load times its factor, the tilting moment is within what the ring bears at that axial force.",
+        what="With the load times its factor, and with nothing on the hook, the tilting moment is within what the ring"
+        " bears at that axial force.",
         why="A ring beyond its curve dents its raceways; its bolts fatigue.",
-        formula="M(1.25 Q) <= M_ring(F_a)",
+        formula="M(1.25 Q), M(0) <= M_ring(F_a)",
         source="catalogues of slewing rings: limiting load curves",
     )
 )
