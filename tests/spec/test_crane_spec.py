@@ -103,6 +103,15 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
         "SPC113",
         "give `inertia`, or the parts",
     ),
+    "parts without inertia": (
+        {
+            "slewing_part": {"mass": "8 t", "radius": "0 m"},
+            "counterweight": {"mass": "0 kg", "radius": "2 m"},
+            "jib": None,
+        },
+        "SPC113",
+        "no inertia about the slewing axis",
+    ),
     "efficiency above 1": ({"gear__efficiency": 1.2}, "SPC110", "at most 1"),
     "open stage above the whole": ({"gear__open__ratio": 1000}, "SPC113", "the whole ratio is 900 only"),
     "open stage with more loss than all": ({"gear__open__efficiency": 0.5}, "SPC113", "the whole efficiency is 0.72"),

@@ -271,6 +271,19 @@ def test_a_hard_stop_upward_leaves_the_rope_slack() -> None:
     assert value(scene, "rope_force_min") == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.parametrize("shape", ["cosine", "parabolic"])
+def test_a_start_along_a_curve_follows_it_from_its_first_moment(shape: str) -> None:
+    """Its first acceleration is small beside all stiffness there is; who leaves it out ends slower, with a residual."""
+    data = changed(CRANE, scenes=[{"type": "start", "profile": {"shape": shape, "time": "2 s"}}])
+    spec = hoist_of(data)
+    course = motion.play(moving.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
+    assert course.ledger.residual < 1e-12
+    mains = course.case.named("body", "set speed")
+    assert mains is not None
+    rated = 0.133 * 4 / 2 * 2 / (0.355 + 0.016) * 106  # two ropes of four falls: the drum takes in two at its radius
+    assert course.record.last[course.system.watched["speed", mains]] == pytest.approx(rated, rel=1e-9)
+
+
 STIFF = {
     "speed": {"main": "0.1 m/s"},
     "reeving": {"falls": 4, "sheave_efficiency": 0.98},

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.laws import duty, slewing
-from ptmcalc.machines.crane.slewing import chain, model
+from ptmcalc.machines.crane.slewing import chain, model, ring
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
@@ -238,13 +238,17 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, loads: Loads, pull: float, an
         return {name: ANYTHING for name in _RING[:3] if name in loads}
     brake = spec.brake
     held = 0.0 if brake is None else brake.torque * (spec.gear.ratio if brake.shaft == "motor" else 1.0)
-    torque = max(start_of(spec, scene)[1], held / spec.gear.back) + spec.friction + model.driving_wind(spec, scene)
+    even = crane * spec.speed / chain.allowed_stop(spec)[0] if brake is None else 0.0
+    driven = max(start_of(spec, scene)[1], held / spec.gear.back, even)
+    torque = driven + spec.friction + model.driving_wind(spec, scene)
     torque += spec.wind.gust_torque
     largest = (pull + mass * radius * sine * torque / crane) / free
+    jerk = (torque + radius * largest * sine) / crane
+    dragged = abs(ring.moment_above(spec)) / spec.gravity * (jerk + 2 * spec.speed**2)
     more, sideways = max(largest - mass * spec.gravity, 0.0), largest * sine
     return {
         "ring_force_axial": Interval(0.0, more),
-        "ring_force_radial": Interval(-mass * radius * spec.speed**2, sideways),
+        "ring_force_radial": Interval(-mass * radius * spec.speed**2 - dragged, sideways + dragged),
         "ring_moment": Interval(
             -mass * radius * spec.speed**2 * spec.ring.head_height, radius * more + sideways * spec.ring.head_height
         ),

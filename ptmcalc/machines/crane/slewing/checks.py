@@ -43,15 +43,21 @@ def needs(*paths: KeyPath) -> Callable[[SlewingCrane, SlewingScene], tuple[KeyPa
     return lambda spec, scene: paths
 
 
+def reaches(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the motor's curve carries the crane to its speed: of one that does not (CRN118) no start is asked."""
+    least = model.least_torque(spec, scene)
+    return least is None or model.at_column(spec, least) >= model.steady_torque(spec, scene)
+
+
 def starts(spec: SlewingCrane, scene: SlewingScene) -> bool:
-    """Whether the rigid crane starts: of one that stalls (CRN101) no stop is asked."""
-    return math.isfinite(start_of(spec, scene)[0])
+    """Whether the rigid crane starts: of one that stalls (CRN101, CRN118) no stop is asked."""
+    return math.isfinite(start_of(spec, scene)[0]) and reaches(spec, scene)
 
 
 def turns(spec: SlewingCrane, scene: SlewingScene) -> bool:
-    """Whether the rigid crane starts and stops: of one that stalls (CRN101), or that no brake stops (CRN105), nothing
-    more is asked."""
-    return math.isfinite(start_of(spec, scene)[0]) and math.isfinite((model.stop(spec, scene) or (0.0, 0.0))[0])
+    """Whether the rigid crane starts and stops: of one that stalls (CRN101, CRN118), or that no brake stops (CRN105),
+    nothing more is asked."""
+    return starts(spec, scene) and math.isfinite((model.stop(spec, scene) or (0.0, 0.0))[0])
 
 
 # -- start ----------------------------------------------------------------------------------------------------------
@@ -107,20 +113,52 @@ def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
     return Estimate.exact(spec.checks.start_time)
 
 
-SLOW: OneCheck = Check(
-    code="CRN102",
-    title="a start that takes too long",
-    scenes=SLEWING,
-    loads=("start_time",),
-    sense=Sense.AT_MOST,
-    limit=_longest_start,
-    needs=no_needs,
-    blame=lambda spec, scene, loads: torque_key(spec, scene),
-    repair=_torque_repair,
-    what="The crane comes to its speed within the time asked.",
-    why="A crane that creeps to its speed holds up the work, and its motor heats.",
-    formula="t_s = J w/(M_start - M_steady) <= 10 s",
-    source="change of angular momentum; handbooks of lifting machines",
+SLOW: OneCheck = only(reaches)(
+    Check(
+        code="CRN102",
+        title="a start that takes too long",
+        scenes=SLEWING,
+        loads=("start_time",),
+        sense=Sense.AT_MOST,
+        limit=_longest_start,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: torque_key(spec, scene),
+        repair=_torque_repair,
+        what="The crane comes to its speed within the time asked.",
+        why="A crane that creeps to its speed holds up the work, and its motor heats.",
+        formula="t_s = J w/(M_start - M_steady) <= 10 s",
+        source="change of angular momentum; handbooks of lifting machines",
+    )
+)
+
+
+def _at_least_steady(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """As much torque as steady slewing takes.
+
+    **Range** curves over speed, from standstill to the speed of the crane.
+    **Error** none: a balance of torques.
+    **Source** balance of torques about the slewing axis.
+    """
+    return Estimate.exact(1.0)
+
+
+SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is not None)(
+    Check(
+        code="CRN118",
+        title="a motor that does not come to the crane's speed",
+        scenes=SLEWING,
+        loads=("speed_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_at_least_steady,
+        needs=no_needs,
+        blame=blames("motor", "curve"),
+        repair=no_repair,
+        what="From standstill to the speed of the crane, the torque of the motor's curve exceeds what friction, steady"
+        " wind and slope take.",
+        why="Where the curve falls below the resistance the crane gains no more speed: its mean does not tell.",
+        formula="min M(w) u eta/(M_fr + M_w) >= 1",
+        source="balance of torques about the slewing axis",
+    )
 )
 
 
@@ -366,9 +404,18 @@ PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)
     )
 )
 
-LOCKS: OneCheck = only(
-    lambda spec, scene: spec.gear.back < 0 and spec.brake is not None and spec.brake.shaft == "motor"
-)(
+
+def _driven_back(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether the crane drives a self-locking gear in the stop: against the brake on the motor, or blown by the wind
+    before a brake on the crane has closed."""
+    if spec.gear.back >= 0 or spec.brake is None:
+        return False
+    if spec.brake.shaft == "motor":
+        return True
+    return spec.brake.delay + spec.brake.rise_time > 0 and model.driving_wind(spec, scene) > spec.friction
+
+
+LOCKS: OneCheck = only(_driven_back)(
     Check(
         code="CRN114",
         title="a self-locking gear that jams as it is braked",
@@ -404,7 +451,9 @@ def _blown(spec: SlewingCrane, scene: SlewingScene) -> bool:
 
 
 def _wind_key(spec: SlewingCrane) -> KeyPath:
-    for key in ("maximum", "maximum_pressure", "steady", "steady_pressure"):
+    gusty = spec.wind.gust_torque > 0 and spec.wind.maximum_torque == spec.wind.steady_torque + spec.wind.gust_torque
+    keys = ("gust", "gust_pressure") if gusty else ("maximum", "maximum_pressure")
+    for key in (*keys, "steady", "steady_pressure"):
         if getattr(spec.wind, key) is not None:
             return ("wind", key)
     return ("slope",)
@@ -449,6 +498,7 @@ WIND_BRAKE: OneCheck = only(_blown)(
 CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (
     STALL,
     SLOW,
+    SPEED,
     HARSH,
     BRAKE_ANGLE,
     BRAKE_TIME,

@@ -3,9 +3,11 @@
 import math
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_repair
-from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only, turns
+from ptmcalc.machines.crane.slewing import chain, model
+from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only, torque_key, turns
+from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -46,6 +48,21 @@ RADIAL: OneCheck = only(_swings)(
         source="spherical pendulum on a slewing jib",
     )
 )
+
+
+def _thrown_by(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
+    """What governs the swing along the way: the speed that is gained or lost within half a swing of the load, else the
+    torque of the start or of the brake, whichever is quicker: their acceleration does not go by the speed."""
+    assert spec.load is not None
+    assert spec.load.rope_length is not None
+    start, stop = start_of(spec, scene)[0], (model.stop(spec, scene) or chain.allowed_stop(spec))[0]
+    if min(start, stop) < math.pi * math.sqrt(spec.load.rope_length / spec.gravity):
+        return ("speed",)
+    if start <= stop:
+        return torque_key(spec, scene)
+    return ("brake", "torque") if spec.brake is not None else ("cycle", "brake_angle")
+
+
 TANGENTIAL: OneCheck = only(_swings)(
     Check(
         code="CRN111",
@@ -55,8 +72,8 @@ TANGENTIAL: OneCheck = only(_swings)(
         sense=Sense.AT_MOST,
         limit=_allowed_sway,
         needs=needs(*_ROPE),
-        blame=blames("speed"),
-        repair=at("speed"),
+        blame=lambda spec, scene, loads: _thrown_by(spec, scene),
+        repair=lambda spec, scene: () if _thrown_by(spec, scene)[-1] == "curve" else _thrown_by(spec, scene),
         what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
         why="The rope then pulls the jib sideways, and the load cannot be put down.",
         formula="theta_t <= 10 deg",
@@ -88,9 +105,10 @@ RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
         ),
         blame=blames("ring", "curve"),
         repair=no_repair,
-        what="With the load times its factor, the tilting moment is within what the ring bears at that axial force.",
+        what="With the load times its factor, and with nothing on the hook, the tilting moment is within what the ring"
+        " bears at that axial force.",
         why="A ring beyond its curve dents its raceways; its bolts fatigue.",
-        formula="M(1.25 Q) <= M_ring(F_a)",
+        formula="M(1.25 Q), M(0) <= M_ring(F_a)",
         source="catalogues of slewing rings: limiting load curves",
     )
 )

@@ -41,6 +41,9 @@ def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques
         "rotation_used": (times.start[1] + times.brake[1]) / spec.cycle.rotation,
         "gear_locks": max(-gear.back, 0.0) * model.slew_inertia(spec, scene) / model.rotor_at_axis(spec),
     }
+    least = model.least_torque(spec, scene)
+    if least is not None:
+        loads["speed_reserve"] = ratio_to(model.at_column(spec, least), at.steady)
     if spec.brake is not None:
         held = held_by_brake(spec) + spec.friction
         loads["wind_reserve_brake"] = ratio_to(held, model.driving_wind(spec, scene))

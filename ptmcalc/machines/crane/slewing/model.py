@@ -103,6 +103,13 @@ def motor_follows(spec: SlewingCrane) -> bool:
     return isinstance(spec.motor.curve, ConverterMotor)
 
 
+def ramp(spec: SlewingCrane) -> float | None:
+    """Time of a start that the file gives, for the drive to follow: by no calculation is it another one [s]."""
+    if isinstance(spec.motor.curve, ConverterMotor):
+        return spec.motor.curve.ramp_time or None
+    return start_time_of(spec.cycle.start_time, spec.cycle.start_angle, spec.speed)
+
+
 def torque_range(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, float] | None:
     """Smallest, largest and mean torque of a motor curve up to the speed of the crane, None without one [N*m].
 
@@ -114,6 +121,15 @@ def torque_range(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float,
     torques = spec.motor.count * np.asarray(curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf))
     between = float(np.max(np.abs(np.diff(torques))))
     return float(np.min(torques)) - between, float(np.max(torques)) + between, mean
+
+
+def least_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
+    """Smallest torque of a motor curve up to the speed of the crane, None without one [N*m]."""
+    curve = spec.motor.curve
+    if curve is None or motor_follows(spec):
+        return None
+    torques = curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf)
+    return spec.motor.count * float(np.min(torques))
 
 
 def rotor_at_axis(spec: SlewingCrane) -> float:

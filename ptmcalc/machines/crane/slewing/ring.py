@@ -44,12 +44,15 @@ def of_ring(spec: SlewingCrane, scene: SlewingScene) -> dict[str, float]:
     }
     if spec.ring.curve is not None:
         factor = spec.ring.load_factor
-        axial = weight_above(spec) + factor * hanging
-        bears = borne(spec.ring.curve, axial)
-        loads["ring_utilisation"] = (
-            _moment(spec, factor * hanging, factor * outwards, wind) / bears if bears > 0 else math.inf
-        )
+        with_load = _use(spec, spec.ring.curve, factor * hanging, factor * outwards, wind)
+        loads["ring_utilisation"] = max(with_load, _use(spec, spec.ring.curve, 0.0, 0.0, wind))
     return loads
+
+
+def _use(spec: SlewingCrane, curve: Sequence[RingPoint], hanging: float, outwards: float, wind: float) -> float:
+    """Use of the catalogue's curve with so much on the hook; without any, a counterweight may win."""
+    bears = borne(curve, weight_above(spec) + hanging)
+    return _moment(spec, hanging, outwards, wind) / bears if bears > 0 else math.inf
 
 
 def _moment(spec: SlewingCrane, hanging: float, outwards: float, wind: float) -> float:

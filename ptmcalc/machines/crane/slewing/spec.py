@@ -79,9 +79,9 @@ class Wind(Fragment):
     steady: Torque | None = None
     """torque in the mean of a working day"""
     maximum: Torque | None = None
-    """largest torque in service, for the brake and for a motor that must hold; the steady one when left out"""
+    """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
     gust: Torque | None = None
-    """torque of a gust that comes on top of the steady wind"""
+    """torque of a gust that comes on top of the steady wind; held like the largest wind"""
     area: SweptArea | None = Field(default=None, examples=["12 m^2"])
     """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
     arm: PositiveSpan | None = Field(default=None, examples=["4 m"])
@@ -128,7 +128,7 @@ class Wind(Fragment):
     @property
     def maximum_torque(self) -> float:
         """Largest torque in service [N*m]."""
-        return max(self._torque(self.maximum, self.maximum_pressure) or 0.0, self.steady_torque)
+        return max(self._torque(self.maximum, self.maximum_pressure) or 0.0, self.steady_torque + self.gust_torque)
 
     @property
     def gust_torque(self) -> float:
@@ -341,6 +341,7 @@ class SlewingCrane(MachineSpec):
             yield given.missing("inertia", "give `inertia`, or the parts that slew: `slewing_part`, `jib` ...")
         elif "load" not in given:
             yield given.missing("load", "the load slews with the parts")
+        yield from _nothing_turns(given)
         yield from _load_too_heavy(given)
         yield from _nothing_starts(given)
 
@@ -367,6 +368,22 @@ def _load_too_heavy(given: Given) -> Iterator[Conflict]:
         yield Conflict(
             ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure too"
         )
+
+
+def _nothing_turns(given: Given) -> Iterator[Conflict]:
+    """Parts whose centres all lie on the axis have to say their own inertia: a crane without any cannot be computed."""
+    parts = [key for key in ("slewing_part", "counterweight") if key in given]
+    if "inertia" in given or "jib" in given or not parts:
+        return
+    for key in parts:
+        part = given.block(key)
+        if part is None:
+            return
+        mass, radius, own = (part.number(name) for name in ("mass", "radius", "inertia"))
+        if mass is None or radius is None or own or mass * radius > 0 or ("inertia" in part and own is None):
+            return
+    reason = "the parts have no inertia about the slewing axis: their centres of mass lie on it, or they weigh nothing"
+    yield Conflict((parts[0],), reason, "add its `inertia: 5000 kg*m^2`, or the `jib`")
 
 
 def _nothing_starts(given: Given) -> Iterator[Conflict]:

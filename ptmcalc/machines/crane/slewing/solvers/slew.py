@@ -38,6 +38,8 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     loads |= drive.of_drive(spec, scene, moved.phases, at)
     bar = 10 * moved.bar
     found = {name: Found(Estimate.within(value, bar * abs(value))) for name, value in loads.items()}
+    if moved.phases.start[0] == model.ramp(spec):
+        found["start_time"] = Found(Estimate.exact(moved.phases.start[0]))
     for name, signal in _SIGNALS.items():
         peak = moved.farthest(signal)
         found[name] = Found(Estimate.within(peak.value, peak.bar), at={"time": peak.time})
@@ -78,7 +80,9 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     sideways = math.hypot(across.value + across.bar, along.value + along.bar)
     wind, head = spec.ring.wind_force or 0.0, spec.ring.head_height
     own = ring.moment_above(spec)
-    behind = abs(own / spec.gravity * spec.speed**2)
+    behind = abs(own) / spec.gravity * spec.speed**2
+    jerk = moved.farthest("acceleration")
+    dragged = abs(own) / spec.gravity * math.hypot(spec.speed**2, jerk.value + jerk.bar)
     upright = tension.value + tension.bar
     down = math.sqrt(max(tension.value**2 - sideways**2, 0.0))
     blown = wind * spec.ring.wind_height
@@ -86,7 +90,7 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     still = own + load.radius * hanging
     found = {
         "ring_force_axial": (ring.weight_above(spec) + max(hanging, down), ring.weight_above(spec) + upright),
-        "ring_force_radial": (max(across.value - across.bar, 0.0), sideways + behind + wind),
+        "ring_force_radial": (max(across.value - across.bar - behind, 0.0), sideways + dragged + wind),
         "ring_moment": (
             max(abs(still), abs(own) - load.radius * upright, tilting[0]),
             max(abs(still), abs(own), abs(tilting[1])) + sideways * head + blown,
