@@ -84,8 +84,14 @@ class Orbit:
         values = self.within(_SAMPLES)
         found = []
         for sign in (-1.0, 1.0):
-            cell, place = np.unravel_index(int(np.argmax(sign * values)), values.shape)
-            x, value = self._refined(int(cell), float(_SAMPLES[place]), sign)
+            cell, place = (int(at) for at in np.unravel_index(int(np.argmax(sign * values)), values.shape))
+            looked = [(cell, float(_SAMPLES[place]))]
+            if place == len(_SAMPLES) - 1:  # at an edge the vertex may lie in the stretch beside it
+                looked.append(((cell + 1) % len(values), 0.0))
+            elif place == 0:
+                looked.append((cell - 1, 1.0))
+            tops = [(self._refined(*where, sign), where[0] % len(values)) for where in looked]
+            (x, value), cell = max(tops, key=lambda top: sign * top[0][1])
             found.append((value, float(self.grid.edges[cell] + x * self.grid.lengths[cell])))
         return found[0], found[1]
 

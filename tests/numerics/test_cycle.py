@@ -1,6 +1,7 @@
 """Collocation and the closed cycle against equations with known solutions, and against scipy's integrator."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -68,6 +69,19 @@ class TestKnownMotions:
         assert (low, high) == pytest.approx((5 - swing, 5 + swing), rel=1e-13)
         top = math.atan2(1, k)
         assert (at_low, at_high) == pytest.approx((top + math.pi, top), abs=1e-6)
+
+    @pytest.mark.parametrize("beyond", [-1e-3, -1e-6, 0.0, 1e-6, 1e-3])
+    def test_a_summit_beside_an_edge_belongs_to_the_stretch_it_lies_in(self, beyond: float) -> None:
+        """Whichever side of the edge has the larger sample, rounding decides where both are the same."""
+        k, top = 0.7, math.atan2(1, 0.7)
+        g = Grid(np.array([0.0, top / 2, top - beyond, 2.0, 3.0, 4.5, TURN]), 12)
+        rates = lambda e: (-k * (e - 5) + np.cos(g.angles), np.full(e.shape, -k))  # noqa: E731
+        orbit = solve(g, rates, np.full(g.angles.shape, 3.0))
+        assert orbit is not None
+        for start in (orbit.start, orbit.start * (1 + 1e-16 * np.arange(6)), orbit.start * (1 - 2e-16 * np.arange(6))):
+            (_, _), (high, at_high) = replace(orbit, start=start).extremes()
+            assert high == pytest.approx(5 + 1 / math.sqrt(1 + k * k), rel=3e-15)
+            assert at_high == pytest.approx(top, abs=1e-6)
 
     @pytest.mark.parametrize("stiffness", [1.0, 1e3, 1e7])
     def test_however_stiff_it_is_the_end_is_met(self, stiffness: float) -> None:
