@@ -278,21 +278,21 @@ def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
 def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
     """Share of gravity by which a step or gap of the rail changes the wheel loads.
 
-        (pi/2)^2 v^2/(g r) max(xi, 2.2 where alpha > 1)
+        (pi/2)^2 v^2/(g r) max(more, less)   of the extremes on a step or gap and behind it
 
     **Range** steps and gaps small beside the wheel; 0 for an even rail.
-    **Error** an engineering measure: for alpha above 1 the swing behind a step may vanish while that on it does not.
-    **Source** `laws.rail`; EN 13001-2.
+    **Error** exact for one undamped mode: behind a step the swing may vanish while that on it does not.
+    **Source** `laws.rail.step_extremes`, `gap_extremes`; EN 13001-2 counts the swing behind alone.
     """
     radius, speed = model.radius(spec), scene.speed_share * spec.speed
     frequency = 2 * math.pi * model.filled(spec.rail.frequency)
     answers = [0.0]
     if spec.rail.step:
         number = rail.step_number(frequency, speed, radius, spec.rail.step)
-        answers.append(max(float(rail.residual_step(number)), 2.2 if number > 1 else 0.0))
+        answers += rail.step_extremes(number)
     if spec.rail.gap:
         number = rail.gap_number(frequency, speed, spec.rail.gap)
-        answers.append(max(float(rail.residual_gap(number)), 2.2 if number > 1 else 0.0))
+        answers += rail.gap_extremes(number)
     value = rail.rail_acceleration(speed, radius) / spec.gravity * max(answers)
     return Criterion("a_w/g", value, RAIL_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
 
