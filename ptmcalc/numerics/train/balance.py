@@ -229,7 +229,7 @@ def _solution(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, bool]:
         found = inverse @ right
         found += inverse @ (right - matrix @ found)
         beyond = np.abs(matrix @ found - right) - 1e-6 * (np.abs(matrix) @ np.abs(found) + np.abs(right))
-        fits = bool((beyond <= 0).all())  # each entry by itself: a wanted acceleration is small beside a stiffness
+        fits = bool((beyond <= 1e-12 * largest).all())  # each by itself: accelerations are small beside stiffnesses
     noise = CANCELS * (np.abs(inverse) @ (np.abs(matrix) @ np.abs(found) + np.abs(right)))
     found[np.abs(found) <= noise] = 0.0
     return found, fits

@@ -279,6 +279,35 @@ BRAKE_TIME: OneCheck = only(starts)(
     )
 )
 
+
+def _shortest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Shortest stop, 1 s by default.
+
+    **Range** slewing cranes in service; an emergency stop may be harder.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines.
+    """
+    return Estimate.exact(spec.checks.least_brake_time)
+
+
+HARSH_STOP: OneCheck = only(turns)(
+    Check(
+        code="CRN119",
+        title="a stop that is too harsh",
+        scenes=SLEWING,
+        loads=("brake_time",),
+        sense=Sense.AT_LEAST,
+        limit=_shortest_stop,
+        needs=needs(("brake",)),
+        blame=blames("brake", "torque"),
+        repair=at("brake", "torque"),
+        what="The crane takes at least the time asked to come to rest.",
+        why="A brake far too strong throws the load about, and jerks gear and jib.",
+        formula="t_b >= 1 s",
+        source="handbooks of lifting machines",
+    )
+)
+
 # -- motor and gear -------------------------------------------------------------------------------------------------
 
 
@@ -502,6 +531,7 @@ CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (
     HARSH,
     BRAKE_ANGLE,
     BRAKE_TIME,
+    HARSH_STOP,
     SHORT,
     HEATING,
     OVERLOAD,

@@ -257,6 +257,8 @@ class SlewingChecks(CheckSettings):
     """shortest start: shorter ones throw the load about"""
     brake_time: PositiveTime = 10.0
     """longest stop"""
+    least_brake_time: PositiveTime = 1.0
+    """shortest stop: shorter ones throw the load about"""
     holding_reserve: PositiveRatio = 1.0
     """least torque of the started motor, and of the closed brake, over that of the largest wind"""
     sway: SwayAngle = 0.174532925199433
