@@ -42,6 +42,14 @@ class Step:
         return np.asarray(self.state[:, None] + self.length * moved)
 
 
+def _states(steps: list[Step], share: FloatArray) -> FloatArray:
+    """States at shares of each of several steps, shape (states, steps * shares): all at once, as there are many."""
+    rows, began = np.stack([step.row for step in steps]), np.stack([step.state for step in steps])
+    length = np.array([step.length for step in steps])[:, None, None]
+    moved = rows @ integrals(rows.shape[2], share).swapaxes(1, 2)
+    return np.concatenate(began[:, :, None] + length * moved, axis=1)
+
+
 @dataclass(frozen=True, slots=True)
 class Track:
     """One run."""
@@ -82,23 +90,19 @@ class Track:
         """Value, time, and the largest magnitude met."""
         found, size = Extremes.of(1, sign), 0.0
         for leg, steps in self.runs(since, until):
-            starts, lengths, states, times = [], [], [], []
-            for step in steps:
-                low, high = max(since, step.start), min(until, step.end)
-                if high < low:
-                    continue
-                span = (high - low) / HALVES
-                share = (low - step.start + (high - low) * PLACES) / step.length if step.length else 0 * PLACES
-                states.append(step.states(np.clip(share, 0.0, step.used)))
-                times.append(low + (high - low) * PLACES)
-                starts += [low + k * span for k in range(HALVES)]
-                lengths += [span] * HALVES
-            if not starts:
+            inside = [step for step in steps if min(until, step.end) >= max(since, step.start)]
+            if not inside:
                 continue
-            values = leg.signals((name,), np.concatenate(times), np.concatenate(states, axis=1))[0]
+            begin, length, used = np.array([(step.start, step.length, step.used) for step in inside]).T
+            low, high = np.maximum(since, begin), np.minimum(until, begin + used * length)
+            passed = (low - begin)[:, None] + (high - low)[:, None] * PLACES
+            share = np.clip(passed / np.where(length > 0, length, math.inf)[:, None], 0.0, used[:, None])
+            times = low[:, None] + (high - low)[:, None] * PLACES
+            values = leg.signals((name,), times.ravel(), _states(inside, share))[0]
             size = max(size, float(np.abs(values).max()))
-            by_panel = values.reshape(len(starts), panels.COUNT)
-            found.see(np.array(starts), np.array(lengths), by_panel[:, :, None])
+            span = (high - low) / HALVES
+            starts = low[:, None] + span[:, None] * np.arange(HALVES)
+            found.see(starts.ravel(), np.repeat(span, HALVES), values.reshape(-1, panels.COUNT, 1))
         found.settle()
         return float(found.values[0]), float(found.at[0]), size
 
