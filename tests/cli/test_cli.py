@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -511,7 +512,9 @@ def test_explain_has_formula_range_error_and_source(name: str, parts: tuple[str,
         assert part in done.out
 
 
+@cache
 def schema(*arguments: str) -> dict[str, Any]:
+    """The schema a command prints, a schema itself; looked at only, as it is made once."""
     found = answer(ptmcalc("schema", *arguments))
     Draft202012Validator.check_schema(found)
     return found
