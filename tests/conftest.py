@@ -1,10 +1,14 @@
 """Shared fixtures, and the collector of Markdown cases: prose, a spec, and the findings it must give."""
 
+import os
 import sys
 from pathlib import Path
 
 import pytest
 
+# One process a core is busy enough: threads of matrices that wait for each other's core burn it. Set before numpy is
+# there, and for the processes of a run, which inherit it.
+os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = os.environ["MKL_NUM_THREADS"] = "1"
 sys.path.insert(0, str(Path(__file__).parent))
 
 from support.markdown import MarkdownFile

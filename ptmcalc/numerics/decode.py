@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,11 +113,12 @@ def _at_all(time: FloatArray, speed: FloatArray, size: int) -> tuple[FloatArray,
     index = starts[:, None] + np.arange(size)
     scale = (time[index[:, -1]] - time[index[:, 0]])[:, None]
     x = (time[index] - time[:, None]) / scale
-    powers = x[..., None] ** np.arange(DEGREE + 1)
-    inverse = np.linalg.inv(np.einsum("nij,nik->njk", powers, powers))
+    powers = np.stack(list(accumulate([x] * DEGREE, np.multiply, initial=np.ones_like(x))), axis=1)
+    inverse = np.linalg.inv(powers @ powers.swapaxes(1, 2))
     level = speed[index].mean(axis=1)[:, None]
-    coefficients = np.einsum("njk,nik,ni->nj", inverse, powers, speed[index] - level)
-    residual = speed[index] - level - np.einsum("nij,nj->ni", powers, coefficients)
+    around = speed[index] - level
+    coefficients = (inverse @ (powers @ around[:, :, None]))[:, :, 0]
+    residual = around - (coefficients[:, None, :] @ powers)[:, 0]
     one = scale[:, 0]
     fits = np.stack(
         [

@@ -25,10 +25,10 @@ def elements(loop: LoopMasses, takeup_mass: float, pieces: int) -> tuple[np.ndar
         (0, loop.return_mass, loop.return_compliance),
         (pieces, loop.carry_mass, loop.carry_compliance),
     ):
-        for k in range(first, first + pieces):
-            at = np.ix_([k, k + 1], [k, k + 1])
-            stiffness[at] += pieces / compliance * np.array([[1, -1], [-1, 1]])
-            mass[at] += strand_mass / pieces / 6 * np.array([[2, 1], [1, 2]])
+        near = np.arange(first, first + pieces)
+        for one, other in itertools.product((0, 1), (0, 1)):
+            stiffness[near + one, near + other] += pieces / compliance * (1 if one == other else -1)
+            mass[near + one, near + other] += strand_mass / pieces / 6 * (2 if one == other else 1)
     mass[pieces, pieces] += loop.tail_mass
     mass[-1, -1] += loop.drive_mass
     if loop.fixed_length:
@@ -47,7 +47,7 @@ def by_elements(loop: LoopMasses, takeup_mass: float, count: int) -> np.ndarray:
     """From two grids, with the error of second order taken out."""
     skip = 0 if loop.imposed_speed else 1
     coarse, fine = (
-        linalg.eigh(*elements(loop, takeup_mass, pieces), eigvals_only=True)[skip : count + skip]
+        linalg.eigh(*elements(loop, takeup_mass, pieces), eigvals_only=True, subset_by_index=(skip, count + skip - 1))
         for pieces in (50, 100)
     )
     return np.asarray(np.sqrt((4 * fine - coarse) / 3))

@@ -7,9 +7,10 @@ the run-on is the force with which the sprocket pulls node 0 ahead, that at the 
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
-from scipy.linalg import eigh, solve
+from scipy.linalg import eigh
 
 
 @dataclass(frozen=True)
@@ -39,10 +40,10 @@ def matrices(chain: Chain, pieces: int, *, lumped: bool) -> tuple[np.ndarray, np
     whole = np.array([[3.0, 0.0], [0.0, 3.0]]) if lumped else np.array([[2.0, 1.0], [1.0, 2.0]])
     for k, strand in enumerate(chain.strands):
         h = strand.length / pieces
-        for i in range(k * pieces, (k + 1) * pieces):
-            at = np.ix_([i, i + 1], [i, i + 1])
-            stiff[at] += strand.stiffness / h * np.array([[1, -1], [-1, 1]])
-            mass[at] += strand.line_mass * h / 6 * whole
+        near = np.arange(k * pieces, (k + 1) * pieces)
+        for one, other in product((0, 1), (0, 1)):
+            stiff[near + one, near + other] += strand.stiffness / h * (1 if one == other else -1)
+            mass[near + one, near + other] += strand.line_mass * h / 6 * whole[one, other]
     if len(chain.strands) > 1:
         mass[pieces, pieces] += chain.joint_mass
     mass[-1, -1] += chain.far_mass
@@ -58,18 +59,22 @@ def _forces(chain: Chain, pieces: int, modulus: complex, w: float, near: complex
     moved = np.zeros(count, complex)
     moved[0], moved[-1] = near, far
     # columns: what may move, the drive last
-    inner = list(range(1, count if chain.far == "free" else count - 1))
-    free = np.zeros((count, len(inner) + 1))
-    free[inner, range(len(inner))] = 1.0
-    free[0, -1] = 1.0
-    if chain.far == "on_sprocket":
-        free[-1, -1] = 1.0
-    whole = free.T @ dynamic @ free
+    inner = slice(1, count if chain.far == "free" else count - 1)
+    ends = [0, -1] if chain.far == "on_sprocket" else [0]
+
+    def gathered(rows: np.ndarray) -> np.ndarray:
+        return np.concatenate([rows[inner], rows[ends].sum(axis=0, keepdims=True)])
+
+    whole = gathered(gathered(dynamic).T).T
     whole[-1, -1] -= w**2 * chain.drive_mass if math.isfinite(chain.drive_mass) else 0.0
     if chain.far == "free":
         whole[-2, -2] -= w**2 * chain.far_mass
     kept = slice(None) if math.isfinite(chain.drive_mass) else slice(None, -1)
-    u = moved + free[:, kept] @ solve(whole[kept, kept], -(free.T @ dynamic @ moved)[kept])
+    found = np.zeros(len(whole), complex)
+    found[kept] = np.linalg.solve(whole[kept, kept], -gathered(dynamic @ moved)[kept])
+    u = moved.copy()
+    u[inner] += found[:-1]
+    u[ends] += found[-1]
     force = dynamic @ u
     return np.array([force[0], -force[-1]])
 

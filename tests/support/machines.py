@@ -67,9 +67,19 @@ def spec_of(data: dict[str, Any]) -> Conveyor:
     return spec
 
 
+_KEPT = 16
+_REPORTS: dict[tuple[str, bool, str], FileReport] = {}
+"""The last ones: a report is immutable, and a test often asks for one twice."""
+
+
 def report_of(data: dict[str, Any], *, repairs: bool = False, **options: Any) -> FileReport:
     """The whole report of a machine; repairs are looked for where a test asks for them, for they cost the most."""
-    return check(loaded(data), Options(**options, repairs=repairs))
+    key = yaml.safe_dump(data, sort_keys=False), repairs, repr(sorted(options.items()))
+    if key not in _REPORTS:
+        if len(_REPORTS) >= _KEPT:
+            del _REPORTS[next(iter(_REPORTS))]
+        _REPORTS[key] = check(loaded(data), Options(**options, repairs=repairs))
+    return _REPORTS[key]
 
 
 def scene_of(report: FileReport, name: str = "") -> SceneReport:
