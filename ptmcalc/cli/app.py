@@ -39,6 +39,10 @@ class CheckFormat(StrEnum):
     TABLE = "table"
     PLAIN = "plain"
     JSON = "json"
+    JUNIT = "junit"
+    SARIF = "sarif"
+    GITHUB = "github"
+    MARKDOWN = "markdown"
 
 
 class ListFormat(StrEnum):

@@ -1,11 +1,9 @@
 """`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep."""
 
 from ptmcalc.base.diagnostic import Severity
-from ptmcalc.contract.check import Sense
-from ptmcalc.contract.report import FileReport, Judgement, count
+from ptmcalc.contract.report import FileReport, count
 from ptmcalc.report import words
-
-_RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
+from ptmcalc.report.entries import said
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -25,16 +23,6 @@ def _lines(report: FileReport) -> list[str]:
     for scene, judgement in words.worst_first(report):
         where = f"{report.path}:{words.place(judgement.blame.span)}"
         about = f"{judgement.code} {words.subject(judgement)} [{scene}]"
-        lines.append(f"{where}: {judgement.verdict.value} {about}{_said(judgement)}")
+        because = said(judgement)
+        lines.append(f"{where}: {judgement.verdict.value} {about}" + (f": {because}" if because else ""))
     return lines
-
-
-def _said(judgement: Judgement) -> str:
-    parts = []
-    if judgement.value is not None and judgement.limit is not None:
-        limit = words.amount(judgement.limit, judgement.quantity)
-        parts.append(
-            f"{words.amount(judgement.value, judgement.quantity)}, {_RELATION[judgement.sense]} {limit} is sound"
-        )
-    parts.append(words.remark(judgement))
-    return ": " + "; ".join(filter(None, parts)) if any(parts) else ""

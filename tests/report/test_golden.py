@@ -25,7 +25,12 @@ GOLDEN = ROOT / "tests" / "golden"
 MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
 SIMULATED = {"crane_slewing": "specs/crane_slewing.yaml"}
 """Their verdicts alone are stored: steps of a simulation, and what its energy balance leaves over, are rounding's."""
-VIEWS = {"table": (Format.TABLE, False), "table.verbose": (Format.TABLE, True), "plain": (Format.PLAIN, False)}
+IN_CI = (Format.JUNIT, Format.SARIF, Format.GITHUB, Format.MARKDOWN)
+"""Formats of continuous integration, stored of the machine that fails."""
+VIEWS = {"table": (Format.TABLE, False), "table.verbose": (Format.TABLE, True), "plain": (Format.PLAIN, False)} | {
+    form.value: (form, False) for form in IN_CI
+}
+OF_ALL = ("table", "table.verbose", "plain")
 CLOSE = 1e-6
 STORED_DIGITS = 9  # more than are compared, so that rounding cannot make two close numbers differ
 NOISE = ("energy_residual", "grid_mismatch")  # differences of large numbers: only their size means something
@@ -73,7 +78,12 @@ def test_json(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "view"), [*itertools.product(MACHINES, VIEWS), *((name, "plain") for name in SIMULATED)]
+    ("name", "view"),
+    [
+        *itertools.product(MACHINES, OF_ALL),
+        *itertools.product(("slipping",), (form.value for form in IN_CI)),
+        *((name, "plain") for name in SIMULATED),
+    ],
 )
 def test_text(name: str, view: str) -> None:
     form, verbose = VIEWS[view]
@@ -87,10 +97,11 @@ def test_text(name: str, view: str) -> None:
 
 def test_every_snapshot_belongs_to_a_test() -> None:
     expected = {f"{name}.json" for name in MACHINES}
-    expected |= {f"{name}.{view}.txt" for name in MACHINES for view in VIEWS}
+    expected |= {f"{name}.{view}.txt" for name in MACHINES for view in OF_ALL}
+    expected |= {f"slipping.{form.value}.txt" for form in IN_CI}
     expected |= {f"{name}.plain.txt" for name in SIMULATED}
     assert {path.name for path in GOLDEN.iterdir()} == expected
 
 
 def test_every_format_has_snapshots() -> None:
-    assert {form.value for form in Format} == {"table", "plain", "json"}
+    assert {form for form, _ in VIEWS.values()} | {Format.JSON} == set(Format)

@@ -1,0 +1,68 @@
+"""A comment on a pull request: the summary, what does not pass with its place and its fix, and every file in a line.
+
+Checks that pass are counted, not listed: a comment is read, and its length is limited.
+"""
+
+import re
+
+from ptmcalc.base.diagnostic import Severity, Verdict
+from ptmcalc.contract.report import FileReport, count
+from ptmcalc.report import words
+from ptmcalc.report.entries import Entry, entries
+
+_ACTIVE = re.compile(r"[\\`*_\[\]|~$<>&@#]|://|www\.", re.IGNORECASE)
+_ENTITIES = {"<": "&lt;", ">": "&gt;", "&": "&amp;", "@": "&#64;", "#": "&#35;"}
+_SIGNS = {"pass": "✅", "fail": "❌", "undecided": "❓", "invalid": "❌"}
+_MOST_ROWS = 200
+"""A comment of GitHub holds 65 536 characters."""
+
+
+def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
+    """The comment."""
+    shown = words.printable(reports)
+    blocks = ["## ptmcalc", escape(words.summary(count(reports))), _files(shown)]
+    left = _MOST_ROWS
+    for report in shown:
+        rows = [entry for entry in entries(report) if entry.state not in (Verdict.PASS, Severity.NOTE)]
+        if rows and left > 0:
+            blocks += [f"### {escape(report.path)}", _table(rows[:left])]
+        left -= len(rows)
+    if left < 0:
+        blocks.append(f"{-left} more findings are not shown; `ptmcalc check` prints them all.")
+    return "\n\n".join(filter(None, blocks)) + "\n"
+
+
+def escape(text: str) -> str:
+    """Text that means nothing to Markdown: no markup, no HTML, no mention, no link, no end of a cell."""
+
+    def inert(match: re.Match[str]) -> str:
+        found = match[0]
+        if found == "://":
+            return "&#58;//"
+        if len(found) > 1:
+            return f"{found[:-1]}&#46;"
+        return _ENTITIES.get(found, f"\\{found}")
+
+    return _ACTIVE.sub(inert, text)
+
+
+def _files(reports: tuple[FileReport, ...]) -> str:
+    if not reports:
+        return ""
+    rows = ["| | File | Kind | Passed | Failed | Undecided | Not checked | Waived |", f"|{'---|' * 8}"]
+    for report in reports[:_MOST_ROWS]:
+        counted = count((report,))
+        numbers = (str(counted[key]) for key in ("pass", "fail", "undecided", "not_checked", "waived"))
+        cells = (_SIGNS[report.verdict], escape(report.path), escape(report.kind), *numbers)
+        rows.append(f"| {' | '.join(cells)} |")
+    if len(reports) > _MOST_ROWS:
+        rows.append(f"| | {len(reports) - _MOST_ROWS} more files |  |  |  |  |  |  |")
+    return "\n".join(rows)
+
+
+def _table(rows: list[Entry]) -> str:
+    lines = ["| Verdict | Finding | Place | Said |", "|---|---|---|---|"]
+    for entry in rows:
+        cells = (f"**{entry.state.value}**", escape(entry.about), words.place(entry.span), escape(entry.message))
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
