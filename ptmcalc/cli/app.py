@@ -13,6 +13,14 @@ from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.decode import decode
 from ptmcalc.cli.output import say, steady_streams
+from ptmcalc.cli.policy import (
+    BaselineOption,
+    ExitZeroOption,
+    IgnoreOption,
+    SelectOption,
+    WriteOption,
+    what_counts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -164,6 +172,11 @@ def check(
     fail_level: Annotated[
         Severity, typer.Option("--fail-level", help="Findings from this severity up make the exit status 1.")
     ] = Severity.ERROR,
+    select: SelectOption = None,
+    ignore: IgnoreOption = None,
+    baseline: BaselineOption = "",
+    write_baseline: WriteOption = "",
+    exit_zero: ExitZeroOption = False,
 ) -> None:
     """Check design files: loads, verdicts, and what would make a failed check pass.
 
@@ -176,7 +189,8 @@ def check(
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
     options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
-    reports = check_paths(paths, options)
+    counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene)
+    reports = counted(check_paths(paths, options))
     for target, name in files:
         _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))
     for name in courses:
@@ -189,7 +203,7 @@ def check(
     status = exit_status(reports)
     if status in (0, 3) and _reaches(reports, fail_level):
         status = 1
-    raise typer.Exit(status)
+    raise typer.Exit(0 if exit_zero and status in (1, 3) else status)
 
 
 def _rendered(form: Any, reports: "Sequence[FileReport]", verbose: bool, *, to_terminal: bool) -> str:

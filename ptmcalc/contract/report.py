@@ -168,6 +168,8 @@ class FileReport:
     diagnostics: tuple[Diagnostic, ...] = ()
     assumed: tuple[AssumedReport, ...] = ()
     scenes: tuple[SceneReport, ...] = ()
+    ignored: int = 0
+    """findings and verdicts that the run was told to leave out"""
 
     @property
     def valid(self) -> bool:
@@ -193,12 +195,13 @@ class FileReport:
 
 
 def count(reports: tuple[FileReport, ...]) -> dict[str, int]:
-    """Files, verdicts and invalid files of a run."""
+    """Files, verdicts, invalid files, and what was left out of a run."""
     totals = {"files": len(reports)} | dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived"), 0)
     for report in reports:
         for _, judgement in report.judgements:
             totals[judgement.verdict.value] += 1
-    return totals | {"invalid": sum(not report.valid for report in reports)}
+    invalid = sum(not report.valid for report in reports)
+    return totals | {"invalid": invalid, "ignored": sum(report.ignored for report in reports)}
 
 
 def exit_status(reports: tuple[FileReport, ...]) -> int:

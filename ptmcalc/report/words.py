@@ -152,6 +152,7 @@ def summary(totals: dict[str, int]) -> str:
             ("undecided", "undecided"),
             ("not_checked", "not checked"),
             ("waived", "waived"),
+            ("ignored", "ignored"),
         )
         if totals[key]
     ]

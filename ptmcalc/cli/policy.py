@@ -1,0 +1,83 @@
+"""Options of `check` that say which findings count, and how they end it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.output import say
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from ptmcalc.contract.report import FileReport
+
+SelectOption = Annotated[
+    list[str] | None,
+    typer.Option("--select", metavar="CODE", help="Only findings whose code begins so, e.g. CNV; may be repeated."),
+]
+IgnoreOption = Annotated[
+    list[str] | None,
+    typer.Option("--ignore", metavar="CODE", help="No findings whose code begins so; the longer prefix wins."),
+]
+BaselineOption = Annotated[
+    str, typer.Option("--baseline", metavar="FILE", help="Findings it holds are waived, unless they are worse now.")
+]
+WriteOption = Annotated[
+    str, typer.Option("--write-baseline", metavar="FILE", help="Write what is found now as a baseline, and go by it.")
+]
+ExitZeroOption = Annotated[
+    bool, typer.Option("--exit-zero", help="Exit status 0 also where checks fail or are undecided.")
+]
+
+
+def what_counts(
+    select: list[str] | None, ignore: list[str] | None, baseline: str, write_baseline: str, *, whole: bool
+) -> "Callable[[Sequence[FileReport]], tuple[FileReport, ...]]":
+    """What the options of a run make of its reports; they are looked at before it begins.
+
+    Of a run over `whole` files it is told what a baseline holds that is no longer there.
+    """
+    from ptmcalc.engine.policy import Choice, apart_from, baseline_of, chosen, read_baseline
+
+    choice = Choice(prefixes("--select", select), prefixes("--ignore", ignore))
+    known = read_baseline(Path(baseline)) if baseline else {}
+
+    def counted(reports: "Sequence[FileReport]") -> "tuple[FileReport, ...]":
+        found = chosen(reports, choice)
+        if baseline:
+            found, unmet = apart_from(found, known, Path(baseline).parent)
+            stale = sum(choice.takes(code) for _, code, _ in unmet)
+            if stale and whole:
+                what = "1 finding is" if stale == 1 else f"{stale} findings are"
+                again = "--write-baseline writes it anew"
+                say(f"ptmcalc: {what} in `{baseline}` and no longer found; {again}\n", err=True)
+        if write_baseline:
+            path = Path(write_baseline)
+            try:
+                path.write_text(baseline_of(found, path.parent), encoding="utf-8", errors="replace")
+            except OSError as error:
+                raise UsageError(f"cannot write `{path}`: {error.strerror}") from None
+            found, _ = apart_from(found, read_baseline(path), path.parent)
+        return found
+
+    return counted
+
+
+def prefixes(option: str, given: list[str] | None) -> tuple[str, ...]:
+    """Prefixes of codes, several of them also with commas between.
+
+    Raises:
+        UsageError: one that no code begins with.
+    """
+    from ptmcalc.base.diagnostic import CODES
+    from ptmcalc.engine.registry import kind_names, load_kind
+
+    words = [word.strip().upper() for text in given or () for word in text.split(",")]
+    kinds = [load_kind(name) for name in kind_names()] if words else ()
+    codes = {*CODES, *(check.code for kind in kinds for one in (kind, *kind.types) for check in one.checks)}
+    for word in words:
+        if not word or not any(code.startswith(word) for code in codes):
+            raise UsageError(f"{option}: no code begins with `{word}`", "e.g. CNV, CNV1 or CNV101")
+    return tuple(words)

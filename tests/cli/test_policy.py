@@ -1,0 +1,172 @@
+"""Which findings count: chosen by code, known from a baseline; and what the exit status makes of them."""
+
+import json
+from pathlib import Path
+
+import pytest
+from support.command import Done, ptmcalc
+
+SPECS = Path(__file__).parent / "specs"
+SLIPPING, FAULTY, DISAGREEING = SPECS / "slipping.yaml", SPECS / "faulty.yaml", SPECS / "disagreeing.yaml"
+"""The first fails CNV101 once, leaves it undecided once and passes six checks."""
+
+
+def checked(*arguments: str | Path) -> Done:
+    return ptmcalc("check", "--no-repairs", "--format", "plain", *arguments)
+
+
+def last(done: Done) -> str:
+    return done.out.splitlines()[-1]
+
+
+# -- by code --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "summary"),
+    [
+        ((), 1, "1 file, 6 checks passed, 1 failed, 1 undecided"),
+        (("--ignore", "CNV101"), 0, "1 file, 6 checks passed, 2 ignored"),
+        (("--ignore", "CNV"), 0, "1 file, 0 checks passed, 8 ignored"),
+        (("--select", "CNV101"), 1, "1 file, 0 checks passed, 1 failed, 1 undecided, 6 ignored"),
+        (("--select", "cnv102, CNV105"), 0, "1 file, 4 checks passed, 4 ignored"),
+        (("--select", "CNV102", "--ignore", "CNV1"), 0, "1 file, 2 checks passed, 6 ignored"),
+        (("--select", "CNV1", "--ignore", "CNV101"), 0, "1 file, 6 checks passed, 2 ignored"),
+        (("--select", "CNV101", "--ignore", "CNV101"), 0, "1 file, 0 checks passed, 8 ignored"),
+        (("--select", "HST"), 0, "1 file, 0 checks passed, 8 ignored"),
+    ],
+    ids=str,
+)
+def test_the_longer_prefix_wins_and_what_is_left_out_is_counted(
+    options: tuple[str, ...], status: int, summary: str
+) -> None:
+    done = checked(SLIPPING, *options)
+    assert (done.status, done.err, last(done)) == (status, "", summary)
+
+
+@pytest.mark.parametrize("prefix", ["CVN", "CNV999", "", "FRICTION", "CNV101,"])
+@pytest.mark.parametrize("option", ["--select", "--ignore"])
+def test_a_prefix_no_code_begins_with_is_refused(option: str, prefix: str) -> None:
+    """A slip of the pen would make every run green."""
+    done = checked(SLIPPING, option, prefix)
+    assert (done.status, done.out) == (2, "")
+    assert f"{option}: no code begins with `{prefix.split(',')[-1]}`" in done.err
+
+
+def test_what_makes_a_file_invalid_cannot_be_ignored() -> None:
+    done = checked(FAULTY, "--ignore", "SPC", "--ignore", "TXT")
+    assert done.status == 2
+    assert " error SPC106 " in done.out
+
+
+def test_an_ignored_warning_does_not_reach_the_level_that_fails() -> None:
+    loud, quiet = (checked(DISAGREEING, "--fail-level", "warning", *more) for more in ((), ("--ignore", "SPC201")))
+    assert " warning SPC201 " in loud.out
+    assert " SPC201 " not in quiet.out
+    assert (loud.status, quiet.status) == (1, 0)
+    assert last(quiet) == f"{last(loud)}, 1 ignored"
+
+
+@pytest.mark.parametrize(
+    ("file", "status"), [(SLIPPING, 0), (FAULTY, 2), (SPECS / "nowhere.yaml", 2), (SPECS / "without_friction.yaml", 0)]
+)
+def test_exit_zero_forgives_verdicts_but_no_invalid_file(file: Path, status: int) -> None:
+    plain, forgiven = checked(file), checked(file, "--exit-zero")
+    assert forgiven.status == status
+    assert plain.status != 0
+    assert plain.out == forgiven.out
+
+
+# -- baselines ------------------------------------------------------------------------------------------------------
+
+
+def written(folder: Path, *options: str) -> Path:
+    path = folder / "baseline.json"
+    assert checked(folder, "--write-baseline", path, *options).err == ""
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "one.yaml").write_bytes(SLIPPING.read_bytes())
+    (tmp_path / "two.yaml").write_bytes(DISAGREEING.read_bytes())
+    return tmp_path
+
+
+def test_what_is_known_is_waived_and_counted(folder: Path) -> None:
+    done = checked(folder, "--write-baseline", folder / "baseline.json")
+    assert done.status == 0
+    assert last(done).endswith("2 waived, 1 ignored")
+    again = checked(folder, "--baseline", folder / "baseline.json", "--fail-level", "warning")
+    assert (again.status, again.out, again.err) == (0, done.out, "")
+    assert (
+        "waived CNV101 belt slip at the drive drum [run_loaded]: 0.4348, at least 1.2 is sound; fail, known" in done.out
+    )
+
+
+def test_a_baseline_has_files_codes_and_keys_and_the_same_bytes_again(folder: Path) -> None:
+    path = written(folder)
+    text = path.read_text("utf-8")
+    rows = [tuple(row.values()) for row in json.loads(text)["findings"]]
+    assert ("one.yaml", "CNV101", "drive.drum.friction", "fail") in rows
+    assert [row[:2] for row in rows if row[3] == "warning"] == [("two.yaml", "SPC201")]
+    assert written(folder).read_text("utf-8") == text
+
+
+def test_a_baseline_holds_from_another_folder_and_after_edits(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = written(folder)
+    one = folder / "one.yaml"
+    one.write_text("# moved\n" + one.read_text("utf-8"), encoding="utf-8")
+    monkeypatch.chdir(folder)
+    assert checked("one.yaml", "--baseline", "baseline.json").status == 0
+    assert checked(one, "--baseline", path).status == 0
+
+
+def test_what_is_new_or_worse_is_not_known(folder: Path) -> None:
+    path = written(folder)
+    document = json.loads(path.read_text("utf-8"))
+    for row in document["findings"]:
+        if row["state"] == "fail":
+            row["state"] = "undecided"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    done = checked(folder / "one.yaml", "--baseline", path)
+    assert (done.status, last(done)) == (1, "1 file, 6 checks passed, 1 failed, 1 waived")
+    document["findings"] = []
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert checked(folder / "one.yaml", "--baseline", path).out == checked(folder / "one.yaml").out
+
+
+def test_what_is_gone_is_told_unless_it_was_not_looked_for(folder: Path) -> None:
+    path = written(folder)
+    one = folder / "one.yaml"
+    one.write_text(one.read_text("utf-8").replace("friction: 0.", "friction: 0.9 # 0."), encoding="utf-8")
+    assert "no longer found" in checked(folder, "--baseline", path).err
+    for looked_for in ((folder / "two.yaml",), (folder, "--ignore", "CNV101"), (one, "--scene", "start_empty")):
+        assert checked(*looked_for, "--baseline", path).err == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        "null",
+        '{"schema_version": "1"}',
+        '{"schema_version": "2", "findings": []}',
+        "\udcff",
+        '{"schema_version": "1", "findings": [{"file": "a", "code": "b", "key": "c", "state": "pass"}]}',
+        '{"schema_version": "1", "findings": [{"file": "a", "code": "b", "key": ["c"], "state": "fail"}]}',
+    ],
+)
+def test_a_faulty_baseline_is_wrong_usage(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "baseline.json"
+    path.write_bytes(text.encode("utf-8", "surrogateescape"))
+    done = checked(SLIPPING, "--baseline", path)
+    assert (done.status, done.out) == (2, "")
+    assert "is no baseline of ptmcalc" in done.err
+
+
+def test_a_baseline_that_is_not_there_is_wrong_usage(tmp_path: Path) -> None:
+    assert "cannot be read" in checked(SLIPPING, "--baseline", tmp_path / "none.json").err
+    assert "cannot write" in checked(SLIPPING, "--write-baseline", tmp_path / "no" / "where.json").err
