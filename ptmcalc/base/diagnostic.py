@@ -194,6 +194,16 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Two values of the file that should agree do so only roughly; the check goes on with the first.",
             "Correct the one that is wrong.",
         ),
+        "SPC202": CodeText(
+            "an expired waiver",
+            "The day until which the file waives a check has passed, so its verdict counts again.",
+            "Repair the design, or renew `until` with a reason that still holds.",
+        ),
+        "SPC203": CodeText(
+            "a waiver that nothing needs",
+            "The check that it waives does not fail in any scene; it would hide the next failure without a word.",
+            "Delete it.",
+        ),
         "NUM101": CodeText(
             "a computation that did not converge",
             "The numerics could not reach a trustworthy number; the verdicts that need it are undecided.",

@@ -131,6 +131,8 @@ class Judgement:
     repair: Repair | None = None
     loads: tuple[str, ...] = ()
     """the loads it read"""
+    baseline: bool = False
+    """whether a baseline waives it, not the file"""
 
 
 @dataclass(frozen=True, slots=True)

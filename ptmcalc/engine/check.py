@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import date
 from pathlib import Path
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
@@ -32,6 +33,7 @@ from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
 from ptmcalc.engine.textbook import far_from_textbook
+from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
@@ -50,6 +52,8 @@ class Options:
     histories: bool = False
     budget: float = WORK_BUDGET
     repairs: bool = True
+    today: date | None = None
+    """the day that waivers are held against; that of the clock when left out"""
 
 
 def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
@@ -101,8 +105,10 @@ def check(loaded: Loaded, options: Options) -> FileReport:
         for f, message in _said(settled)
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
+    today = options.today or date.today()
+    diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
-    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
+    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, waived(spec, scenes, today))
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:

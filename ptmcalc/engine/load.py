@@ -97,6 +97,7 @@ def _read(
         data["accuracy"] = accuracy
     problems = list(_open_key_problems(kind, data, document))
     open_keys = {found.path for found in problems}
+    problems += _unknown_waivers(kind, data, document)
     spec = None
     try:
         spec = kind.spec.model_validate(data)
@@ -180,6 +181,18 @@ def _open_key_problems(kind: AnyKind, data: Mapping[str, Any], document: Documen
                 reason = f"unknown key {quote(dotted(path))}"
                 hint = did_you_mean(key, limits, "keys here: the codes of checks, ")
             yield Diagnostic("SPC104", reason, document.key_span(path), path, hint)
+
+
+def _unknown_waivers(kind: AnyKind, data: Mapping[str, Any], document: Document) -> Iterator[Diagnostic]:
+    """Waivers of checks the kind does not have."""
+    codes = [check.code for check in kind.checks]
+    waivers = data.get("waive")
+    for index, waiver in enumerate(waivers if isinstance(waivers, list) else ()):
+        code = waiver.get("check") if isinstance(waiver, dict) else None
+        if isinstance(code, str) and code not in codes:
+            path = ("waive", index, "check")
+            reason, hint = f"no check has the code {quote(code)}", did_you_mean(code, codes, "codes: ")
+            yield Diagnostic("SPC112", reason, document.value_span(path), path, hint)
 
 
 def _keys(data: Mapping[str, Any], block: str) -> Iterable[str]:

@@ -114,7 +114,7 @@ def _known(name: str, judgement: Judgement, known: Known) -> Judgement:
     if judgement.verdict not in _BAD or before is None or _weight(judgement.verdict.value) < _weight(before):
         return judgement
     reason = "; ".join(filter(None, (f"{judgement.verdict.value}, known from the baseline", judgement.reason)))
-    return replace(judgement, verdict=Verdict.WAIVED, reason=reason)
+    return replace(judgement, verdict=Verdict.WAIVED, reason=reason, baseline=True)
 
 
 def _findings(report: FileReport, folder: Path) -> Iterator[tuple[Key, str]]:

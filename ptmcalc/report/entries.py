@@ -26,6 +26,8 @@ class Entry:
     path: KeyPath
     scene: str = ""
     element: str = ""
+    baseline: bool = False
+    """whether a baseline waives it, not the file"""
 
     @property
     def fingerprint(self) -> str:
@@ -56,6 +58,7 @@ def entries(report: FileReport) -> Iterator[Entry]:
             judgement.blame.path,
             scene,
             judgement.element,
+            judgement.baseline,
         )
 
 

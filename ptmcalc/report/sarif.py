@@ -93,7 +93,9 @@ def _result(path: str, entry: Entry, rule: int, fingerprint: str) -> dict[str, A
         "partialFingerprints": {"ptmcalc/v1": fingerprint},
     }
     if entry.state is Verdict.WAIVED:
-        result["suppressions"] = [{"kind": "inSource", "justification": entry.message}]
+        result["suppressions"] = [
+            {"kind": "external" if entry.baseline else "inSource", "justification": entry.message}
+        ]
     if entry.scene:
         result["properties"] = {"scene": entry.scene}
     return result

@@ -5,7 +5,9 @@ editor shows the unit and an example while the file is written.
 """
 
 import math
+import re
 from dataclasses import dataclass
+from datetime import date
 from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -24,6 +26,7 @@ _CODES = {
     "finite": "SPC109",
     "number": "SPC114",
 }
+_DAY = re.compile("[0-9]{4}-[0-9]{2}-[0-9]{2}")
 _LEAST, _MOST = 1e-12, 1e15  # in SI units: no machine has a value outside, and formulas overflow there
 
 
@@ -115,6 +118,27 @@ class Measure:
             if limit is not None:
                 form[key] = units.show(limit, self.quantity)
         return form
+
+
+class Day:
+    """Annotation of a date field, written `2027-06-30`."""
+
+    EXAMPLE = "2027-06-30"
+
+    def read(self, value: object) -> date:
+        """The day, or a pydantic error with our code, reason and hint."""
+        if isinstance(value, str) and _DAY.fullmatch(value):
+            try:
+                return date.fromisoformat(value)
+            except ValueError:
+                pass
+        raise problem("SPC111", f"expected a day, found {describe(value)}", f"write e.g. `{self.EXAMPLE}`")
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {"type": "string", "format": "date", "pattern": f"^{_DAY.pattern}$", "examples": [self.EXAMPLE]}
 
 
 def problem(code: str, reason: str, hint: str = "") -> PydanticCustomError:

@@ -1,6 +1,7 @@
 """What every machine description has besides the machine itself."""
 
 from collections.abc import Iterator, Sequence
+from datetime import date
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -8,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.base.words import quote
-from ptmcalc.spec.fields import Efficiency, Measure, PositiveAcceleration
+from ptmcalc.spec.fields import Day, Efficiency, Measure, PositiveAcceleration
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.scene import Scene
 
@@ -21,6 +22,17 @@ class CheckSwitch(Fragment):
 
     off: Annotated[str, Field(min_length=1)]
     """why the check does not apply to this machine"""
+
+
+class Waiver(Fragment):
+    """A check that may fail for a while: its verdict is `waived`, with the reason, and counts again after the day."""
+
+    check: str = Field(examples=["CNV101"])
+    """code of the check"""
+    reason: Annotated[str, Field(min_length=1, examples=["the new drum comes in May"])]
+    """why it may fail"""
+    until: Annotated[date, Day()] = Field(examples=[Day.EXAMPLE])
+    """last day on which it is waived"""
 
 
 class CheckSettings(BaseModel):
@@ -54,9 +66,19 @@ class MachineSpec(Fragment):
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect says so"""
 
+    waive: tuple[Waiver, ...] = ()
+    """checks that may fail for a while, each with its reason and its last day"""
+
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """Scenes are told apart by their names."""
+        """Scenes are told apart by their names, waivers by the check."""
+        waivers: set[str] = set()
+        for index, waiver in enumerate(given.blocks("waive")):
+            code = waiver.raw.get("check") if waiver else None
+            if isinstance(code, str):
+                if code in waivers:
+                    yield Conflict(("waive", index), f"{quote(code)} is waived twice", "delete one of them")
+                waivers.add(code)
         seen = set()
         for index, scene in enumerate(given.blocks("scenes")):
             label = _label(scene) if scene else ""
