@@ -132,11 +132,16 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def common(
+    context: typer.Context,
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
     """Options before the command."""
+    if context.invoked_subcommand == "check":
+        from ptmcalc.cli.defaults import defaults
+
+        context.default_map = {"check": defaults(Path.cwd())}
 
 
 @app.command()
