@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
 from ptmcalc.machines.drivetrain.loads import parts
 from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
@@ -88,7 +88,7 @@ def window(scene: TrainScene, case: Case) -> float:
     return 1.2 * _rigid_time(rigid(case)) + ringing
 
 
-@lru_cache(maxsize=64)
+@remembered(64)
 def _rigid_time_of(key: "_Identity") -> float:
     case, end = key.case, _FIRST
     while end <= _LONGEST:

@@ -273,6 +273,7 @@ ONE_MODE: Solver[ChainDrive, Start] = Solver(
     source="reduced system of two masses",
     valid=valid,
     always=frozenset({"chain_elasticity"}),
+    method="sums over modes",
 )
 WAVES: Solver[ChainDrive, Start] = Solver(
     name="chain_start_waves",
@@ -287,4 +288,5 @@ WAVES: Solver[ChainDrive, Start] = Solver(
     valid=valid,
     always=frozenset({"chain_elasticity", "higher_modes"}),
     levels=3,
+    method="sums over modes",
 )

@@ -87,4 +87,5 @@ ELASTIC: Solver[Drivetrain, TrainScene] = Solver(
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
     always=frozenset({"elasticity"}),
     levels=len(TOLERANCES),
+    method="exact from event to event",
 )

@@ -75,6 +75,7 @@ REDUCED: Solver[Drivetrain, TrainScene] = Solver(
     cost=lambda spec, scene, carried, level: 5e-3,
     source="lecture notes Kramatorsk 2007; efficiency by the total torque, ptmcalc.laws.gearing",
     valid=valid,
+    method="exact from event to event",
 )
 
 
