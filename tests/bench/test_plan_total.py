@@ -2,7 +2,8 @@
 
 `python -m pytest tests/bench/test_plan_total.py -n 0 -m study -s` prints the table. On 2 virtual cores, Python 3.11,
 2026-11-22, other work going on beside it (ratio = predicted over measured seconds of a check of the file as it stands,
-without repairs and without the ends of assumed values; the last line predicted anew after its closed form was repriced):
+without repairs and without the ends of assumed values; the last line was predicted anew when its closed form had been
+repriced):
 
     chain_drive/inclined_scraper.yaml              0.1241 s   0.2091 s  0.59
     chain_drive/roller_drive.yaml                  0.0373 s   0.0557 s  0.67
