@@ -20,6 +20,7 @@ WORK_BUDGET = 60.0
 _CHEAP = 0.01
 """Predicted seconds of a run that is made to see how far the ladder goes."""
 _ANYTHING = 1.0
+_NAMED = 3
 _GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
 
 
@@ -130,13 +131,7 @@ def settle(
         if not until(following):
             return settled
         if spent + following.seconds > budget:
-            settled.findings.append(
-                Finding(
-                    "NUM103",
-                    f"scene `{scene.scene.label}`: the next run ({following.solver.name}) is predicted to take"
-                    f" {following.seconds:.3g} s, beyond the budget of {budget:.3g} s",
-                )
-            )
+            settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=only is None))
             return settled
         waiting.remove(following)
         result = _climb(settled, spec, following)
@@ -305,12 +300,41 @@ def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]
 
 def _unreached(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[Finding]:
     """What to say where nothing is left to run and a governing load is still not as accurate as asked."""
-    names = ", ".join(f"`{name}`" for name in _inaccurate(kind, spec, settled))
+    names = _inaccurate(kind, spec, settled)
     if not names or spec.accuracy is None:
         return []
-    asked = show(spec.accuracy, SHARE)
     label = settled.plan.scene.label
-    return [Finding("NUM105", f"scene `{label}`: nothing that is left to run brings {names} to {asked}", ("accuracy",))]
+    reason = f"nothing that is left to run brings {_closest(spec.accuracy, settled, names)}"
+    return [Finding("NUM105", f"scene `{label}`: {reason}", ("accuracy",))]
+
+
+def _closest(asked: float, settled: Settled, names: list[str]) -> str:
+    """Loads that are not as accurate as asked, and how close the one stands that is known least closely."""
+    known = [settled.loads[name].estimate for name in names]
+    wide = max(one.bar / abs(one.value) if one.value else math.inf for one in known)
+    how = f"the widest bar is {show(wide, SHARE, 2)}" if math.isfinite(wide) else "one has no bound"
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{', '.join(f'`{name}`' for name in names[:_NAMED])}{more} to {show(asked, SHARE)}: {how}"
+
+
+def _too_dear(
+    kind: AnyKind, spec: MachineSpec, settled: Settled, waiting: list[Rung], budget: float, *, whole: bool
+) -> Finding:
+    """What to say where the next run is beyond the budget: its price, that of all that may help, and what is open."""
+    following = settled.next_rung
+    assert following is not None
+    wanted = _wanted(kind, spec, settled, whole=whole)
+    helpful = [rung for rung in waiting if any(_helps(settled, spec, rung, name, 0.0) for name in wanted)]
+    said = (
+        f"scene `{settled.plan.scene.label}`: the next run ({following.solver.name}) is predicted to take"
+        f" {following.seconds:.3g} s, beyond the budget of {budget:.3g} s"
+    )
+    if len(helpful) > 1:
+        said += f"; all {len(helpful)} that may help would take {sum(rung.seconds for rung in helpful):.3g} s"
+    names = _inaccurate(kind, spec, settled)
+    if names and spec.accuracy is not None:
+        said += f"; it may bring {_closest(spec.accuracy, settled, names)}"
+    return Finding("NUM103", said)
 
 
 def _accurate(estimate: Estimate, asked: float | None) -> bool:

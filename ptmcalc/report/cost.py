@@ -280,7 +280,8 @@ def _choice(report: CostReport, one: Choice) -> dict[str, Any]:
 
 def summary(reports: Sequence[CostReport]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Columns and rows of the project's own table, a file a row."""
-    targets = [one for one in dict.fromkeys(t for report in reports for t in report.targets) if one != MARGINS]
+    shared = [one for one in reports[0].targets if all(one in report.targets for report in reports)]
+    targets = [one for one in shared if one != MARGINS]  # not the accuracy that one file asks for
     columns = ("file", "kind", "its margins", *targets, "bars that hold")
     return columns, [(report.path, report.kind, *_summed(report, targets)) for report in reports]
 
