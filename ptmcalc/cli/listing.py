@@ -137,7 +137,7 @@ def _everything() -> Iterator[tuple[str, str]]:
             yield check.code, _explained_check(kind, check)
         for effect in kind.effects:
             yield effect.name, _explained_effect(kind, effect)
-        for solver in kind.solvers:
+        for solver in (*kind.solvers, *kind.witnesses):
             yield solver.name, _explained_solver(kind, solver)
 
 
@@ -167,10 +167,16 @@ def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
 
 def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
     carried = ", ".join(sorted(solver.represents)) or "none"
-    decides = "" if solver.decides else "\nIt is shown beside the reported load and never decides."
-    return (
-        f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{decides}\n\n{_doc(solver.run)}"
-    )
+    remarks = []
+    if not solver.decides:
+        remarks.append("It is shown beside the reported load and never decides.")
+    if solver in kind.witnesses:
+        remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
+    same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
+    if same:
+        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` takes neither as a witness of the other.")
+    said = "".join(f"\n{remark}" for remark in remarks)
+    return f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{said}\n\n{_doc(solver.run)}"
 
 
 # -- schema, kinds, solvers -----------------------------------------------------------------------------------------

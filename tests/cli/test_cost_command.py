@@ -89,3 +89,9 @@ def test_a_faulty_file_is_told_and_the_others_are_measured(tmp_path: Path) -> No
     assert done.status == 2
     assert "bad.yaml" in done.err
     assert "winding_map 0" in done.out
+
+
+def test_a_witness_and_a_shared_method_are_explained() -> None:
+    assert "No plan offers it" in ptmcalc("explain", "cells").out
+    assert "It computes as two_mass" in ptmcalc("explain", "hoist_train").out
+    assert "It computes as" not in ptmcalc("explain", "characteristics").out
