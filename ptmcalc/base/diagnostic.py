@@ -207,7 +207,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         "NUM103": CodeText(
             "an answer beyond the work budget",
             "A finer or richer computation would be needed and its predicted work is over the budget.",
-            "Raise `--budget`, relax `accuracy`, or simplify the scene; `ptmcalc cost FILE` shows what an accuracy takes.",
+            "Raise `--budget`, relax `accuracy`, or simplify the scene (`ptmcalc cost FILE` shows what it takes).",
         ),
         "NUM104": CodeText(
             "a simplification the simulation ran into",
