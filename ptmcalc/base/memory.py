@@ -1,7 +1,7 @@
 """What is remembered between two runs, and how to forget it: a run is only timed fairly when it starts from nothing."""
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, wraps
 from typing import ParamSpec, TypeVar
 
 P = ParamSpec("P")
@@ -17,10 +17,10 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
         kept = lru_cache(maxsize=size)(function)
         forgotten_with(kept.cache_clear)
 
+        @wraps(function)
         def call(*args: P.args, **kwargs: P.kwargs) -> T:
             return kept(*args, **kwargs)  # type: ignore[arg-type]
 
-        call.__doc__, call.__name__, call.__module__ = function.__doc__, function.__name__, function.__module__
         return call
 
     return keep
