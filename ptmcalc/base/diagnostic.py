@@ -217,7 +217,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         "NUM103": CodeText(
             "an answer beyond the work budget",
             "A finer or richer computation would be needed and its predicted work is over the budget.",
-            "Accept the undecided verdict, relax `accuracy`, or simplify the scene.",
+            "Raise `--budget`, relax `accuracy`, or simplify the scene (`ptmcalc cost FILE` shows what it takes).",
         ),
         "NUM104": CodeText(
             "a simplification the simulation ran into",
@@ -227,7 +227,8 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         "NUM105": CodeText(
             "an accuracy that is not reached",
             "The file or the command asks for governing loads more accurate than the finest solver knows them.",
-            "Ask for less, or read the bars: verdicts already account for them.",
+            "Ask for less (`ptmcalc cost FILE` shows what is in reach), or read the bars: verdicts already account for"
+            " them.",
         ),
         "NUM106": CodeText(
             "a contact that keeps chattering",

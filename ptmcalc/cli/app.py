@@ -60,6 +60,14 @@ class ListFormat(StrEnum):
     JSON = "json"
 
 
+class CostFormat(StrEnum):
+    """Formats of `cost`."""
+
+    TABLE = "table"
+    JSON = "json"
+    MARKDOWN = "markdown"
+
+
 class Law(StrEnum):
     """Laws of similarity of `scale`."""
 
@@ -290,6 +298,38 @@ def plan(
     raise typer.Exit(
         show_plan(paths, Options(tuple(scene or ()), accuracy, _effects(effects)), form == ListFormat.JSON)
     )
+
+
+@app.command()
+def cost(
+    paths: Annotated[list[str] | None, typer.Argument(help="Design files, and folders of them.")] = None,
+    form: Annotated[
+        CostFormat, typer.Option("--format", help="How to print; markdown is the table of a line per file.")
+    ] = CostFormat.TABLE,
+    accuracy: Annotated[
+        list[str] | None,
+        typer.Option("--accuracy", help="An accuracy to price; may be repeated. 5 %, 1 % and 0.1 % when left out."),
+    ] = None,
+    plot: Annotated[str, typer.Option("--plot", metavar="FILE.html", help="Draw error against time as a page.")] = "",
+    all_files: Annotated[
+        bool, typer.Option("--all", help="A line per file, of all in specs/ when no path is named.")
+    ] = False,
+    scene: ScenesOption = None,
+    effects: EffectsOption = None,
+    budget: Annotated[
+        str, typer.Option("--budget", help="Predicted time of running every setting of a file once, e.g. 10s.")
+    ] = "10 s",
+) -> None:
+    """Measure what accuracy costs: every solver and setting with its time, bar and true error.
+
+    Errors are told against a setting of another method, never against the same one. Exit status 1 when a bar does not
+    cover the true error.
+    """
+    from ptmcalc.cli.cost import show_cost
+    from ptmcalc.engine.check import Options
+
+    options = Options(tuple(scene or ()), "", _effects(effects), budget=_budget(budget))
+    raise typer.Exit(show_cost(paths or [], options, accuracy or [], form=form.value, plot=plot, summary=all_files))
 
 
 @app.command()

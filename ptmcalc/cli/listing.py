@@ -18,12 +18,12 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import FileReport, exit_status
-from ptmcalc.contract.solver import AnySolver, Fidelity
+from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.check import Options, chosen_scenes
 from ptmcalc.engine.load import Loaded, load_file, load_text
-from ptmcalc.engine.plan import Plan, ScenePlan, plan
+from ptmcalc.engine.plan import ScenePlan, plan
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.engine.run import settle
+from ptmcalc.engine.run import Foreseen, foresee
 from ptmcalc.engine.solve import solve
 from ptmcalc.report import Format, json, render, words
 from ptmcalc.report.table import listing
@@ -62,8 +62,8 @@ def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
             status = max(status, _reported(loaded))
             continue
         made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
-        for scene in made.scenes:
-            found = list(_plan_rows(made, scene))
+        for scene, coming in zip(made.scenes, foresee(made), strict=True):
+            found = list(_plan_rows(scene, coming))
             rows += [{"path": path} | row | {"criterion": json.criterion(row["criterion"])} for row in found]
             tables.append(_plan_table(path, found))
     say(json.rows(rows) if as_json else "\n".join(tables))
@@ -79,22 +79,15 @@ def _plan_table(path: str, rows: Sequence[Row]) -> str:
     return title + (_table(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
 
 
-def _plan_rows(made: Plan, scene: ScenePlan) -> Iterator[Row]:
-    """A row per effect, with the solver that the ladder comes to; closed forms are evaluated to see how far."""
-    settled = settle(
-        made.kind,
-        made.spec,
-        scene,
-        until=lambda rung: rung.solver.fidelity is Fidelity.FORMULA and rung.level == 0,
-    )
-    rungs = [run.rung for run in settled.runs] + ([settled.next_rung] if settled.next_rung else [])
+def _plan_rows(scene: ScenePlan, coming: Foreseen) -> Iterator[Row]:
+    """A row per effect, with the solver that the ladder comes to; cheap runs are made to see how far."""
     common = {
         "scene": scene.scene.label,
-        "solver": rungs[-1].solver.name if rungs else "none",
-        "predicted_seconds": sum(rung.seconds for rung in rungs),
+        "solver": coming.rungs[-1].solver.name if coming.rungs else "none",
+        "predicted_seconds": coming.seconds,
     }
     for planned in scene.effects:
-        carried = planned.effect.name in settled.carried.union(*(rung.carried for rung in rungs[-1:]))
+        carried = planned.effect.name in coming.carried
         state = EffectState.SIMULATED if carried else EffectState.BOUNDED if planned.active else EffectState.SKIPPED
         yield common | {
             "effect": planned.effect.name,
@@ -144,7 +137,7 @@ def _everything() -> Iterator[tuple[str, str]]:
             yield check.code, _explained_check(kind, check)
         for effect in kind.effects:
             yield effect.name, _explained_effect(kind, effect)
-        for solver in kind.solvers:
+        for solver in (*kind.solvers, *kind.witnesses):
             yield solver.name, _explained_solver(kind, solver)
 
 
@@ -174,10 +167,16 @@ def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
 
 def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
     carried = ", ".join(sorted(solver.represents)) or "none"
-    decides = "" if solver.decides else "\nIt is shown beside the reported load and never decides."
-    return (
-        f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{decides}\n\n{_doc(solver.run)}"
-    )
+    remarks = []
+    if not solver.decides:
+        remarks.append("It is shown beside the reported load and never decides.")
+    if solver in kind.witnesses:
+        remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
+    same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
+    if same:
+        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` takes neither as a witness of the other.")
+    said = "".join(f"\n{remark}" for remark in remarks)
+    return f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{said}\n\n{_doc(solver.run)}"
 
 
 # -- schema, kinds, solvers -----------------------------------------------------------------------------------------

@@ -56,6 +56,9 @@ class MachineKind(Generic[S]):
     assumed: Callable[[S], Iterable[Assumption[S]]] | None = None
     """for a kind with parts that a machine has several times: the assumptions of one machine, instead of the list"""
 
+    witnesses: tuple[AnySolver, ...] = ()
+    """solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""
+
     type: str = ""
     """for the manifest of one of several types of a kind: the word its files write behind `type`"""
 

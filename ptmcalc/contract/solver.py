@@ -30,6 +30,7 @@ class Solver(Generic[S, C]):
     coarsest); `cost` predicts its seconds. `valid` gives the criterion that must not be exceeded.
     `always` names effects that are in every run of it, asked for or not: it is not used where one is excluded.
     A solver that does not decide is a textbook formula: shown beside the reported load, never judged.
+    `method` names the code it computes by where several solvers share one: they are no witnesses of each other.
     """
 
     name: str
@@ -45,6 +46,12 @@ class Solver(Generic[S, C]):
     always: frozenset[str] = frozenset()
     levels: int = 1
     decides: bool = True
+    method: str = ""
+
+    @property
+    def way(self) -> str:
+        """The method it computes by; that of its own where no other solver shares it."""
+        return self.method or self.name
 
     def usable_for(self, spec: S, scene: C) -> bool:
         """Whether it handles this type of scene and the machine lies in its range."""

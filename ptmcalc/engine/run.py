@@ -12,11 +12,15 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import Finding, Found, Result, family
 from ptmcalc.engine.judge import Ruling, judge
-from ptmcalc.engine.plan import PlannedEffect, Rung, ScenePlan
+from ptmcalc.engine.plan import Plan, PlannedEffect, Rung, ScenePlan
 from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
 """Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
+_CHEAP = 0.01
+"""Predicted seconds of a run that is made to see how far the ladder goes."""
+_ANYTHING = 1.0
+_NAMED = 3
 _GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
 
 
@@ -127,17 +131,82 @@ def settle(
         if not until(following):
             return settled
         if spent + following.seconds > budget:
-            settled.findings.append(
-                Finding(
-                    "NUM103",
-                    f"scene `{scene.scene.label}`: the next run ({following.solver.name}) is predicted to take"
-                    f" {following.seconds:.3g} s, beyond the budget of {budget:.3g} s",
-                )
-            )
+            settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=only is None))
             return settled
         waiting.remove(following)
         result = _climb(settled, spec, following)
         spent += max(following.seconds, result.spent if result is not None else 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Foreseen:
+    """What a scene will come to: what was evaluated to see that far, all rungs in their order, and their seconds."""
+
+    settled: Settled
+    rungs: tuple[Rung, ...]
+    seconds: float
+
+    @property
+    def carried(self) -> frozenset[str]:
+        """Effects that a run will carry."""
+        return self.settled.carried.union(*(rung.carried for rung in self.rungs[len(self.settled.runs) :]))
+
+
+def foresee(made: Plan, *, budget: float = WORK_BUDGET) -> Iterator[Foreseen]:
+    """The climbs of all scenes before they are made: cheap runs are made, dear ones imagined.
+
+    An imagined run finds of each load what is known of it, without a numerical bar and with the bounds of what it
+    leaves out. Of a load that a check reads and nobody knows in this scene it finds what another scene says of it, and
+    the verdict stands if the bounds are finite.
+    """
+    elsewhere: dict[str, float] = {}
+    for scene in made.scenes:
+        coming = _foreseen(made.kind, made.spec, scene, budget, elsewhere)
+        known = coming.settled.estimates.items()
+        elsewhere |= {name: one.value for name, one in known if math.isfinite(one.value)}
+        yield coming
+
+
+def _foreseen(
+    kind: AnyKind, spec: MachineSpec, scene: ScenePlan, budget: float, elsewhere: Mapping[str, float]
+) -> Foreseen:
+    settled = settle(kind, spec, scene, budget=budget, until=lambda rung: rung.seconds <= _CHEAP)
+    made = tuple(run.rung for run in settled.runs)
+    seen = Settled(scene, dict(settled.loads), settled.formulas, list(settled.runs), rulings=settled.rulings)
+    rungs, following = list(made), settled.next_rung
+    waiting = [rung for rung in scene.rungs if rung not in rungs]
+    while following is not None and sum(rung.seconds for rung in rungs) + following.seconds <= budget:
+        rungs.append(following)
+        waiting.remove(following)
+        _imagined(seen, kind, spec, following, elsewhere)
+        seen.rulings = judge(kind, spec, scene.scene, seen.estimates)
+        following = _next(seen, spec, waiting, _wanted(kind, spec, seen, whole=True))
+    beside = sum(solver.cost(spec, scene.scene, solver.represents, 0) for solver in scene.formulas)
+    coming = Foreseen(settled, tuple(rungs), beside + sum(rung.seconds for rung in rungs))
+    return replace(coming, seconds=coming.seconds + _again(scene, coming))
+
+
+def _again(scene: ScenePlan, coming: Foreseen) -> float:
+    """Seconds of the runs without each effect near its threshold, as `without` makes them."""
+    richest = max(coming.rungs, key=lambda rung: (len(rung.carried), rung.level), default=None)
+    if richest is None:
+        return 0.0
+    near = (p.effect.name for p in scene.effects if p.criterion is not None and p.criterion.near)
+    return richest.seconds * sum(name in richest.carried - richest.solver.always for name in near)
+
+
+def _imagined(seen: Settled, kind: AnyKind, spec: MachineSpec, rung: Rung, elsewhere: Mapping[str, float]) -> None:
+    """Learn from a run what it may find."""
+    known = {name: one.value for name, one in seen.estimates.items() if math.isfinite(one.value)}
+    asked = {name for ruling in seen.rulings for name in ruling.check.loads}.union(known)
+    loads = (info.name for info in kind.loads_of(spec) if family(info.name) in rung.solver.gives)
+    names = [name for name in loads if name in asked]  # not the stopping time of a start
+    result = Result({name: Found(Estimate.exact(known.get(name, elsewhere.get(name, _ANYTHING)))) for name in names})
+    estimates = widen(seen.plan, spec, rung, result)
+    for name in names:
+        if name not in known and estimates[name].bounded:
+            estimates[name] = Estimate.exact(estimates[name].value)
+    _learnt(seen, rung, result, estimates)
 
 
 def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
@@ -156,17 +225,25 @@ def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
     if result is None:
         return None
     estimates = widen(settled.plan, spec, rung, result)
+    for name in _learnt(settled, rung, result, estimates):
+        settled.findings.append(
+            Finding("NUM101", f"scene `{scene.label}`, {rung.solver.name}: `{name}` is not a number")
+        )
+    return result
+
+
+def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str, Estimate]) -> list[str]:
+    """Keep every load that a run knows better; names of those that are no numbers."""
     settled.runs.append(Run(rung, result, estimates))
+    lost = []
     for name, estimate in estimates.items():
         if math.isnan(estimate.value):
-            settled.findings.append(
-                Finding("NUM101", f"scene `{scene.label}`, {rung.solver.name}: `{name}` is not a number")
-            )
+            lost.append(name)
             continue
         known = settled.loads.get(name)
         if known is None or _better(estimate, known.estimate):
             settled.loads[name] = Best(replace(result.loads[name], estimate=estimate), rung, result)
-    return result
+    return lost
 
 
 def _better(new: Estimate, old: Estimate) -> bool:
@@ -223,12 +300,41 @@ def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]
 
 def _unreached(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[Finding]:
     """What to say where nothing is left to run and a governing load is still not as accurate as asked."""
-    names = ", ".join(f"`{name}`" for name in _inaccurate(kind, spec, settled))
+    names = _inaccurate(kind, spec, settled)
     if not names or spec.accuracy is None:
         return []
-    asked = show(spec.accuracy, SHARE)
     label = settled.plan.scene.label
-    return [Finding("NUM105", f"scene `{label}`: nothing that is left to run brings {names} to {asked}", ("accuracy",))]
+    reason = f"nothing that is left to run brings {_closest(spec.accuracy, settled, names)}"
+    return [Finding("NUM105", f"scene `{label}`: {reason}", ("accuracy",))]
+
+
+def _closest(asked: float, settled: Settled, names: list[str]) -> str:
+    """Loads that are not as accurate as asked, and how close the one stands that is known least closely."""
+    known = [settled.loads[name].estimate for name in names]
+    wide = max(one.bar / abs(one.value) if one.value else math.inf for one in known)
+    how = f"the widest bar is {show(wide, SHARE, 2)}" if math.isfinite(wide) else "one has no bound"
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{', '.join(f'`{name}`' for name in names[:_NAMED])}{more} to {show(asked, SHARE)}: {how}"
+
+
+def _too_dear(
+    kind: AnyKind, spec: MachineSpec, settled: Settled, waiting: list[Rung], budget: float, *, whole: bool
+) -> Finding:
+    """What to say where the next run is beyond the budget: its price, that of all that may help, and what is open."""
+    following = settled.next_rung
+    assert following is not None
+    wanted = _wanted(kind, spec, settled, whole=whole)
+    helpful = [rung for rung in waiting if any(_helps(settled, spec, rung, name, 0.0) for name in wanted)]
+    said = (
+        f"scene `{settled.plan.scene.label}`: the next run ({following.solver.name}) is predicted to take"
+        f" {following.seconds:.3g} s, beyond the budget of {budget:.3g} s"
+    )
+    if len(helpful) > 1:
+        said += f"; all {len(helpful)} that may help would take {sum(rung.seconds for rung in helpful):.3g} s"
+    names = _inaccurate(kind, spec, settled)
+    if names and spec.accuracy is not None:
+        said += f"; it may bring {_closest(spec.accuracy, settled, names)}"
+    return Finding("NUM103", said)
 
 
 def _accurate(estimate: Estimate, asked: float | None) -> bool:

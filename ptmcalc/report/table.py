@@ -44,7 +44,7 @@ def listing(columns: Sequence[str], rows: Iterable[Sequence[str]], *, width: int
     for column, wide in zip(columns, _widths(cells, width), strict=True):
         table.add_column(column, width=wide, overflow="fold")
     for row in cells[1:]:
-        table.add_row(*row)
+        table.add_row(*map(Text, row))  # `[head]` is a part of the machine, no style
     return printed(lambda console: console.print(table), width, color=False)
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from support.toy_kind import OVERLOAD, PULL, SHOCK, STATICS
@@ -29,7 +30,8 @@ from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import FileReport, LoadReport, SceneReport
 from ptmcalc.contract.result import Finding, Found, LoadInfo, Result
-from ptmcalc.contract.solver import Fidelity
+from ptmcalc.contract.solver import AnySolver, Fidelity
+from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import Settled, settle
 
 WIDE = Interval(-3 * KN, 3 * KN)
@@ -663,3 +665,53 @@ def test_the_limit_of_every_toy_is_ten_kilonewtons() -> None:
     """The other tests of this file lean on it."""
     assert judgement(report(kind_of(solver("top", pull(9))))).limit == Estimate.exact(LIMIT)
     assert planned(scene_plan(kind_of(effects=[effect("a")])), "a").active
+
+
+# -- what an accuracy would cost -------------------------------------------------------------------------------------
+
+
+def halved_to(levels: int, **parts: Any) -> AnySolver:
+    """A bar of 1 kN about 8 kN, halved at each level; each costs ten times the one before."""
+    return solver("fine", lambda c, n: pull(8 - 1 / 2**n, 8 + 1 / 2**n), levels=levels, **parts)
+
+
+def test_an_accuracy_beyond_the_budget_says_what_it_would_cost() -> None:
+    """Levels of 1, 10 and 100 s: the second is within a budget of 12 s, the third and all that may help are priced."""
+    made = loaded(kind_of(halved_to(4, seconds=1.0)), accuracy="2 %")
+    assert made.kind is not None
+    assert made.spec is not None
+    (scene,) = plan(made.kind, made.spec).scenes
+    (said,) = settle(made.kind, made.spec, scene, budget=12.0).findings
+    assert said.code == "NUM103"
+    for part in (
+        "predicted to take 100 s, beyond the budget of 12 s",
+        "all 2 that may help would take 1.1e+03 s",
+        "`pull` to 2 %: the widest bar is 6.2 %",
+    ):
+        assert part in said.message
+
+
+def test_an_accuracy_out_of_reach_says_how_close_the_best_comes() -> None:
+    (said,) = report(kind_of(halved_to(3, seconds=1e-6)), accuracy="1 %").diagnostics
+    assert said.code == "NUM105"
+    assert said.message.endswith("brings `pull` to 1 %: the widest bar is 3.1 %")
+
+
+def test_a_budget_bounds_the_predicted_work_whatever_is_asked() -> None:
+    for budget, levels in ((0.5, 0), (1.0, 1), (10.9, 1), (11.0, 2), (111.0, 3)):
+        log = Log()
+        made = loaded(kind_of(halved_to(3, seconds=1.0, log=log)), accuracy="0.001 %")
+        assert made.kind is not None
+        assert made.spec is not None
+        (scene,) = plan(made.kind, made.spec).scenes
+        done = settle(made.kind, made.spec, scene, budget=budget)
+        assert len(log.runs) == levels
+        assert sum(run.rung.seconds for run in done.runs) <= budget
+
+
+def test_the_price_of_the_next_solver_is_in_the_report() -> None:
+    found = report(kind_of(halved_to(2, seconds=1e-3)))
+    (scene,) = found.scenes
+    (ran,) = scene.solvers
+    assert ran.next is not None
+    assert (ran.next.name, ran.next.predicted_seconds) == ("fine", pytest.approx(1e-2))

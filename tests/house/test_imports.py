@@ -24,7 +24,7 @@ with open(result, "w", encoding="utf-8") as file:
 
 HEAVY = {"scipy", "matplotlib", "jinja2", "dask", "distributed", "numba", "pint"}
 OF_A_MACHINE = {"numpy", "pydantic", "yaml"}
-COMMANDS = ("check", "plan", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
+COMMANDS = ("check", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
 
 
 def packages(result: Path, *arguments: str) -> set[str]:
@@ -43,6 +43,7 @@ def packages(result: Path, *arguments: str) -> set[str]:
         ("plan", "specs/conveyor.yaml"),
         ("solve", "specs/conveyor.yaml", "--check", "CNV101", "--vary", "takeup.tension", "--scene", "run_loaded"),
         ("scale", "specs/conveyor.yaml", "--length", "1:10", "--law", "geometric", "--scene", "run_loaded"),
+        ("cost", "specs/hoist/winding_paper/height_25_rope_17_5.yaml"),
         ("schema",),
         ("explain", "belt_wave"),
         ("solvers",),

@@ -4,11 +4,18 @@ import re
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterator
 
 import pytest
 from support.command import ROOT, ptmcalc, unpainted
 
+from ptmcalc.base.units import SHARE, show
 from ptmcalc.cli.app import app
+from ptmcalc.contract.cost import Choice, CostReport
+from ptmcalc.engine.check import design_files
+from ptmcalc.engine.cost import ACCURACIES, MARGINS
+from ptmcalc.engine.load import load_file
+from ptmcalc.report.cost import summary
 
 README = (ROOT / "README.md").read_text("utf-8")
 CI = (ROOT / ".ci" / "run").read_text("utf-8")
@@ -84,8 +91,32 @@ OPTIONS = sorted(set(re.findall(r"(--?[a-z][a-z-]*)[ =`]", README.partition("## 
 
 @pytest.mark.parametrize("option", OPTIONS)
 def test_an_option_the_readme_names_exists(option: str) -> None:
-    helps = [unpainted(ptmcalc(command, "--help").out) for command in ("check", "solve", "scale")]
+    helps = [unpainted(ptmcalc(command, "--help").out) for command in ("check", "cost", "solve", "scale")]
     assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)
+
+
+def test_the_table_of_costs_is_of_the_files_there_are() -> None:
+    """Its structure, not its seconds: a line a file, in the columns `cost --all` writes today."""
+    section = README.partition("\n## What accuracy costs\n")[2].partition("\n## ")[0]
+    head, rule, *lines = [line for line in section.splitlines() if line.startswith("|")]
+    columns, _ = summary([CostReport("", "", (), tuple(choices()), None)])
+    assert [cell.strip() for cell in head.strip("|").split("|")] == list(columns)
+    assert rule == f"|{' --- |' * len(columns)}"
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    assert [row[0].strip("`") for row in rows] == [
+        path.relative_to(ROOT).as_posix() for path in design_files(ROOT / "specs")
+    ]
+    for path, kind, *prices, held in rows:
+        assert load_file(ROOT / path.strip("`"), path).kind.label == kind  # type: ignore[union-attr]
+        assert all(re.fullmatch(r"-|[\d.]+ m?s( \(\d+/\d+\))?", price) for price in prices), path
+        found = re.fullmatch(r"-|(\d+) of (\d+)", held)
+        assert found is not None
+        assert found[1] == found[2], "a bar that does not hold is a fault"
+
+
+def choices() -> Iterator[Choice]:
+    for target in (*(show(one, SHARE) for one in ACCURACIES), MARGINS):
+        yield Choice("scene", target, None, (), 0.0)
 
 
 def test_the_printed_report_is_what_the_command_prints(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,11 +6,11 @@ The chain is followed from the run-off of the driving sprocket: return (slack) s
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import belt_modes, chain_selection, inertia, motor, sag, sprocket
 from ptmcalc.laws.loop_bounds import LoopMasses
@@ -411,7 +411,7 @@ def loop_masses(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) ->
     return replace(loop, return_mass=loop.carry_mass * _LIGHT, return_compliance=loop.carry_compliance)
 
 
-@lru_cache(maxsize=64)
+@remembered(64)
 def _of_loop(loop: LoopMasses, takeup_mass: float, count: int) -> tuple[float, ...]:
     return tuple(belt_modes.natural_frequencies(loop, takeup_mass, count).tolist())
 

@@ -13,6 +13,7 @@ from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
+from ptmcalc.machines.conveyor.solvers.network import CELLS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.start_loads import START_LOADS, start_parts
 from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
@@ -136,4 +137,5 @@ KIND = MachineKind(
     assumed=assumptions,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,
+    witnesses=(CELLS,),
 )

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
+from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -63,6 +64,7 @@ def rigid_tension(case: StartCase, strand: int, x: FloatArray) -> tuple[FloatArr
     return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
 
 
+@remembered(256)
 def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
     """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
     slowest = loop_bounds.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
@@ -342,6 +344,7 @@ def even_loads(line: BeltLine) -> dict[str, float]:
     return loads | derived_loads(line, loads["tension_max"], tuple(map(min, ends)))
 
 
+@remembered(64)
 def largest_softening(case: StartCase) -> float | None:
     """Largest softening by sag anywhere in a start, at the lowest tension the waves can bring; None without idler
     pitches. A belt that can lose its tension is infinitely soft."""

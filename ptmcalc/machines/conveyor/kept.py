@@ -5,6 +5,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
+from ptmcalc.base.memory import forgotten_with
+
 T = TypeVar("T")
 _MOST_SAMPLES = 150_000
 """Moments of all motions kept: some hundred megabytes at most."""
@@ -21,6 +23,7 @@ class Kept(Generic[T]):
         self._size = size
         self._last: deque[tuple[object, T]] = deque()
         self._samples = 0
+        forgotten_with(self.forget)
 
     def of(self, causes: object, make: Callable[[], T]) -> T:
         """What was made of equal causes, or is made now; what was not asked for the longest goes first."""
@@ -35,3 +38,8 @@ class Kept(Generic[T]):
         while self._samples > _MOST_SAMPLES and len(self._last) > 1:
             self._samples -= self._size(self._last.popleft()[1])
         return made
+
+    def forget(self) -> None:
+        """Keep nothing of what was made so far."""
+        self._last.clear()
+        self._samples = 0

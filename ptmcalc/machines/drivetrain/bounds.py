@@ -3,9 +3,9 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import of
 from ptmcalc.laws import backlash
 from ptmcalc.machines.drivetrain import motion
@@ -39,7 +39,7 @@ class _Rigid:
         return high if high >= -low else low
 
 
-@lru_cache(maxsize=64)
+@remembered(64)
 def _rigid(key: "_Scene") -> _Rigid:
     spec, scene = key.spec, key.scene
     case = case_of(spec, scene)

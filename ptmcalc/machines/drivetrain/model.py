@@ -3,10 +3,10 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.laws import backlash
@@ -69,7 +69,7 @@ class Case:
         return self.bodies.index(name)
 
 
-@lru_cache(maxsize=256)
+@remembered(256)
 def _case(key: "_Key") -> Case:
     return _Builder(key.spec, key.scene, key.backlash).case()
 

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
 from ptmcalc.machines.drivetrain.loads import parts
 from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
@@ -39,9 +39,7 @@ class Course:
     @property
     def smooth(self) -> bool:
         """Whether a nonlinear torque took part."""
-        train = self.case.train
-        laws = (stage.law for drive in train.drives for stage in drive.stages)
-        return any(isinstance(law, Smooth) for law in laws) or any(one.law == HUNT_CROSSLEY for one in train.springs)
+        return is_smooth(self.case)
 
     def index(self, what: str, name: str) -> int | None:
         """Index of a watched signal of a body, link, gear, motor or brake."""
@@ -62,6 +60,13 @@ class Course:
         if high >= -low:
             return high, float(top.at[index])
         return -low, float(bottom.at[index])
+
+
+def is_smooth(case: Case) -> bool:
+    """Whether a nonlinear torque takes part, which is found by iteration from panel to panel."""
+    train = case.train
+    laws = (stage.law for drive in train.drives for stage in drive.stages)
+    return any(isinstance(law, Smooth) for law in laws) or any(one.law == HUNT_CROSSLEY for one in train.springs)
 
 
 def run(case: Case, end: float, tolerance: float, refined: float = 1.0, *, keep: bool = False) -> Course:
@@ -88,7 +93,7 @@ def window(scene: TrainScene, case: Case) -> float:
     return 1.2 * _rigid_time(rigid(case)) + ringing
 
 
-@lru_cache(maxsize=64)
+@remembered(64)
 def _rigid_time_of(key: "_Identity") -> float:
     case, end = key.case, _FIRST
     while end <= _LONGEST:

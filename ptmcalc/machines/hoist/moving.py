@@ -8,10 +8,10 @@ by the direction of the power through them; the rope only pulls, the load stands
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.components.motor import AnyMotor, ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.components.start import Profile
@@ -135,7 +135,7 @@ class _Key:
         )
 
 
-@lru_cache(maxsize=128)
+@remembered(128)
 def _case(key: _Key) -> Case:
     return _Builder(key.spec, key.scene, key.carried).case()
 

@@ -107,7 +107,7 @@ CHAIN_MODES: Solver[ChainDrive, Run] = Solver(
         }
     ),
     run=run,
-    cost=lambda spec, scene, carried, level: 2e-3,
+    cost=lambda spec, scene, carried, level: 6.2e-3,
     source="frequency equations of two strands in series; tooth frequency V/p",
     always=frozenset({POLYGON}),
 )

@@ -148,6 +148,6 @@ CHAIN_SELECTION: Solver[ChainDrive, Run] = Solver(
         }
     ),
     run=run,
-    cost=lambda spec, scene, carried, level: 6e-5,
+    cost=lambda spec, scene, carried, level: 6.1e-3,
     source="ISO 606:2015; ISO 10823:2004; ACA; lecture notes Kramatorsk 2007",
 )

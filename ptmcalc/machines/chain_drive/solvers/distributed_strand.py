@@ -99,7 +99,7 @@ DISTRIBUTED_STRAND: Solver[ChainDrive, Run] = Solver(
         "tension_polygon_bound",
     },
     run=run,
-    cost=lambda spec, scene, carried, level: 6e-3 * 4**level,
+    cost=lambda spec, scene, carried, level: 6.4e-3 * 2**level,
     source="Fourier series of the polygon acceleration; dynamic stiffness of the strands",
     always=frozenset({POLYGON}),
     levels=len(HARMONICS),

@@ -37,7 +37,7 @@ POLYGON_BOUND: Solver[ChainDrive, Run] = Solver(
     represents=frozenset({POLYGON, FAR, WEAK}),
     gives=OF_TENSION | {"tension_polygon_bound"},
     run=run,
-    cost=lambda spec, scene, carried, level: 3e-3,
+    cost=lambda spec, scene, carried, level: 6.3e-3,
     source="Fourier series of the polygon acceleration; dynamic stiffness of the strands",
     always=frozenset({POLYGON}),
 )

@@ -85,7 +85,7 @@ RIGID_START: Solver[ChainDrive, Start] = Solver(
     represents=frozenset(),
     gives=_GIVES,
     run=run,
-    cost=lambda spec, scene, carried, level: 3e-4,
+    cost=lambda spec, scene, carried, level: 4e-3,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",
 )
 

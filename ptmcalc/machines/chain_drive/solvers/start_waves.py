@@ -88,7 +88,7 @@ def _largest(case: StartCase, peaks: Peaks, place: int) -> Estimate:
 
 def _one_mode_cost(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> float:
     case = start_case(spec, scene)
-    return 5e-3 + 1e-6 * _samples(case, 1)
+    return 1.2e-2 + 1e-6 * _samples(case, 1)
 
 
 def _samples(case: StartCase, count: int) -> float:
@@ -273,6 +273,7 @@ ONE_MODE: Solver[ChainDrive, Start] = Solver(
     source="reduced system of two masses",
     valid=valid,
     always=frozenset({"chain_elasticity"}),
+    method="sums over modes",
 )
 WAVES: Solver[ChainDrive, Start] = Solver(
     name="chain_start_waves",
@@ -287,4 +288,5 @@ WAVES: Solver[ChainDrive, Start] = Solver(
     valid=valid,
     always=frozenset({"chain_elasticity", "higher_modes"}),
     levels=3,
+    method="sums over modes",
 )

@@ -77,6 +77,6 @@ STATICS: Solver[ChainDrive, Run] = Solver(
         }
     ),
     run=run,
-    cost=lambda spec, scene, carried, level: 5e-5,
+    cost=lambda spec, scene, carried, level: 6e-3,
     source="lecture notes Kramatorsk 2007; equilibrium",
 )

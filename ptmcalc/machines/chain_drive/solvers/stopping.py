@@ -154,7 +154,7 @@ def _waves_cost(spec: ChainDrive, scene: Stopping, carried: frozenset[str], leve
         return 0.0
     count = felt(spec, scene, next(swings(spec, stop_case(spec, scene))), _MODES << level)
     samples = 2 * float(natural_frequencies(spec, scene)[0]) * 2 * count * time
-    return 2e-2 + 2 * samples * count * 1e-7
+    return 5e-2 + 2 * samples * count * 3e-7
 
 
 def notes(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> Result:

@@ -507,6 +507,20 @@ def valid_running(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     return _simulable(spec, scene)
 
 
+def valid_witness(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+    """The same for a plain start whatever its speed: no plan offers the cells there, but they know what it comes to.
+
+        1 for anything but a plain start;   else as `valid`
+
+    **Range** any scene in motion.
+    **Error** exact.
+    **Source** as `valid`.
+    """
+    if not _plain(spec, scene):
+        return Criterion("plain", 1.0, 1.0, "no plain start: the network itself is planned", "solvers.network")
+    return _simulable(spec, scene)
+
+
 def _may_slip(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether the drive of a plain start may come to the limit of its grip."""
     assert isinstance(scene, Start)
@@ -559,6 +573,7 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     valid=valid,
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
     levels=3,
+    method="belt in cells",
 )
 
 RUNNING_NETWORK: Solver[Conveyor, ConveyorScene] = replace(
@@ -567,4 +582,11 @@ RUNNING_NETWORK: Solver[Conveyor, ConveyorScene] = replace(
     title="the whole belt in cells, in a plain start: what the running belt carries along",
     always=NETWORK.always | {"moving_belt"},
     valid=valid_running,
+)
+
+CELLS: Solver[Conveyor, ConveyorScene] = replace(
+    NETWORK,
+    name="cells",
+    title="the whole belt in cells, as a witness of what the delay lines find in a plain start",
+    valid=valid_witness,
 )

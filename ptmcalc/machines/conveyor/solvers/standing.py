@@ -167,7 +167,7 @@ def _formula(
         represents=frozenset(),
         gives=frozenset(gives),
         run=run,
-        cost=lambda spec, scene, carried, level: 5e-5,
+        cost=lambda spec, scene, carried, level: 2e-4,
         source=source,
         decides=decides,
     )

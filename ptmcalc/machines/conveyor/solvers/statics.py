@@ -171,6 +171,6 @@ STATICS: Solver[Conveyor, Run] = Solver(
     represents=frozenset(),
     gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(_OF_RUNNING, OF_STATICS, PER_DRIVE - SLIPS),
     run=run,
-    cost=lambda spec, scene, carried, level: 5e-5,
+    cost=lambda spec, scene, carried, level: 5e-4,
     source="ISO 5048:1989; DIN 22101",
 )

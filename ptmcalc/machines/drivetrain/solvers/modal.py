@@ -52,6 +52,6 @@ MODAL: Solver[Drivetrain, TrainScene] = Solver(
     represents=frozenset(),
     gives=FAMILIES - MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-4,
+    cost=lambda spec, scene, carried, level: 2e-3,
     source="linear vibration",
 )

@@ -34,4 +34,5 @@ TRAIN: Solver[Hoist, Moving] = Solver(
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
     always=ALWAYS,
     levels=len(motion.TOLERANCES),
+    method="exact from event to event",
 )

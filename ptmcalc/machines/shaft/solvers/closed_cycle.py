@@ -163,7 +163,7 @@ def _corrected(
 def cost(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> float:
     """Predicted seconds: some tenths of a millisecond for each stretch of the angle, three times with a flywheel."""
     stretches = len(machine_in(spec, scene).corners) + 8
-    return 6e-4 * stretches * (3 if spec.checks.irregularity is not None else 1)
+    return 2.5e-4 * stretches * (3 if spec.checks.irregularity is not None else 1)
 
 
 CLOSED_CYCLE: Solver[Shaft, Steady] = Solver(

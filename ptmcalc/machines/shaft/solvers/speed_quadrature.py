@@ -84,7 +84,7 @@ SPEED_QUADRATURE: Solver[Shaft, RunUp] = Solver(
     represents=frozenset(),
     gives=OF_RUN_UP,
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-3,
+    cost=lambda spec, scene, carried, level: 2e-3,
     source="Newton's law, separated; bounds derived in ptmcalc.machines.shaft.bounds",
     valid=valid,
 )

@@ -74,7 +74,7 @@ STOP_FORMULA: Solver[Shaft, RunOut] = Solver(
     represents=frozenset(),
     gives=OF_RUN_OUT,
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-2,
+    cost=lambda spec, scene, carried, level: 2e-3,
     source="laws.shaft.braked_stop; bounds derived in ptmcalc.machines.shaft.bounds",
     valid=valid,
 )
