@@ -343,7 +343,7 @@ class TestC25:
 
 
 class TestC20:
-    """A fork caught by the rack while hoisting: closed forms (the elastic rack through a design file, with stackers)."""
+    """A fork caught by the rack while hoisting: closed forms; the elastic rack goes through a file."""
 
     M, M1, K, V, SLOPE = 1600.0, 9000.0, 9e5, 0.3, 4e4
     Q = M * G
@@ -381,6 +381,5 @@ class TestC21:
         assert safety_gear.progressive_deceleration(self.FORCE, self.M, G) == pytest.approx(9.81, rel=PRINTED)
         way = safety_gear.progressive_distance(self.FORCE, self.M, catch, G)
         assert way == pytest.approx(0.182161, rel=PRINTED)
-        assert self.FORCE / (self.M * G) == pytest.approx(2.0, rel=1e-12)
         bites = safety_gear.instantaneous_force(self.M, self.STIFFNESS, catch, G)
         assert (bites, bites / (self.M * G)) == pytest.approx((167748.0, 10.6873), rel=PRINTED)
