@@ -25,6 +25,7 @@ from ptmcalc.laws import (
     brake,
     buffer,
     capstan,
+    carriage,
     chain_fatigue,
     chain_resonance,
     chain_selection,
@@ -43,6 +44,7 @@ from ptmcalc.laws import (
     lift_off_standard,
     loop_bounds,
     motor,
+    overturning,
     pendulum,
     polygon,
     rail,
@@ -798,6 +800,21 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*whole_loop(bool(d.rng.integers(2)))(d), *d.positive(1), 0.9 + d.share()),
     ),
     "modal_damping": (belt_modes.modal_damping, lambda d: tuple(d.positive(4))),
+    "roller_reaction": (carriage.roller_reaction, lambda d: tuple(d.positive(3))),
+    "roller_coefficient": (carriage.roller_coefficient, lambda d: tuple(d.positive(4))),
+    "guide_resistance": (carriage.guide_resistance, lambda d: tuple(d.positive(2))),
+    "jamming_ratio": (carriage.jamming_ratio, lambda d: tuple(d.positive(4))),
+    "rope_pull": (
+        carriage.rope_pull,
+        lambda d: (*d.positive(3), int(d.rng.integers(1, 64)), max(d.share(), 1e-12), bool(d.rng.integers(2))),
+    ),
+    "sheave_of_tackle": (carriage.sheave_of_tackle, lambda d: (int(d.rng.integers(1, 64)), d.share())),
+    "holding_moment": (
+        overturning.holding_moment,
+        lambda d: (np.array(d.positive(3)), np.array(d.positive(3)) * d.rng.choice([-1, 1], 3)),
+    ),
+    "tipping_moment": (overturning.tipping_moment, lambda d: tuple(d.positive(5))),
+    "stability_reserve": (overturning.stability_reserve, lambda d: tuple(d.positive(2))),
     "tackle_efficiency": (reeving.tackle_efficiency, lambda d: (int(d.rng.integers(1, 64)), d.share())),
     "lowering_tackle_efficiency": (
         reeving.lowering_tackle_efficiency,
@@ -1055,6 +1072,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
 }
 SIGNED = {
     "acceleration",
+    "holding_moment",
     "crank_angles",
     "reduced_inertia_slope",
     "rod_centre_height",

@@ -1,4 +1,4 @@
-"""What follows from the loads of an event: the force that marks its combination.
+"""What follows from the loads of an event: the force that marks its combination, stresses, stability.
 
 Every solver of an event hands its own loads through `with_derived` at the end of its run, and every effect that bounds
 one of those loads hands its bounds through `bounds_of_derived`: so the bars of what follows are those of the run.
@@ -10,6 +10,8 @@ from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found, of
+from ptmcalc.machines.crane.stacking import strength
+from ptmcalc.machines.crane.stacking.loads import COMBINATIONS, SIDES
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -32,13 +34,39 @@ MARKED_BY = {
 """The combination an event belongs to, and the load of its run that marks it, for each type of machine and scene."""
 
 
+UNMARKED = {"overhead_stacker": ("11.1,1", "11.1,2", "11.1,6"), "rack_stacker": ("11.2,1",)}
+"""The combinations of weights alone, which standing gives."""
+
+
 def derived(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) -> dict[str, float]:
     """What follows from plain numbers of the loads of an event."""
     found: dict[str, float] = {}
     marked = MARKED_BY[spec.type].get(scene.type)
     if marked and marked[1] in loads:
         found[of("combination_force", marked[0])] = loads[marked[1]]
+    if "total_weight" in loads:
+        found |= {of("combination_force", number): loads["total_weight"] for number in UNMARKED[spec.type]}
+    happens = strength.event(spec, scene, loads)
+    if happens is None:
+        return found
+    stresses = {
+        "column_stress": strength.column_stress(spec, scene, happens),
+        "bridge_stress": strength.bridge_stress(spec, scene, happens),
+    }
+    found |= {name: value for name, value in stresses.items() if value is not None}
+    reserves = strength.stability(spec, scene, happens)
+    if reserves:
+        found["stability_reserve"] = min(reserves.values())
+        found |= {of("stability_reserve", side): reserve for side, reserve in reserves.items()}
     return found
+
+
+DERIVED = frozenset(
+    {"combination_force", "column_stress", "bridge_stress", "stability_reserve"}
+    | {of("stability_reserve", side) for side in SIDES}
+    | {of("combination_force", number) for numbers in COMBINATIONS.values() for number in numbers}
+)
+"""Names of all that may follow: part of what a solver of an event gives."""
 
 
 def with_derived(spec: Stacker, scene: StackerScene, found: Mapping[str, Found]) -> dict[str, Found]:
