@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, Generic
+from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
@@ -12,6 +12,8 @@ from ptmcalc.contract.effect import AnyEffect, S
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.spec.machine import MachineSpec
+
+Piece = TypeVar("Piece")
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,9 +101,14 @@ def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
         title=title,
         spec=MachineSpec,
         loads=tuple(reversed(loads.values())),
-        effects=tuple(effect for one in types for effect in one.effects),
-        solvers=tuple(solver for one in types for solver in one.solvers),
-        checks=tuple(check for one in types for check in one.checks),
+        effects=_once(effect for one in types for effect in one.effects),
+        solvers=_once(solver for one in types for solver in one.solvers),
+        checks=_once(check for one in types for check in one.checks),
         template=types[0].template,
         types=types,
     )
+
+
+def _once(pieces: "Iterable[Piece]") -> "tuple[Piece, ...]":
+    """Pieces in their order, what two types have in common once."""
+    return tuple({id(piece): piece for piece in pieces}.values())

@@ -1,0 +1,5 @@
+"""Checks of buffers, fork, rail and safety gear."""
+
+from ptmcalc.contract.check import AnyCheck
+
+CHECKS_OF_EVENTS: tuple[AnyCheck, ...] = ()
