@@ -691,6 +691,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     mast.trolley_travel_compliance: [(*BRIDGE, 5.0, ends) for ends in ENDS],
     mast.mean_shape: [(0.3, 0.1)],
     mast.mass_coefficient: [(0.3, 0.1)],
+    mast.tip_shape: [(0.6, 0.3, 0.1)],
     mast.consistent_masses: [(4e3, 1800.0, 1200.0, 500.0, 0.3, 0.1, place) for place in (0.6, 1.0)],
     mast.consistent_frequency: [(6e5, 4600.0, 170.0, 2100.0)],
     mast.two_mass_damping: [(6e5, 4e3, 2100.0, 0.15), (6e5, np.inf, 2100.0, 0.15)],

@@ -394,6 +394,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     ),
     "mean_shape": (mast.mean_shape, shares_of_a_root),
     "mass_coefficient": (mast.mass_coefficient, shares_of_a_root),
+    "tip_shape": (mast.tip_shape, lambda d: (d.share(), *shares_of_a_root(d))),
     "consistent_masses": (
         mast.consistent_masses,
         lambda d: (*d.positive(4), *shares_of_a_root(d), d.rng.uniform(0.3, 1.0)),
@@ -1095,7 +1096,6 @@ SIGNED = {
     "rod_centre_lift",
     "slider_velocity",
     "converter_torque",
-    "consistent_masses",
     "mode_compliance",
     "coulomb_decay",
     "coulomb_slide",
