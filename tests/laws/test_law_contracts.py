@@ -47,7 +47,10 @@ from ptmcalc.laws import (
     lift_off,
     lift_off_standard,
     loop_bounds,
+    mast,
+    mast_modes,
     motor,
+    obstacle,
     overturning,
     pendulum,
     polygon,
@@ -82,6 +85,7 @@ from ptmcalc.laws import (
     wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.laws.mast_modes import Mast
 
 SEEDS = range(5)
 Law = Callable[..., Any]
@@ -157,6 +161,13 @@ MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("bal
 PACKINGS = ("nested", "square")
 SHAPES = ("step", "ramp", "cosine", "parabolic")
 POINTS = ((0.0, 0.0), (0.3, 0.1), (1.0, 1.0))
+ENDS, ATTITUDES = ("supported", "clamped"), ("hanging", "standing")
+BRIDGE = (6.0, 210e9, 2e-4, 16.5, 1.2e-3)  # column, elasticity, its second moment, span, that of a girder
+MASTS = (
+    Mast(6.0, 4.2e7, 1200.0, 4e3, 1800.0, 500.0, 3e-8, 4e-7, 0.7, 80.0),
+    Mast(6.0, 4.2e7, 1200.0, np.inf, 1800.0),
+    Mast(6.0, 4.2e7, 1200.0, 4e3, 1800.0, 0.0, 3e-8, 0.0, 0.7, 80.0, 4e5),
+)
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
@@ -709,6 +720,32 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         for push in (4e3, 7e3, 3e4, -3e4)
     ],
     skid.slip_motor_torque: [(0.59, 31200.0, 2354.0, 0.2, 20.0, 0.9)],
+    mast.column_bending: [BRIDGE[:3]],
+    mast.bridge_travel_compliance: [
+        (*BRIDGE, 1.6e-4, 2.0, 5.0, ends, wheels) for ends in ENDS for wheels in ("free", "braked")
+    ],
+    mast.trolley_travel_compliance: [(*BRIDGE, 5.0, ends) for ends in ENDS],
+    mast.mean_shape: [(0.3, 0.1)],
+    mast.mass_coefficient: [(0.3, 0.1)],
+    mast.tip_shape: [(0.6, 0.3, 0.1)],
+    mast.consistent_masses: [(4e3, 1800.0, 1200.0, 500.0, 0.3, 0.1, place) for place in (0.6, 1.0)],
+    mast.consistent_frequency: [(6e5, 4600.0, 170.0, 2100.0)],
+    mast.two_mass_damping: [(6e5, 4e3, 2100.0, 0.15), (6e5, np.inf, 2100.0, 0.15)],
+    mast.static_lag: [(9e3, 6e5, 4600.0, 170.0, 2100.0)],
+    mast.notes_deflection: [(9e3, 6e5, 4e3, 1800.0, 1200.0, 0.236)],
+    mast.rise_factor: [(0.3,), (0.0,)],
+    mast.after_stop_ratio: [(2.1, 0.5), (2.1, 3.0)],
+    mast.root_moment: [(9e3, 7e3, 1800.0, 1200.0, 6.0)],
+    mast.gravity_stiffness: [(2e4, 1.2e4, 6.0, 0.3, 0.1, attitude) for attitude in ATTITUDES],
+    mast.weighted_tip_compliance: [
+        (6.0, 4.2e7, 3e7, weight, attitude) for weight in (0.0, 2e4, 9e5) for attitude in ATTITUDES
+    ],
+    mast_modes.clamped_beam_root: [(0.5, 1), (0.0, 2)],
+    mast_modes.mast_frequency: [(one, k) for one in MASTS for k in (1, 2)],
+    mast_modes.mode_compliance: [(MASTS[0], 1, "base"), *((one, 1, "load") for one in MASTS)],
+    obstacle.elastic_contact_force: [(0.8, 3e7, 2100.0)],
+    obstacle.damped_contact: [(0.8, 2100.0, 3e5, 0.01, n, c) for n in (1.0, 1.5) for c in (0.0, 0.01, 0.4)],
+    obstacle.column_force_bound: [(7100.0, 6e5, 0.8, push, 3e5, x, 1.5) for push in (0.0, 4e3) for x in (0.0, 0.01)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -768,6 +805,18 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     motor.breakdown_slip: [(ValueError, (0.04, 2.3, 9.0))],
     motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
+    mast.bridge_travel_compliance: [
+        (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "hinged", "free")),
+        (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "clamped", "locked")),
+    ],
+    mast.trolley_travel_compliance: [(ValueError, (*BRIDGE, 5.0, "hinged"))],
+    mast.gravity_stiffness: [(ValueError, (2e4, 1.2e4, 6.0, 0.3, 0.1, "lying"))],
+    mast.weighted_tip_compliance: [
+        (ValueError, (6.0, 4.2e7, np.inf, 2e4, "lying")),
+        (ValueError, (6.0, 4.2e7, np.inf, 3e6, "standing")),
+        (ValueError, (6.0, 4.2e7, 1e6, 2e5, "standing")),
+    ],
+    mast_modes.mode_compliance: [(ValueError, (MASTS[0], 1, "tip"))],
     start_profile.phases: [(ValueError, ("step", True, 4.0, 3.0))],
     strand_tension.load_pull: [(ValueError, (5.0, 5.1, 160.0, 0.022, 9.81))],
     strand_tension.section_pull: [(ValueError, (5.0, -5.1, 18.0, 160.0, 20.0, 0.022, 9.81))],
@@ -832,6 +881,13 @@ class Units:
             suffix = {"mass": of["masses"], "compliance": of["compliances"]}
             numbers = {f.name: suffix[f.name.rpartition("_")[2]] for f in fields(value) if f.type is float}
             return replace(value, **{name: getattr(value, name) * self.factor(u) for name, u in numbers.items()})
+        if isinstance(value, Mast):
+            told = {
+                f.name: re.search(rf"\b{f.name}\b[^\[]*\[([^\]]+)\]", inspect.getdoc(Mast) or "") for f in fields(value)
+            }
+            return replace(
+                value, **{name: getattr(value, name) * self.factor(one[1]) for name, one in told.items() if one}
+            )
         return value * self.factor(unit) if unit is not None else value
 
 
@@ -863,7 +919,9 @@ def test_every_number_has_a_unit(law: Law) -> None:
     parameters = inspect.signature(law).parameters
     assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
     numbers = {
-        name for name, p in parameters.items() if p.annotation not in (str, bool, int, LoopMasses, start_profile.Shape)
+        name
+        for name, p in parameters.items()
+        if p.annotation not in (str, bool, int, LoopMasses, Mast, start_profile.Shape)
     }
     assert set(argument_units(law)) == numbers
     for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:

@@ -43,7 +43,10 @@ from ptmcalc.laws import (
     lift_off,
     lift_off_standard,
     loop_bounds,
+    mast,
+    mast_modes,
     motor,
+    obstacle,
     overturning,
     pendulum,
     polygon,
@@ -131,6 +134,26 @@ class Draw:
         if "ramp" in among and self.rng.random() < 0.2:
             return (0.0, 0.0), (self.share() / 2 + 1e-12, self.share()), (1.0, 1.0)
         return str(self.rng.choice(among))
+
+
+def under_a_bridge(draw: Draw) -> tuple[Any, ...]:
+    """A column under two girders, somewhere between their ends."""
+    column, span = draw.positive(3), draw.positive(1)[0]
+    place = span * (0.01 + 0.98 * draw.share())
+    ends, wheels = draw.rng.choice(["supported", "clamped"]), draw.rng.choice(["free", "braked"])
+    return *column, span, *draw.positive(3), place, str(ends), str(wheels)
+
+
+def shares_of_a_root(draw: Draw) -> tuple[float, float]:
+    turned = draw.share()
+    return turned, (1 - turned) * draw.share()
+
+
+def a_mast(draw: Draw) -> mast_modes.Mast:
+    """Masses and springs twelve decades apart, a base that is free, a load at its tip or below."""
+    draw = Draw(int(draw.rng.integers(1 << 30)), (-3.0, 3.0))
+    place = draw.rng.uniform(0.3, 1.0) if draw.share() else 1.0
+    return mast_modes.Mast(*draw.positive(6), *(one * draw.share() for one in draw.positive(2)), place)
 
 
 def packed(draw: Draw) -> str:
@@ -367,6 +390,49 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*d.positive(4), d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], d.shape("tip_stopped", "whole")),
     ),
     "collision_force_bound": (buffer.collision_force_bound, lambda d: tuple(d.positive(5))),
+    "column_bending": (mast.column_bending, lambda d: tuple(d.positive(3))),
+    "bridge_travel_compliance": (lambda *a: astuple(mast.bridge_travel_compliance(*a)), under_a_bridge),
+    "trolley_travel_compliance": (
+        lambda *a: astuple(mast.trolley_travel_compliance(*a[:5], *a[7:9])),
+        under_a_bridge,
+    ),
+    "mean_shape": (mast.mean_shape, shares_of_a_root),
+    "mass_coefficient": (mast.mass_coefficient, shares_of_a_root),
+    "tip_shape": (mast.tip_shape, lambda d: (d.share(), *shares_of_a_root(d))),
+    "consistent_masses": (
+        mast.consistent_masses,
+        lambda d: (*d.positive(4), *shares_of_a_root(d), d.rng.uniform(0.3, 1.0)),
+    ),
+    "consistent_frequency": (
+        mast.consistent_frequency,
+        lambda d: (lambda c, a, b: (c, a, 0.9 * d.share() * math.sqrt(a * b), b))(*d.positive(3)),
+    ),
+    "two_mass_damping": (mast.two_mass_damping, lambda d: tuple(d.positive(4))),
+    "static_lag": (mast.static_lag, lambda d: tuple(d.positive(5))),
+    "notes_deflection": (mast.notes_deflection, lambda d: tuple(d.positive(6))),
+    "rise_factor": (mast.rise_factor, lambda d: tuple(d.positive(1))),
+    "after_stop_ratio": (mast.after_stop_ratio, lambda d: tuple(d.positive(2))),
+    "root_moment": (mast.root_moment, lambda d: tuple(d.positive(5))),
+    "gravity_stiffness": (
+        mast.gravity_stiffness,
+        lambda d: (*d.positive(3), *shares_of_a_root(d), "hanging"),
+    ),
+    "weighted_tip_compliance": (
+        mast.weighted_tip_compliance,
+        lambda d: (*d.positive(4), "hanging"),
+    ),
+    "clamped_beam_root": (mast_modes.clamped_beam_root, lambda d: (d.positive(1)[0], int(d.rng.integers(1, 4)))),
+    "mast_frequency": (mast_modes.mast_frequency, lambda d: (a_mast(d), int(d.rng.integers(1, 4)))),
+    "mode_compliance": (mast_modes.mode_compliance, lambda d: (a_mast(d), 1, str(d.rng.choice(["base", "load"])))),
+    "elastic_contact_force": (obstacle.elastic_contact_force, lambda d: tuple(d.positive(3))),
+    "damped_contact": (
+        obstacle.damped_contact,
+        lambda d: (*d.positive(4), d.rng.uniform(0.5, 4.0), d.positive(1)[0] * d.share()),
+    ),
+    "column_force_bound": (
+        obstacle.column_force_bound,
+        lambda d: (*d.positive(5), d.positive(1)[0] * d.share(), d.rng.uniform(0.5, 4.0)),
+    ),
     "series_stiffness": (buffer.series_stiffness, lambda d: tuple(d.positive(2))),
     "linear_buffer": (buffer.linear_buffer, lambda d: tuple(d.positive(3))),
     "constant_force_buffer": (buffer.constant_force_buffer, lambda d: tuple(d.positive(3))),
@@ -1079,6 +1145,7 @@ SIGNED = {
     "rod_centre_lift",
     "slider_velocity",
     "converter_torque",
+    "mode_compliance",
     "coulomb_decay",
     "coulomb_slide",
     "decay_response",
