@@ -242,51 +242,70 @@ def mass_coefficient(rotation_share: ArrayLike, translation_share: ArrayLike) ->
     return np.asarray(bent + b * b / 3 + gamma * gamma + b * gamma)
 
 
+def tip_shape(place: ArrayLike, rotation_share: ArrayLike, translation_share: ArrayLike) -> FloatArray:
+    """How far a column gives at a place of it for a force at its tip, over how far its tip gives.
+
+        f(s) = gamma + b s + alpha (3 s^2 - s^3)/2,   alpha = 1 - b - gamma
+
+    Args:
+        place: s, from the root over the length [1].
+        rotation_share: b, of the tip's deflection [1].
+        translation_share: gamma [1].
+
+    Returns:
+        f [1].
+
+    **Range** 0 <= s <= 1, b, gamma >= 0, b + gamma <= 1.
+    **Error** exact for an even column.
+    **Source** bending of beams.
+    """
+    s, b, gamma = np.asarray(place, float), np.asarray(rotation_share, float), np.asarray(translation_share, float)
+    return np.asarray(gamma + s * (b + (1 - b - gamma) * s * (3 - s) / 2))
+
+
 def consistent_masses(
     base_mass: float,
-    tip_mass: float,
+    load_mass: float,
     column_mass: float,
     root_mass: float,
     rotation_share: float,
     translation_share: float,
     place: float,
 ) -> tuple[float, float, float]:
-    """Masses of a column that moves with both its ends, the shape between them that of a force at the load.
+    """Masses of a column that moves with both its ends, the shape between them that of a force at its tip.
 
-        m_11 = m_1 + integral (1 - f)^2 dm,   m_12 = integral f (1 - f) dm,   m_22 = m_2 + integral f^2 dm
+        m_11 = m_1 + integral (1 - f)^2 dm,   m_12 = integral f (1 - f) dm,   m_22 = integral f^2 dm
 
-    f of the head of this module up to the load, straight on beyond it; dm counts the column and the mass at its root.
+    f of `tip_shape`; dm counts the column, the load at its place, and the mass at the root.
 
     Args:
         base_mass: m_1, that the drive moves [kg].
-        tip_mass: m_2, carriage and load [kg].
+        load_mass: m_2, of carriage and load [kg].
         column_mass: m_c [kg].
         root_mass: at the root, what shifts against the base with it: a trolley on girders that give sideways [kg].
-        rotation_share: b, of the deflection at the load [1].
+        rotation_share: b, of the deflection at the tip [1].
         translation_share: gamma [1].
-        place: of the load, distance from the root over the length of the column, above 0, 1 at the tip [1].
+        place: of the load, from the root over the length of the column, 1 at the tip [1].
 
     Returns:
         m_11 [kg], m_12 [kg], m_22 [kg]; their sum m_11 + 2 m_12 + m_22 is all there is.
 
-    **Range** a column whose load is not far from its tip and no lighter than a quarter of it.
-    **Error** static deflection under even acceleration exact; lowest frequency too high, by at most 0.4 % for tip and
-    base from a quarter to four times the column's mass.
+    **Range** 0 <= place <= 1; best with the load near the tip.
+    **Error** deflection of the tip under even acceleration exact; lowest frequency too high, by at most 0.4 % for a
+    load at the tip and a base from a quarter to four times the column's mass.
     **Source** derived: kinetic energy of the static shape (consistent masses, J. Archer 1963).
     """
-    alpha, w = 1 - rotation_share - translation_share, 1 - place
-    slope = (rotation_share + 1.5 * alpha) / place
-    mean = place * float(mean_shape(rotation_share, translation_share)) + w + slope * w * w / 2
-    square = (
-        place * float(mass_coefficient(rotation_share, translation_share)) + w + slope * w * w * (1 + slope * w / 3)
-    )
-    both = mean - square
-    rest = 1 - mean - both
     gamma = translation_share
+    mean = float(mean_shape(rotation_share, gamma))
+    square = float(mass_coefficient(rotation_share, gamma))
+    at_load = float(tip_shape(place, rotation_share, gamma))
     return (
-        base_mass + rest * column_mass + (1 - gamma) ** 2 * root_mass,
-        both * column_mass + gamma * (1 - gamma) * root_mass,
-        tip_mass + square * column_mass + gamma * gamma * root_mass,
+        base_mass
+        + (1 - 2 * mean + square) * column_mass
+        + (1 - at_load) ** 2 * load_mass
+        + (1 - gamma) ** 2 * root_mass,
+        (mean - square) * column_mass + at_load * (1 - at_load) * load_mass + gamma * (1 - gamma) * root_mass,
+        square * column_mass + at_load * at_load * load_mass + gamma * gamma * root_mass,
     )
 
 

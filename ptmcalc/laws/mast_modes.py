@@ -155,7 +155,7 @@ def _moving_masses(mast: Mast) -> int:
     base = math.isfinite(mast.base_mass) and mast.base_mass + (0 if mast.root_translation else mast.root_mass) > 0
     root = mast.root_mass > 0 and mast.root_translation > 0
     top = mast.top_mass > 0 and (mast.place < 1 or mast.tip_mass == 0)
-    return sum((base, root, mast.tip_mass > 0, top))
+    return int(base) + int(root) + int(mast.tip_mass > 0) + int(top)
 
 
 def _unit_stiffness(mast: Mast) -> float:
@@ -204,8 +204,8 @@ def _clamped_count(b: float) -> int:
         return 0
     whole = int(b / math.pi)
     pole = (1 / math.cosh(b) if b < 700 else 0.0) - math.cos(b)
-    sign = 1 if pole > 0 else -1
-    return whole - (1 - (-1) ** whole * sign) // 2
+    falls = pole < 0 if whole % 2 == 0 else pole > 0
+    return whole - int(falls)
 
 
 def _parts(mast: Mast) -> tuple[float, ...]:

@@ -60,7 +60,7 @@ class Rack(Fragment):
     """The rack at the fork."""
 
     stiffness_push: Stiffness | None = None
-    """against the fork that pushes; rigid when left out"""
+    """against the fork that pushes; with a `fork` it is needed"""
     stiffness_vertical: Stiffness | None = None
     """against the fork that lifts; rigid when left out"""
     rating_push: PositiveForce | None = None

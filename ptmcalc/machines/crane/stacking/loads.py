@@ -41,6 +41,7 @@ OF_THE_BUFFERS = (
     LoadInfo("buffer_force", "force of a buffer", units.FORCE, governing=True),
     LoadInfo("buffer_stroke", "stroke of a buffer", units.LENGTH, governing=True),
     LoadInfo("buffer_speed_left", "speed at which the buffer bottoms out", units.SPEED),
+    LoadInfo("buffer_deceleration", "largest deceleration at the buffers", units.ACCELERATION),
     LoadInfo("phi7", "phi7, buffers", units.RATIO, governing=True),
 )
 OF_THE_FORK = (
@@ -61,6 +62,9 @@ OF_THE_SAFETY_GEAR = (
     LoadInfo("safety_gear_factor", "force of the safety gear over the weight", units.RATIO),
     LoadInfo("safety_gear_deceleration", "deceleration of the carriage", units.ACCELERATION),
     LoadInfo("safety_gear_speed", "speed at which the safety gear grips", units.SPEED),
+    LoadInfo("safety_gear_drop", "free fall before it grips", units.LENGTH),
+    LoadInfo("safety_gear_moment", "moment of the safety gear on the column", units.TORQUE),
+    LoadInfo("safety_gear_shock", "force along the column at its foot", units.FORCE),
 )
 OF_STRENGTH = (
     LoadInfo("column_stress", "stress of the column", units.STRESS, governing=True),
