@@ -201,7 +201,7 @@ def _starts_needs(spec: Stacker, scene: Braked | HoistScene) -> tuple[KeyPath, .
     return () if known else ((_starts_block(spec, scene), "permitted_starts_per_hour"),)
 
 
-_STARTING: frozenset[type[Scene]] = frozenset({Start, HoistScene})
+_STARTING: frozenset[type[Scene]] = frozenset((Start, HoistScene))
 STARTS: OneCheck = only(_counts)(
     Check(
         code="CRN206",
