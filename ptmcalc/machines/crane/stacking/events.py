@@ -3,18 +3,18 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ptmcalc.laws import buffer, fork, rail, safety_gear
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking import columns, model
 from ptmcalc.machines.crane.stacking.catching import Catch, Limit, Push
 from ptmcalc.machines.crane.stacking.model import filled
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import BufferScene, ForkCaught, ForkPush, RailScene, SafetyGearScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
-_TIP_SHARE = 33 / 140
-"""Of a clamped column's mass that swings with its end: of the square of its static shape."""
-_TILT_SHARE = 11 / 40
-"""Of a clamped column's mass that a tilt of its foot drives: of its static shape times the height."""
+_NODES = 5
+"""Of the quadrature of a column's shape: exact for its polynomials."""
 
 # -- the fork -------------------------------------------------------------------------------------------------------
 
@@ -56,17 +56,12 @@ def side_compliance(spec: Stacker, scene: ForkPush) -> float:
     """
     place, column, telescope = model.carriage_place(spec, scene), spec.column, spec.fork
     assert telescope is not None, "the scene has a fork"
-    length = column.length
-    if column.stiffness is not None:
-        bends = (place / length) ** 3 / column.stiffness
+    length, rigidity = column.length, 3 * columns.flexural_stiffness(spec, "across")
+    if column.top_guide is not None:
+        bends = (place * (length - place)) ** 2 / (rigidity * length)
     else:
-        second = column.second_moment_across or filled(column.second_moment)
-        rigidity = 3 * column.elasticity * column.count * second
-        bends = place**3 / rigidity
-        if column.top_guide is not None:
-            bends = (place * (length - place)) ** 2 / (rigidity * length)
-        elif column.root_stiffness is not None:
-            bends += place**2 / column.root_stiffness
+        root = 1 / column.root_stiffness if column.root_stiffness is not None else 0.0
+        bends = place**3 / rigidity + place**2 * root
     stiff = telescope.torsion_stiffness
     twists = telescope.arm**2 / stiff if stiff is not None else 0.0
     return bends + twists
@@ -145,6 +140,10 @@ class Swinger:
     """acceleration of the mode over that of the tilt [m]"""
     outreach: float
     """deflection of the head over that at the carriage [1]"""
+    mass: float = 1.0
+    """that swings, at the carriage [kg]"""
+    stiffness: float = 1.0
+    """at the carriage [N/m]"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,25 +186,33 @@ class Roll:
 
 
 def swinger(spec: RackStacker, scene: RailScene) -> Swinger | None:
-    """The column's first mode with the carriage on it, its shape that of a force at the carriage.
+    """The column as one mode with the carriage on it, its shape that of a force at the carriage.
 
-        f = x^2 (3 z - x)/(2 z^3) below the carriage, straight on above it;   w^2 = c/(m_2 + m_c/l int f^2)
+        f = alpha x^2 (3 z - x)/(2 z^3) + beta x/z below the carriage, straight on above it
+        w^2 = c/(m_2 + m_c/l int f^2),   alpha and beta the shares of bending and of the root
 
     None where a guide at its head holds it along the aisle.
     """
-    column, place = spec.column, model.carriage_place(spec, scene)
-    if place <= 0 or (column.top_guide is not None and column.top_guide.stiffness is not None):
+    column, z = spec.column, model.carriage_place(spec, scene)
+    if z <= 0 or (column.top_guide is not None and column.top_guide.stiffness is not None):
         return None
-    if column.stiffness is not None:
-        compliance = (place / column.length) ** 3 / column.stiffness
-    else:
-        compliance = place**3 / (3 * column.elasticity * column.count * filled(column.second_moment))
-    above, line, mass = column.length - place, column.mass / column.length, model.climbing_mass(spec, scene)
-    head = 1 + 1.5 * above / place
-    squares = _TIP_SHARE * place + above * (1 + head + head**2) / 3
-    lever = _TILT_SHARE * place**2 + above * (place * (1 + head) / 2 + above * (1 + 2 * head) / 6)
-    swings = mass + line * squares
-    return Swinger(1 / math.sqrt(compliance * swings), (mass * place + line * lever) / swings, head)
+    gives, line, mass = (
+        columns.compliance(spec, scene, z),
+        column.mass / column.length,
+        model.climbing_mass(spec, scene),
+    )
+    beta = gives.rotation_share
+    slope = (1.5 * (1 - beta) + beta) / z
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    below, above = (nodes + 1) * z / 2, z + (nodes + 1) * (column.length - z) / 2
+    shapes = (1 - beta) * below**2 * (3 * z - below) / (2 * z**3) + beta * below / z, 1 + slope * (above - z)
+    spans = z / 2, (column.length - z) / 2
+    both = list(zip((below, above), shapes, spans, strict=True))
+    swings = mass + line * sum(float(weights @ shape**2) * half for _, shape, half in both)
+    lever = mass * z + line * sum(float(weights @ (shape * x)) * half for x, shape, half in both)
+    return Swinger(
+        math.sqrt(gives.stiffness / swings), lever / swings, 1 + slope * (column.length - z), swings, gives.stiffness
+    )
 
 
 def roll_of(spec: RackStacker, scene: RailScene) -> Roll:

@@ -49,6 +49,7 @@ OF_THE_FORK = (
     LoadInfo("fork_caught_factor", "force of the ropes of a caught fork over the weight", units.RATIO, governing=True),
     LoadInfo("rope_force_caught", "force of all falls at the carriage, fork caught", units.FORCE, governing=True),
     LoadInfo("rack_force", "force of the caught fork on the rack", units.FORCE, governing=True),
+    LoadInfo("limiter_reserve", "force of the limiter over that of a start upward", units.RATIO),
 )
 OF_THE_RAIL = (
     LoadInfo("phi4", "phi4, unevenness of the rail", units.RATIO, governing=True),

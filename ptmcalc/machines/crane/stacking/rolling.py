@@ -78,9 +78,22 @@ def column_trains(roll: Roll, column: Swinger) -> Iterator[tuple[Train, float]]:
 
 
 def column_readings(played: Played, column: Swinger) -> dict[str, Reading]:
-    """Swing of the head of the column from its place on the tilted base."""
+    """Swing of the head of the column from its place on the tilted base, and what the column feels of it.
+
+    The moment at the root is that of the masses that swing, with their levers.
+    """
     force, when = played.largest("link", played.link(COLUMN))
-    return {"mast_deflection_max": (force / column.frequency**2 * column.outreach, when)}
+    return {name: (value, when) for name, value in swing_loads(force / column.frequency**2, column).items()}
+
+
+def swing_loads(swing: float, column: Swinger) -> dict[str, float]:
+    """What a swing at the carriage comes to [m, N, N*m]."""
+    force = column.stiffness * swing
+    return {
+        "mast_deflection_max": column.outreach * swing,
+        "mast_force_max": force,
+        "mast_moment_max": force * column.driven,
+    }
 
 
 # -- waves ----------------------------------------------------------------------------------------------------------
@@ -105,7 +118,7 @@ def wave_swing(roll: Roll, column: Swinger) -> float:
     tilt = roll.wave_height * abs(math.sin(math.pi * roll.base / roll.wave_length)) / roll.base
     ratio = roll.wave_rate / column.frequency
     gap = abs((1 - ratio) * (1 + ratio))
-    size = column.outreach * column.driven * tilt * ratio**2
+    size = column.driven * tilt * ratio**2
     return size / gap if gap else (math.inf if size else 0.0)
 
 

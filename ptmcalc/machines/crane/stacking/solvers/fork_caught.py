@@ -44,7 +44,7 @@ def stopped(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: in
     **Source** energy of the drive, `laws.fork.caught_force`.
     """
     case = catch_of(spec, scene)
-    loads = {"rope_force_caught": Found(Estimate.exact(case.stopped_force))}
+    loads = {"rope_force_caught": Found(Estimate.exact(case.stopped_force))} | reserve(spec, case)
     return Result(with_derived(spec, scene, with_factor(loads, case)), work=1)
 
 
@@ -60,15 +60,23 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     **Error** exact between events; bars from runs that divide time otherwise, trusted only if the energy ledger closes.
     **Source** `numerics.train`; the equations of theory and case C20.
     """
-    case = catch_of(spec, scene)
-    case = case.without(slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK not in carried)
+    whole = catch_of(spec, scene)
+    case = whole.without(slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK not in carried)
     one = course(scene.label, case.train(), case.window(), case.readings)
     tripped = one.played.first(MOTOR, "started")
     said: tuple[Finding, ...] = ()
     if tripped < one.played.record.time:
         message = f"scene `{scene.label}`: the limiter trips {tripped:.3g} s after the fork is caught"
         said = (Finding("NUM110", message, ("hoisting", "limiter", "force")),)
-    return one.result(with_derived(spec, scene, with_factor(one.found, case)), said)
+    return one.result(with_derived(spec, scene, with_factor(one.found | reserve(spec, whole), case)), said)
+
+
+def reserve(spec: Stacker, case: Catch) -> dict[str, Found]:
+    """Force of the limiter over what a start upward asks, where there is one."""
+    if case.limit is None:
+        return {}
+    asked = case.weight * (1 + spec.hoisting.acceleration / spec.gravity)
+    return {"limiter_reserve": Found(Estimate.exact(case.limit.force / asked))}
 
 
 def with_factor(loads: Mapping[str, Found], case: Catch) -> dict[str, Found]:
@@ -99,7 +107,7 @@ CAUGHT_STOPPED: Solver[Stacker, ForkCaught] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset({CATCHING}),
-    gives=_ROPE | _MARKS,
+    gives=_ROPE | _MARKS | {"limiter_reserve"},
     run=stopped,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="energy of the drive; bounds of `laws.fork`",
@@ -111,7 +119,7 @@ CAUGHT_TRAIN: Solver[Stacker, ForkCaught] = Solver(
     fidelity=Fidelity.TRANSIENT,
     scenes=_SCENES,
     represents=frozenset({CATCHING, RACK, SLOPE, LIMITER}),
-    gives=_ROPE | _MARKS | {"rack_force"},
+    gives=_ROPE | _MARKS | {"limiter_reserve", "rack_force", "column_stress", "bridge_stress"},
     run=run,
     cost=lambda spec, scene, carried, level: 3e-2,
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",

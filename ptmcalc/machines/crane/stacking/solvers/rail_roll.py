@@ -11,6 +11,7 @@ from ptmcalc.laws import rail
 from ptmcalc.machines.crane.stacking.derived import with_derived
 from ptmcalc.machines.crane.stacking.effects_events import JUMPING, UNEVEN
 from ptmcalc.machines.crane.stacking.events import Roll, roll_of, wheel_load
+from ptmcalc.machines.crane.stacking.loads import OF_THE_RAIL, names
 from ptmcalc.machines.crane.stacking.marching import Course, course
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.rolling import (
@@ -18,6 +19,7 @@ from ptmcalc.machines.crane.stacking.rolling import (
     column_trains,
     detuning,
     machine_trains,
+    swing_loads,
     wave_share,
     wave_swing,
     wheel_readings,
@@ -26,9 +28,13 @@ from ptmcalc.machines.crane.stacking.scenes import RailScene
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL
 
 _SCENES = frozenset({RailScene})
-_GIVES = frozenset(
-    {"phi4", "rail_contact", "wheel_force", "rail_detuning", "mast_deflection_max", "combination_force[11.2,5]"}
-)
+_GIVES = names(OF_THE_RAIL) | {
+    "mast_deflection_max",
+    "mast_force_max",
+    "mast_moment_max",
+    "column_stress",
+    "combination_force[11.2,5]",
+}
 
 
 def standard(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: int) -> Result:
@@ -126,9 +132,10 @@ def _result(spec: RackStacker, scene: RailScene, roll: Roll, loads: Mapping[str,
             course(scene.label, train, window, lambda played: column_readings(played, column))
             for train, window in column_trains(roll, column)
         ]
-        largest = [one.found["mast_deflection_max"] for one in swings]
-        largest.append(Found(Estimate.exact(wave_swing(roll, column))))
-        found["mast_deflection_max"] = max(largest, key=lambda one: one.estimate.value)
+        steady = swing_loads(wave_swing(roll, column), column)
+        for name, value in steady.items():
+            largest = [one.found[name] for one in swings] + [Found(Estimate.exact(value))]
+            found[name] = max(largest, key=lambda one: one.estimate.value)
         runs = [*runs, *swings]
     findings: tuple[Finding, ...] = tuple(finding for one in runs for finding in one.findings)
     residual = max((one.played.ledger.residual for one in runs), default=0.0)
