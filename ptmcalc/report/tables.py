@@ -29,7 +29,9 @@ def lines(table: TableReport) -> list[str]:
     for first, *others in table.rows:
         named = zip(table.columns[1:], others, strict=True)
         told.append(f"{cell(first)}: " + "; ".join(f"{column.heading} {cell(one)}" for column, one in named if one))
-    return [f"table {table.name} {line}" for line in told] + [f"table {table.name} note: {note}" for note in table.notes]
+    return [f"table {table.name} {line}" for line in told] + [
+        f"table {table.name} note: {note}" for note in table.notes
+    ]
 
 
 def cell(one: Cell) -> str:

@@ -104,9 +104,13 @@ RACK = Combinations(
 )
 TABLES = {"overhead_stacker": OVERHEAD, "rack_stacker": RACK}
 
-EVENTS = {MECHANISMS: "start or brake", OBSTACLE: "obstacle", PUSH: "fork_push", CAUGHT: "fork_caught", RAIL: "rail"} | {
-    GEAR: "safety_gear"
-}
+EVENTS = {
+    MECHANISMS: "start or brake",
+    OBSTACLE: "obstacle",
+    PUSH: "fork_push",
+    CAUGHT: "fork_caught",
+    RAIL: "rail",
+} | {GEAR: "safety_gear"}
 """The scene of a file that gives a dynamic load."""
 
 _DYNAMIC = frozenset(EVENTS)
