@@ -12,6 +12,7 @@ from ptmcalc.machines.crane.stacking.scenes import (
     ForkCaught,
     ForkPush,
     ObstacleScene,
+    RailScene,
     SafetyGearScene,
     StackerScene,
     Stand,
@@ -91,7 +92,9 @@ ACROSS: OneCheck = only(_leans)(
     )
 )
 
-EVENTS: frozenset[type[Scene]] = frozenset({Stand, Start, Brake, ObstacleScene, ForkCaught, ForkPush, SafetyGearScene})
+EVENTS: frozenset[type[Scene]] = frozenset(
+    {Stand, Start, Brake, ObstacleScene, ForkCaught, ForkPush, RailScene, SafetyGearScene}
+)
 
 
 def _of_travel(spec: Stacker, scene: StackerScene) -> bool:
