@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import march
-from ptmcalc.machines.crane.stacking.derived import with_derived
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Built, Happening
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
@@ -139,8 +139,9 @@ def _play(
 
 
 def _of_the_column(built: Built, base: float) -> dict[str, Found]:
-    """Stiffness at the far end and the lowest frequencies, over a base that is held or one that rolls."""
-    fine, coarse = (Mast.of(built.column, count, (built.column.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    """Stiffness at the far end, without weights, and the lowest frequencies, over a base that is held or rolls."""
+    light = replace(built.column, pull=0.0)
+    fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
     stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
     bar = abs(stiffness - other) + 1e-9 * stiffness
     found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
@@ -207,6 +208,7 @@ def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
     found = {
         "collision_force": _times(deflection, fine.moves.column.stiffness),
         "collision_deflection": deflection,
+        "mast_moment_max": _moment(fine, coarse),
     }
     obstacle = fine.moves.obstacle
     assert obstacle is not None
@@ -310,10 +312,11 @@ MAST_MODAL: Solver[Stacker, StackerScene] = Solver(
     gives=frozenset(
         {
             *("column_stiffness", "natural_frequency", "period", "start_time", "brake_time", "settling_time"),
-            *("mast_deflection_max", "mast_force_max", "mast_moment_max", "combination_force"),
+            *("mast_deflection_max", "mast_force_max", "mast_moment_max"),
             *("collision_force", "collision_deflection", "contact_force"),
         }
-    ),
+    )
+    | DERIVED,
     run=run,
     cost=_cost,
     source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
