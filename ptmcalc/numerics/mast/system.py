@@ -124,7 +124,9 @@ class MastSystem:
     def scale(self) -> FloatArray:
         """Sizes of the states: those of the motions that the speed of the base and the forces on it excite."""
         base = self.case.base
-        forces = [abs(value) for signal in (base.push, *(grip.capacity for grip in base.grips)) for value in signal.values]
+        forces = [
+            abs(value) for signal in (base.push, *(grip.capacity for grip in base.grips)) for value in signal.values
+        ]
         forces += [
             abs(signal.slopes[k]) * (signal.times[k + 1] - signal.times[k])
             for signal in base.signals
@@ -175,10 +177,10 @@ class MastSystem:
         if rigid and mode.contact == FREE and (found is None or self._meets(z)):
             lost = self._strike(now, z)
             found = next(self._holding(now._replace(contact=JAMMED), z), None)
-        elif self.damped:
-            lost = self.energy(mode, z) - self.energy(found, z)
         if found is None:
             raise NumericsError("NUM101", f"no state of the mast holds at {time:.9g} s")
+        if self.damped:  # what a contact that lets go keeps in its spring comes to nothing
+            lost += self.energy(mode, z) - self.energy(found, z)
         return Reaction(found, z, tuple(self._events(mode, found, time)), lost)
 
     def apart(self, place: FloatArray) -> float:
@@ -320,7 +322,9 @@ class _Rows:
         self.p = np.array([row @ self.system.shapes for row in self.rows]).reshape(count, self.n)
         self.on_base = np.array(sides)
         self.stiffness = np.array(touching)
-        self.left = np.array([[self._left(row, other) for other in self.rows] for row in self.rows]).reshape(count, count)
+        self.left = np.array([[self._left(row, other) for other in self.rows] for row in self.rows]).reshape(
+            count, count
+        )
         self.jammed = self.state.contact == JAMMED
         if self.system.bare:
             self.left[0, :] = self.left[:, 0] = 0.0
@@ -369,7 +373,9 @@ class _Rows:
                 self.base = self._signal(-1) if code == MOVED else self.zero
                 contact = -(apart * self.base + point @ free) / float(point @ point)
             else:
-                contact = -(apart / system.rest * pulled + point @ free) / (apart**2 / system.rest + float(point @ point))
+                contact = -(apart / system.rest * pulled + point @ free) / (
+                    apart**2 / system.rest + float(point @ point)
+                )
                 self.base = (pulled + apart * contact) / system.rest
             self.force = self.force.copy()
             self.force[0] = contact

@@ -3,7 +3,7 @@
 import math
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.crane.stacking import columns, model
+from ptmcalc.machines.crane.stacking import mast, model
 from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.scenes import Brake, Braked
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -73,12 +73,11 @@ def _ends_of_speed(spec: Stacker, scene: Braked, push: model.Push, speed: float,
     guide = spec.column.top_guide
     if guide is not None and guide.stiffness is not None:
         return 0.0, math.inf
-    base = model.base_mass(spec, scene, push.rotors)
-    beyond = (whole - base) / whole
-    stiffness = columns.stiffness(spec, scene) + min(columns.weight_stiffness(spec, scene), 0.0)
+    given = mast.swinging(spec, scene, push.rotors)
+    stiffness = given.stiffness + min(given.weight, 0.0)
     if stiffness <= 0:
         return 0.0, math.inf
-    swing = push.size * math.sqrt((1 / base - 1 / whole) / stiffness) * beyond
+    swing = push.size * math.sqrt((1 / given.base - 1 / whole) / stiffness) * (whole - given.base) / whole
     return speed - swing, speed + swing
 
 

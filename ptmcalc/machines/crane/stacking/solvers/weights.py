@@ -3,7 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import columns, model
+from ptmcalc.machines.crane.stacking import mast, model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.scenes import Stand
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -18,7 +18,7 @@ def run(spec: Stacker, scene: Stand, carried: frozenset[str], level: int) -> Res
     **Error** exact for that model.
     **Source** lecture notes Kramatorsk 2007 (`laws.mast`); balance.
     """
-    stiffness = columns.stiffness(spec, scene)
+    stiffness = mast.compliance(spec, "along").stiffness
     found = {
         "total_weight": Found(Estimate.exact(model.total_mass(spec, scene) * spec.gravity)),
         "column_stiffness": Found(Estimate.exact(stiffness)),
