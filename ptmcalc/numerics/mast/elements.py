@@ -2,10 +2,11 @@
 
     K = int E I w''^2 + N w'^2,   M = int m w^2,   N(z) = pull (mass beyond z)
 
-The unknowns are the deflection beside the base and the slope at each node. What is rigid is left out of the unknowns, so
-a root as stiff as a wall costs no digits. The elements are conforming: their frequencies are never too low.
+The unknowns are the deflection beside the base and the slope at each node. What is rigid is left out of the unknowns,
+so a root as stiff as a wall costs no digits. The elements are conforming: their frequencies are never too low.
 """
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -117,7 +118,7 @@ def elements(column: Column, count: int, marks: tuple[float, ...] = ()) -> Eleme
 def _cut(column: Column, count: int, marks: tuple[float, ...]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Places of the nodes, bending stiffness and mass per length of the elements between them."""
     ends = np.concatenate([[0.0], np.cumsum([segment.length for segment in column.segments])])
-    things = [part.place for part in (*column.lumps, *column.props)]
+    things = [*(lump.place for lump in column.lumps), *(prop.place for prop in column.props)]
     wanted = sorted({*ends.tolist(), *things, *marks})
     corners = [0.0]
     for place in wanted:
@@ -126,7 +127,7 @@ def _cut(column: Column, count: int, marks: tuple[float, ...]) -> tuple[FloatArr
         if place - corners[-1] > _SAME * column.length:
             corners.append(place)
     places: list[float] = [0.0]
-    for low, high in zip(corners[:-1], corners[1:], strict=True):
+    for low, high in itertools.pairwise(corners):
         parts = max(math.ceil(count * (high - low) / column.length * (1 - _SAME)), 1)
         places += (low + (high - low) * np.arange(1, parts + 1) / parts).tolist()
     middles = (np.array(places[1:]) + np.array(places[:-1])) / 2

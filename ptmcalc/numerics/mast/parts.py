@@ -77,7 +77,7 @@ class Column:
         masses += [number for lump in self.lumps for number in (lump.mass, lump.inertia)]
         if not all(0 <= number < math.inf for number in masses):
             raise NumericsError("NUM102", "a column and what it carries have no mass below 0")
-        places = [part.place for part in (*self.lumps, *self.props)]
+        places = [*(lump.place for lump in self.lumps), *(prop.place for prop in self.props)]
         if not all(0 <= place <= self.length * (1 + 1e-12) for place in places):
             raise NumericsError("NUM102", "what a column carries is on it")
         if not (math.isfinite(self.pull) and math.isfinite(sum(numbers[: 2 * len(self.segments)]))):

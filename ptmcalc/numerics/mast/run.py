@@ -90,13 +90,11 @@ def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False) ->
     mode, z = system.start()
     record = march(system, mode, z, end, refined=refined, keep=keep, most_events=MOST_EVENTS)
     put, damped = system.works(record.integrals)
-    before, after = system.energy(record.began, z), system.energy(record.mode, record.state)
+    before, after = system.energy(mode, z), system.energy(record.mode, record.state)
     fastest = max(abs(record.top.values[1]), abs(record.bottom.values[1]))
     scale = max(before, after, system.total * fastest**2 / 2, *(abs(work) for work in put.values()))
-    if record.began.contact != FREE:  # a shock at the very beginning is over by then
-        before = system.energy(mode, z)
     left = residual(sum(put.values()), damped + record.lost, after - before, scale)
-    return Course(case, system, record, left)
+    return Course(case, system, record, float(left))
 
 
 def _stays(course: Course) -> bool:

@@ -2,8 +2,8 @@
 
     x(t) = Re sum_k c_k e^(lambda_k t),   lambda_k = -zeta_k w_k + i w_k sqrt(1 - zeta_k^2)
 
-After the time at which the envelopes sum |c_k| e^(-sigma_k t) fit into the window nothing leaves it. Before, stretches of
-time are taken from the last one on: one is passed over where no point of it can be outside,
+After the time at which the envelopes sum |c_k| e^(-sigma_k t) fit into the window nothing leaves it. Before, stretches
+of time are taken from the last one on: one is passed over where no point of it can be outside,
 
     |x| <= |x(m)| + sum_k d_k,   d_k = min(|c_k| e^(-sigma_k a) |lambda_k| h/2, |c_k| e^(-sigma_k a) + |x_k(m)|)
 
@@ -30,8 +30,7 @@ _SLOW = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Ring:
-    """A free vibration from time 0 on: amplitudes c_k and rates lambda_k, shape (k,), complex; the damping rates are not
-    below 0."""
+    """A free vibration from time 0 on: amplitudes c_k and rates lambda_k, shape (k,), complex; none of them grows."""
 
     amplitudes: NDArray[np.complex128]
     rates: NDArray[np.complex128]
@@ -41,7 +40,7 @@ class Ring:
         """sum gains_k q_k of modes with the frequencies w, the damping ratios below 1, and such a state."""
         turning = w * np.sqrt(1 - ratios**2)
         sine = (rates + ratios * w * q) / turning
-        return cls(gains * (q - 1j * sine), -ratios * w + 1j * turning)
+        return cls(np.asarray(gains * (q - 1j * sine), complex), np.asarray(-ratios * w + 1j * turning, complex))
 
     def at(self, time: float) -> float:
         """x."""

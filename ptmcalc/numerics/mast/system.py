@@ -177,10 +177,10 @@ class MastSystem:
         if rigid and mode.contact == FREE and (found is None or self._meets(z)):
             lost = self._strike(now, z)
             found = next(self._holding(now._replace(contact=JAMMED), z), None)
-        elif self.damped:
-            lost = self.energy(mode, z) - self.energy(found, z)
         if found is None:
             raise NumericsError("NUM101", f"no state of the mast holds at {time:.9g} s")
+        if self.damped:  # what a contact that lets go keeps in its spring comes to nothing
+            lost += self.energy(mode, z) - self.energy(found, z)
         return Reaction(found, z, tuple(self._events(mode, found, time)), lost)
 
     def apart(self, place: FloatArray) -> float:
