@@ -23,8 +23,10 @@ HANGING, STANDING = "hanging", "standing"
 NOTES_RIGID, NOTES_ELASTIC = 0.236, 0.305
 """Shares of the column's mass at its tip of the lecture notes, for a rigid root and for one that gives."""
 
-_MEAN, _FIRST, _SQUARE = 3 / 8, 11 / 40, 33 / 140
-"""Integrals of q, s q and q^2 of the clamped shape q = (3 s^2 - s^3)/2."""
+FIRST_MOMENT = 11 / 40
+"""Integral of s q, q = (3 s^2 - s^3)/2 the shape of a clamped column."""
+_MEAN, _FIRST, _SQUARE = 3 / 8, FIRST_MOMENT, 33 / 140
+"""Integrals of q, s q and q^2."""
 _NEAR = 0.5
 _TERMS = 12
 

@@ -80,6 +80,13 @@ def swinging(spec: Stacker, scene: StackerScene, rotor_mass: float = 0.0) -> Swi
     return Swinging(gives, exact, _weight(spec, scene, gives))
 
 
+def standing(spec: Stacker, scene: StackerScene) -> mast_modes.Mast:
+    """The column over a base at rest, its head held by a top guide without play."""
+    guide = spec.column.top_guide
+    stiff = guide.stiffness if guide is not None and guide.gap == 0 else None
+    return replace(swinging(spec, scene).held, guide_stiffness=stiff or 0.0)
+
+
 def compliance(spec: Stacker, direction: model.Direction) -> mast.Compliance:
     """How far the far end of the column gives along the travel of bridge or base, or across it [m/N]."""
     column = spec.column

@@ -18,7 +18,9 @@ from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
 from ptmcalc.numerics.mast.run import Course, play, settled
 
-ALWAYS = frozenset({"mast_flexibility", "column_mass", "higher_modes", "brake_sticking", "obstacle_contact"})
+ALWAYS = frozenset(
+    {"mast_flexibility", "column_mass", "higher_modes", "brake_sticking", "obstacle_contact", "top_guide"}
+)
 GRAVITY = "mast_gravity"
 MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
 """Modes at the coarsest refinement, for a load that comes at once and at most; how often they are doubled, less one."""
