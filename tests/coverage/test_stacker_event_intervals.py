@@ -94,9 +94,9 @@ def sample(seed: int, of: Any, **fixed: Any) -> "list[dict[str, Any]]":
 @pytest.mark.parametrize(
     ("seed", "left_out", "whole"),
     [
-        (81, ("rack_elasticity", "motor_slope", "load_limiter"), False),
+        (81, ("rack_elasticity", "hoist_motor_slope", "load_limiter"), False),
         (82, ("rack_elasticity",), True),
-        (83, ("motor_slope",), True),
+        (83, ("hoist_motor_slope",), True),
     ],
 )
 def test_a_caught_fork(seed: int, left_out: tuple[str, ...], whole: bool) -> None:
@@ -111,14 +111,14 @@ def test_a_caught_fork(seed: int, left_out: tuple[str, ...], whole: bool) -> Non
 def test_a_soft_motor_on_a_rack_that_does_not_give() -> None:
     """There the bound is the work of the motor alone."""
     machines = [{**data, "rack": {"stiffness_push": "500 kN/m"}} for data in sample(84, caught)]
-    found = misses(machines, CAUGHT_STOPPED, CAUGHT_TRAIN, ("motor_slope",))
+    found = misses(machines, CAUGHT_STOPPED, CAUGHT_TRAIN, ("hoist_motor_slope",))
     assert found[1.0] == (0, 0)
     assert found[1 / 3][0] > 0
 
 
 def test_a_limiter_that_never_trips_needs_no_bound() -> None:
     machines = [changed(data, hoisting__limiter={"force": "1 MN", "reaction": "50 ms"}) for data in sample(85, caught)]
-    left_out = ("rack_elasticity", "motor_slope", "load_limiter")
+    left_out = ("rack_elasticity", "hoist_motor_slope", "load_limiter")
     assert misses(machines, CAUGHT_STOPPED, CAUGHT_TRAIN, left_out)[1.0] == (0, 0)
 
 

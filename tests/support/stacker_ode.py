@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -50,11 +51,11 @@ class Caught:
             knee = self.speed - (self.force - self.weight) / self.slope if self.slope else -math.inf
             flat = bool(self.slope) and y[2] < knee
 
-            def rope(y: State, taut: bool = taut) -> float:
-                return self.weight + self.rope * float(y[0] - y[1]) if taut else 0.0
+            def rope(y: State, taut: bool = taut) -> Any:
+                return self.weight + self.rope * (y[0] - y[1]) if taut else 0.0 * y[0]
 
-            def rack(y: State, touched: bool = touched) -> float:
-                return self.rack * float(y[1]) if touched else 0.0
+            def rack(y: State, touched: bool = touched) -> Any:
+                return self.rack * y[1] if touched else 0.0 * y[1]
 
             way = 0 if stuck else (1 if y[2] > 0 else -1)
 
@@ -113,15 +114,15 @@ class Caught:
         return best[0], best[1]
 
     @staticmethod
-    def _top(run: object, of: Callable[[State], float]) -> float:
-        """Largest value of a signal in a phase: about the best of many samples, by parabolas of nearer ones."""
-        low, high = run.t[0], run.t[-1]  # type: ignore[attr-defined]
+    def _top(run: Any, of: Callable[[State], Any]) -> float:
+        """Largest value of a signal in a phase: the best of many samples, again and again between its neighbours."""
+        low, high = run.t[0], run.t[-1]
         for _ in range(6):
             times = np.linspace(low, high, 401)
-            values = [of(run.sol(t)) for t in times]  # type: ignore[attr-defined]
+            values = of(run.sol(times))
             k = int(np.argmax(values))
             low, high = times[max(k - 1, 0)], times[min(k + 1, 400)]
-        return max(values)
+        return float(values.max())
 
 
 def pushed(mass: float, carriage: float, rack: float, support: float, speed: float, force: float, end: float) -> float:
@@ -137,7 +138,7 @@ def pushed(mass: float, carriage: float, rack: float, support: float, speed: flo
         leaves = _crossing(lambda y: float(y[0] - y[1]), -1 if touched else 1)
         run = solve_ivp(rate, (t, end), y, method="DOP853", rtol=_RTOL, atol=_ATOL, events=leaves, dense_output=True)
         if touched:
-            best = max(best, Caught._top(run, lambda y: rack * float(y[0] - y[1])))
+            best = max(best, Caught._top(run, lambda y: rack * (y[0] - y[1])))
         t, y, touched = float(run.t[-1]), run.y[:, -1].copy(), not touched
         if t < end and not len(run.t_events[0]):
             break
@@ -181,8 +182,8 @@ def rolled(
         run = solve_ivp(rate, (t, stop), y, method="DOP853", rtol=_RTOL, atol=_ATOL, events=leaves, dense_output=True,
                         max_step=lasts / 7)  # fmt: skip
         if on:
-            high = max(high, Caught._top(run, lambda y: -(frequency**2) * float(y[0]) / gravity))
-            low = min(low, -Caught._top(run, lambda y: frequency**2 * float(y[0]) / gravity))
+            high = max(high, Caught._top(run, lambda y: -(frequency**2) * y[0] / gravity))
+            low = min(low, -Caught._top(run, lambda y: frequency**2 * y[0] / gravity))
         t, y = float(run.t[-1]), run.y[:, -1].copy()
         if len(run.t_events[0]):
             on = not on

@@ -244,7 +244,7 @@ def matters(data: dict[str, Any], name: str) -> bool:
     return effect.criterion.exceeded
 
 
-IN_EVERY_RUN = {"fork_catching", "fork_pushing", "rail_unevenness", "safety_gear"}
+IN_EVERY_RUN = {"fork_catching", "fork_pushing", "aisle_rail", "safety_gear"}
 
 
 def verdict(data: dict[str, Any], code: str) -> str:
@@ -256,7 +256,7 @@ def verdict(data: dict[str, Any], code: str) -> str:
     [
         ("fork_catching", {"hoisting__speed": "5 mm/s"}, {"hoisting__speed": "0.3 m/s"}),
         ("rack_elasticity", {"rack__stiffness_vertical": "20 MN/m"}, {"rack__stiffness_vertical": "2 MN/m"}),
-        ("motor_slope", {"hoisting__drive__slope": "2 kN*s/m"}, {"hoisting__drive__slope": "40 kN*s/m"}),
+        ("hoist_motor_slope", {"hoisting__drive__slope": "2 kN*s/m"}, {"hoisting__drive__slope": "40 kN*s/m"}),
         (
             "load_limiter",
             {"hoisting__limiter": {"force": "90 kN", "reaction": "20 ms"}},
@@ -274,7 +274,7 @@ def test_effects_of_a_caught_fork_on_both_sides(effect: str, below: dict[str, An
     [
         ("fork_pushing", "fork_push", {"fork__speed": "4 mm/s"}, {}),
         ("column_yield", "fork_push", {"column__second_moment": "4000000 cm^4"}, {}),
-        ("rail_unevenness", "rail", {"travel__speed": "0.05 m/s"}, {}),
+        ("aisle_rail", "rail", {"travel__speed": "0.05 m/s"}, {}),
         ("wheel_lift", "rail", {}, {"rail__step": "6 mm", "travel__speed": "3.5 m/s"}),
     ],
 )
@@ -293,7 +293,7 @@ STRONG_MOTOR = {"hoisting__drive__largest_force": "34 kN"}
     ("effect", "code", "changes"),
     [
         ("rack_elasticity", "CRN284", {"checks__fork_caught_factor": 2.7}),
-        ("motor_slope", "CRN284", {"hoisting__drive__slope": "40 kN*s/m", "checks__fork_caught_factor": 3.0}),
+        ("hoist_motor_slope", "CRN284", {"hoisting__drive__slope": "40 kN*s/m", "checks__fork_caught_factor": 3.0}),
         (
             "load_limiter",
             "CRN284",
@@ -321,8 +321,8 @@ def test_wheels_that_jump_decide_a_verdict() -> None:
     """The factor of a wheel that stays on the rail decides nothing where it does not stay."""
     data = changed(RACK, rail__step="6 mm", travel__speed="3.5 m/s", scenes=[{"type": "rail"}])
     assert verdict(data, "CRN293") == "fail"
-    assert load(data, "phi4").solver == "rail_jump"
-    assert load(changed(RACK, scenes=[{"type": "rail"}]), "phi4").solver == "rail_answer"
+    assert load(data, "phi4").solver == "aisle_rail_jump"
+    assert load(changed(RACK, scenes=[{"type": "rail"}]), "phi4").solver == "aisle_rail_answer"
 
 
 def test_a_bound_decides_where_it_is_enough() -> None:

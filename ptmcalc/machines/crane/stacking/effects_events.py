@@ -17,9 +17,9 @@ from ptmcalc.spec.scene import Scene
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
 
-CATCHING, RACK, SLOPE, LIMITER = "fork_catching", "rack_elasticity", "motor_slope", "load_limiter"
+CATCHING, RACK, SLOPE, LIMITER = "fork_catching", "rack_elasticity", "hoist_motor_slope", "load_limiter"
 PUSHING, YIELDING = "fork_pushing", "column_yield"
-UNEVEN, JUMPING = "rail_unevenness", "wheel_lift"
+UNEVEN, JUMPING = "aisle_rail", "wheel_lift"
 GEAR = "safety_gear"
 
 CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import fork
 from ptmcalc.machines.crane.stacking.catching import MOTOR, Catch
@@ -16,7 +17,7 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 
 _SCENES = frozenset({ForkCaught})
 _ROPE = frozenset({"rope_force_caught", "fork_caught_factor"})
-_MARKS = frozenset({"combination_force[11.1,5]", "combination_force[11.2,4]"})
+_MARKS = frozenset({"combination_force"})
 
 
 def handbook(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
@@ -63,12 +64,12 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     whole = catch_of(spec, scene)
     case = whole.without(slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK not in carried)
     one = course(scene.label, case.train(), case.window(), case.readings)
+    found = dict(one.found)
     tripped = one.played.first(MOTOR, "started")
-    said: tuple[Finding, ...] = ()
     if tripped < one.played.record.time:
-        message = f"scene `{scene.label}`: the limiter trips {tripped:.3g} s after the fork is caught"
-        said = (Finding("NUM110", message, ("hoisting", "limiter", "force")),)
-    return one.result(with_derived(spec, scene, with_factor(one.found | reserve(spec, whole), case)), said)
+        rope, note = found["rope_force_caught"], f"the limiter trips {units.show(tripped, units.TIME)} after the catch"
+        found["rope_force_caught"] = Found(rope.estimate, rope.at, note)
+    return one.result(with_derived(spec, scene, with_factor(found | reserve(spec, whole), case)))
 
 
 def reserve(spec: Stacker, case: Catch) -> dict[str, Found]:

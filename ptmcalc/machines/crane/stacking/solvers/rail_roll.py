@@ -33,7 +33,7 @@ _GIVES = names(OF_THE_RAIL) | {
     "mast_force_max",
     "mast_moment_max",
     "column_stress",
-    "combination_force[11.2,5]",
+    "combination_force",
 }
 
 
@@ -155,7 +155,7 @@ def undamped(spec: RackStacker, scene: RailScene) -> Criterion | None:
 
 
 RAIL_STANDARD: Solver[RackStacker, RailScene] = Solver(
-    name="rail_standard",
+    name="aisle_rail_standard",
     title="phi4 of the standards",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
@@ -167,7 +167,7 @@ RAIL_STANDARD: Solver[RackStacker, RailScene] = Solver(
     decides=False,
 )
 RAIL_RESPONSE: Solver[RackStacker, RailScene] = Solver(
-    name="rail_answer",
+    name="aisle_rail_answer",
     title="answer of machine and column to an uneven rail, wheels on it",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
@@ -180,7 +180,7 @@ RAIL_RESPONSE: Solver[RackStacker, RailScene] = Solver(
     always=frozenset({UNEVEN}),
 )
 RAIL_JUMP: Solver[RackStacker, RailScene] = Solver(
-    name="rail_jump",
+    name="aisle_rail_jump",
     title="answer of machine and column to an uneven rail, wheels that may leave it",
     fidelity=Fidelity.TRANSIENT,
     scenes=_SCENES,
