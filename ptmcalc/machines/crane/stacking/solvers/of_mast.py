@@ -7,7 +7,7 @@ from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
 from ptmcalc.machines.crane.stacking.scenes import Stand
 from ptmcalc.machines.crane.stacking.solvers.mast_beam import MAST_BEAM
 from ptmcalc.machines.crane.stacking.solvers.mast_handbook import MAST_HANDBOOK
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL, MAST_MODAL, STANDING_MODAL
 from ptmcalc.machines.crane.stacking.solvers.mast_two_mass import MAST_TWO_MASS
 from ptmcalc.machines.crane.stacking.solvers.obstacle_energy import OBSTACLE_BOUND, OBSTACLE_ENERGY
 
@@ -32,4 +32,6 @@ SOLVERS_OF_MAST: tuple[AnySolver, ...] = (
     MAST_ELEMENTS,
     MAST_TWO_MASS,
     MAST_MODAL,
+    COLLISION_MODAL,
+    STANDING_MODAL,
 )
