@@ -1,6 +1,6 @@
 """The manifest of a machine kind: everything the rest of the house needs to know of it."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, S
+from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.spec.machine import MachineSpec
@@ -52,6 +53,9 @@ class MachineKind(Generic[S]):
     template: str
     assumptions: tuple[Assumption[S], ...] = ()
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
+    tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
+    """for a kind that has tables of its own: what they say of the scenes of a machine"""
+
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
     """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
 
@@ -81,6 +85,10 @@ class MachineKind(Generic[S]):
     def loads_of(self, spec: S) -> tuple[LoadInfo, ...]:
         """The loads of a machine."""
         return tuple(self.parts(spec)) if self.parts else self.loads
+
+    def tables_of(self, spec: S, scenes: Sequence[SceneReport]) -> tuple[TableReport, ...]:
+        """The tables of its own that a kind has of a machine."""
+        return tuple(self.tables(spec, scenes)) if self.tables else ()
 
     def load_info(self, spec: S, name: str) -> LoadInfo:
         """What is known of a load of a machine by its name."""

@@ -102,7 +102,8 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
-    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes)
+    tables = kind.tables_of(spec, scenes)
+    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, scenes, tables)
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:

@@ -1,9 +1,12 @@
-"""`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep."""
+"""`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep.
+
+A kind's own tables follow as `file: table ...` lines.
+"""
 
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement, count
-from ptmcalc.report import words
+from ptmcalc.report import tables, words
 
 _RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
 
@@ -26,7 +29,7 @@ def _lines(report: FileReport) -> list[str]:
         where = f"{report.path}:{words.place(judgement.blame.span)}"
         about = f"{judgement.code} {words.subject(judgement)} [{scene}]"
         lines.append(f"{where}: {judgement.verdict.value} {about}{_said(judgement)}")
-    return lines
+    return lines + [f"{report.path}: {line}" for table in report.tables for line in tables.lines(table)]
 
 
 def _said(judgement: Judgement) -> str:

@@ -54,17 +54,21 @@ class Fork(Fragment):
     """of the column against twisting, where the carriage is; rigid when left out"""
     arm: Arm = 0.0
     """of the pushing fork from the axis of the column, along the aisle"""
+    rating: PositiveForce | None = None
+    """largest force of the telescope; needed to check it"""
 
 
 class Rack(Fragment):
     """The rack at the fork."""
 
     stiffness_push: Stiffness | None = None
-    """against the fork that pushes; rigid when left out"""
+    """against the fork that pushes; with a `fork` it is needed"""
     stiffness_vertical: Stiffness | None = None
     """against the fork that lifts; rigid when left out"""
     rating_push: PositiveForce | None = None
-    """largest force of the fork on the rack; needed to check it"""
+    """largest force of the pushing fork on the rack; needed to check it"""
+    rating_vertical: PositiveForce | None = None
+    """largest force of the lifting fork on the rack; needed to check it"""
 
 
 class Waviness(Fragment):

@@ -29,6 +29,7 @@ OF_MOTION = (
     LoadInfo("mast_deflection_max", "largest swing of the far end of the column", units.LENGTH, governing=True),
     LoadInfo("mast_force_max", "largest force of the column", units.FORCE, governing=True),
     LoadInfo("mast_moment_max", "largest moment at the root of the column", units.TORQUE, governing=True),
+    LoadInfo("rest_deflection", "lean of the far end at rest under weights beside its axis", units.LENGTH),
     LoadInfo("settling_time", "from standstill until the far end stays in the window", units.TIME, governing=True),
 )
 OF_THE_OBSTACLE = (
@@ -41,6 +42,7 @@ OF_THE_BUFFERS = (
     LoadInfo("buffer_force", "force of a buffer", units.FORCE, governing=True),
     LoadInfo("buffer_stroke", "stroke of a buffer", units.LENGTH, governing=True),
     LoadInfo("buffer_speed_left", "speed at which the buffer bottoms out", units.SPEED),
+    LoadInfo("buffer_deceleration", "largest deceleration at the buffers", units.ACCELERATION),
     LoadInfo("phi7", "phi7, buffers", units.RATIO, governing=True),
 )
 OF_THE_FORK = (
@@ -48,6 +50,7 @@ OF_THE_FORK = (
     LoadInfo("fork_caught_factor", "force of the ropes of a caught fork over the weight", units.RATIO, governing=True),
     LoadInfo("rope_force_caught", "force of all falls at the carriage, fork caught", units.FORCE, governing=True),
     LoadInfo("rack_force", "force of the caught fork on the rack", units.FORCE, governing=True),
+    LoadInfo("limiter_reserve", "force of the limiter over that of a start upward", units.RATIO),
 )
 OF_THE_RAIL = (
     LoadInfo("phi4", "phi4, unevenness of the rail", units.RATIO, governing=True),
@@ -61,6 +64,9 @@ OF_THE_SAFETY_GEAR = (
     LoadInfo("safety_gear_factor", "force of the safety gear over the weight", units.RATIO),
     LoadInfo("safety_gear_deceleration", "deceleration of the carriage", units.ACCELERATION),
     LoadInfo("safety_gear_speed", "speed at which the safety gear grips", units.SPEED),
+    LoadInfo("safety_gear_drop", "free fall before it grips", units.LENGTH),
+    LoadInfo("safety_gear_moment", "moment of the safety gear on the column", units.TORQUE),
+    LoadInfo("safety_gear_shock", "force along the column at its foot", units.FORCE),
 )
 OF_STRENGTH = (
     LoadInfo("column_stress", "stress of the column", units.STRESS, governing=True),

@@ -12,6 +12,8 @@ from ptmcalc.machines.crane.stacking.assumptions import assumptions
 from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.checks_mast import CHECKS_OF_MAST
 from ptmcalc.machines.crane.stacking.checks_statics import CHECKS_OF_STATICS
+from ptmcalc.machines.crane.stacking.checks_strength import CHECKS_OF_STRENGTH
+from ptmcalc.machines.crane.stacking.combinations import tables
 from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
@@ -20,7 +22,7 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
 
 EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)
-CHECKS = (*CHECKS_OF_STATICS, *CHECKS_OF_MAST, *CHECKS_OF_EVENTS)
+CHECKS = (*CHECKS_OF_STATICS, *CHECKS_OF_STRENGTH, *CHECKS_OF_MAST, *CHECKS_OF_EVENTS)
 
 Piece = TypeVar("Piece", AnyEffect, AnySolver, AnyCheck)
 
@@ -45,4 +47,5 @@ def stacker(
         template=resources.files(package).joinpath("template.yaml").read_text("utf-8"),
         assumed=assumptions,
         parts=parts,
+        tables=tables,
     )

@@ -6,7 +6,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from ptmcalc.laws import inertia, reeving
+from ptmcalc.laws import carriage, inertia, reeving
 from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
@@ -132,6 +132,22 @@ def trolley_place(spec: OverheadStacker) -> float:
     return min(place, span - place)
 
 
+def weight(spec: Stacker, scene: StackerScene) -> float:
+    """Of carriage, cab and load [N]."""
+    return climbing_mass(spec, scene) * spec.gravity
+
+
+def eccentric_moment(spec: Stacker, scene: StackerScene, way: Direction) -> float:
+    """Of the weights of carriage, cab and load about the line of the ropes, with the sign of their arms [N*m]."""
+    across = way == "across"
+    climbs, cab = spec.carriage, spec.cab
+    moment = payload(spec, scene) * (climbs.load_arm_across if across else climbs.load_arm)
+    moment += climbs.mass * (climbs.own_arm_across if across else climbs.own_arm)
+    if cab is not None:
+        moment += cab.mass * (cab.arm_across if across else cab.arm)
+    return moment * spec.gravity
+
+
 # -- what drives and what brakes ------------------------------------------------------------------------------------
 
 
@@ -214,6 +230,17 @@ def tackle_efficiency(spec: Stacker) -> float:
     if rope.efficiency is not None:
         return rope.efficiency
     return reeving.tackle_efficiency(rope.falls // rope.ropes, filled(rope.sheave_efficiency))
+
+
+def lowering_efficiency(spec: Stacker) -> float:
+    """Of the tackle while it lowers [1]."""
+    rope = spec.hoisting.rope
+    falls = rope.falls // rope.ropes
+    if rope.efficiency is None:
+        return reeving.lowering_tackle_efficiency(falls, filled(rope.sheave_efficiency))
+    if falls == 1:
+        return rope.efficiency
+    return reeving.lowering_tackle_efficiency(falls, carriage.sheave_of_tackle(falls, rope.efficiency))
 
 
 def hoist_mass(spec: Stacker) -> float:

@@ -144,6 +144,8 @@ class Rollers(Fragment):
     """of rolling, a length; 0.3 to 0.6 mm on steel"""
     per_set: Annotated[int, Field(ge=1, le=8, strict=True)] = 1
     """rollers that share the reaction of a set"""
+    planes: Literal["separate", "joint"] | None = None
+    """whether each plane has rollers of its own, or one set bears both: between the two when left out"""
     rating: PositiveForce | None = None
     """largest load of one roller; needed to check it"""
 

@@ -44,11 +44,21 @@ class Stacker(MachineSpec):
         """The carriage stays on its column, in every scene; scenes have what they need."""
         yield from super().conflicts(given)
         yield from carriage_off_the_column(given)
+        yield from fork_without_a_rack(given)
         yield from scenes_that_lack(given)
 
     @property
     def settings(self) -> StackerChecks:
         return self.checks
+
+
+def fork_without_a_rack(given: Given) -> Iterator[Conflict]:
+    """What a fork runs against has to give a little: the force on a rigid rack has no limit."""
+    rack = given.block("rack")
+    if "fork" in given and rack is not None and "stiffness_push" not in rack:
+        where: tuple[str, ...] = ("rack",) if "rack" in given else ()
+        hint = "add `stiffness_push: 500 kN/m` to `rack`" if where else "add `rack: {stiffness_push: 500 kN/m}`"
+        yield Conflict(where, "a `fork` runs against a rack: its `stiffness_push` is missing", hint)
 
 
 def ends_of_column(given: Given) -> tuple[float, float] | None:
