@@ -473,6 +473,29 @@ def root_moment(force: float, total_mass: float, tip_mass: float, column_mass: f
     return 2 * force * (tip_mass / total_mass + column_mass / total_mass / 2) * length
 
 
+def leaning(moment: float, length: float, flexural_stiffness: float, root_stiffness: float, place: float) -> float:
+    """How far the tip of a column leans under a moment somewhere along it: weights that act beside its axis.
+
+        x = M s l (l - s l/2)/(E J) + M l/k
+
+    Args:
+        moment: M [N*m].
+        length: l [m].
+        flexural_stiffness: E J [N*m^2].
+        root_stiffness: k, of the root against turning, infinite for a rigid one [N*m].
+        place: s, of the moment, from the root over the length [1].
+
+    Returns:
+        x [m].
+
+    **Range** an even column, small deflections, a free tip; what weights do to the stiffness left out.
+    **Error** exact for that column.
+    **Source** bending of beams.
+    """
+    bent = place * (1 - place / 2) * (length / flexural_stiffness)
+    return moment * (bent + 1 / root_stiffness) * length
+
+
 # --- gravity ----------------------------------------------------------------------------------------------------
 
 

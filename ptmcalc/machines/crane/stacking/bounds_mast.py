@@ -1,4 +1,4 @@
-"""How far the column of two masses may be from one with all its modes, and a column without weights from one with them."""
+"""How far a column of two masses may be from one with all its modes, and one without weights from one with them."""
 
 import math
 from collections.abc import Mapping
@@ -35,8 +35,8 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
               + a (|h_s - h_1| + sum_(k > 1) |h_k|)           as it stops, a its deceleration; 2 a s_k along a ramp
               + 2 |x(w) - x(w_1)|                             two masses with the frequency of the exact column
 
-    s_k = 1, or 2/(w_k t_r) for what comes up in the time t_r: a mode is set off by each kink of it. The time in which the
-    swing settles is that of a window so much narrower or wider.
+    s_k = 1, or 2/(w_k t_r) for what comes up in the time t_r: a mode is set off by each kink of it. The time in which
+    the swing settles is that of a window so much narrower or wider.
 
     **Range** every start and stop of two masses.
     **Error** the sums are bounds; the factor of the last line is calibrated on a seeded sample.
@@ -118,7 +118,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
     At rest the work of the weights on any shape is at most r times its strain energy, r the share of the weight that
     buckles the column, so that by Courant's principle
 
-        c (1 - r) <= c' <= c (1 + r),   w_k (1 - r)^(1/2) <= w_k' <= w_k (1 + r)^(1/2)
+        w_k (1 - r)^(1/2) <= w_k' <= w_k (1 + r)^(1/2)
 
     where a column that hangs only gets stiffer, one that stands only softer. Of a start or stop twice the difference of
     two runs of two masses, with weights and without; of a collision twice what the stiffness changes.
@@ -134,9 +134,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
     told = {}
     for name, one in loads.items():
         value = one.value
-        if name == "column_stiffness":
-            told[name] = Interval(value * low, value * high)
-        elif name.startswith("natural_frequency"):
+        if name.startswith("natural_frequency"):
             told[name] = Interval(value * (math.sqrt(1 + low) - 1), value * (math.sqrt(1 + high) - 1))
         elif name == "period":
             told[name] = Interval(value * (1 / math.sqrt(1 + high) - 1), value * (1 / math.sqrt(1 + low) - 1))
@@ -147,7 +145,8 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         rise = _GRAVITY * abs(given.weight) / given.stiffness
         for name in ("collision_force", "collision_deflection", "contact_force"):
             if name in loads and math.isfinite(loads[name].value):
-                told[name] = Interval(-rise * loads[name].value, rise * loads[name].value)
+                size = rise * loads[name].value
+                told[name] = Interval(-min(size, max(loads[name].low, 0.0)), size)
         return bounds_of_derived(spec, scene, loads, told)
     assert isinstance(scene, DrivenScene)
     try:

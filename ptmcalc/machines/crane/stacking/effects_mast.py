@@ -128,7 +128,9 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
     """
     if turns(spec, scene):
         return {}
-    return _anything(loads) if guided(spec) else bounds_mast.modes_bound(spec, scene, loads)
+    if guided(spec):
+        return _anything(loads)
+    return bounds_mast.modes_bound(spec, scene, loads)
 
 
 # -- weights --------------------------------------------------------------------------------------------------------
@@ -151,11 +153,11 @@ def gravity_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
 
 
 def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
-    """What weights may do to stiffness, frequencies and swing.
+    """What weights may do to frequencies and swing.
 
     **Range** every column that its weights do not buckle; of a motion with a guided head nothing is known.
-    **Error** of stiffness and frequencies derived; of a motion twice the difference of two runs of two masses, calibrated
-    on a seeded sample: `bounds_mast.gravity_bound`.
+    **Error** of frequencies derived; of a motion twice the difference of two runs of two masses, calibrated on a seeded
+    sample: `bounds_mast.gravity_bound`.
     **Source** minimum and maximum principles of Rayleigh and Courant; `numerics.mast`.
     """
     if turns(spec, scene):
@@ -195,6 +197,7 @@ def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """
     if turns(spec, scene):
         return None
+    meaning = "pull of the swinging column after the stop over what holds the base"
     one, push = _given(spec, scene)
     value = 0.0
     if push.kind == "force":
@@ -203,7 +206,6 @@ def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
         r = m22 * whole / (m11 * m22 - m12 * m12) - 1
         lag = law.static_lag(2.0, 1.0, m11, m12, m22)
         value = lag * ((1 + r) / (2 * math.sqrt(r)) if r > 1 else 1.0)
-    meaning = "pull of the swinging column after the stop over what holds the base"
     return Criterion("F/P", value, HOLDING_THRESHOLD, meaning, "laws.mast")
 
 

@@ -1,14 +1,13 @@
 """The column as two coupled masses, marched from event to event: one shape, the consistent masses of it."""
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 from ptmcalc.laws import mast as law
-from ptmcalc.machines.crane.stacking import march, model
+from ptmcalc.machines.crane.stacking import march
 from ptmcalc.machines.crane.stacking.march import Happening
-from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
+from ptmcalc.machines.crane.stacking.mast import swinging
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of

@@ -7,7 +7,7 @@ from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast_modes
 from ptmcalc.machines.crane.stacking.loads import MODES
-from ptmcalc.machines.crane.stacking.mast import standing, swinging
+from ptmcalc.machines.crane.stacking.mast import rest_deflection, standing, swinging
 from ptmcalc.machines.crane.stacking.scenes import Brake, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of, travels
@@ -31,6 +31,8 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
     frequencies = [mast_modes.mast_frequency(one, k + 1) for k in range(len(MODES))]
     loads = {of("natural_frequency", mode): w for mode, w in zip(MODES, frequencies, strict=True)}
     loads |= {"column_stiffness": stiffness, "period": 2 * math.pi / frequencies[0]}
+    if not isinstance(scene, Stand):
+        loads["rest_deflection"] = rest_deflection(spec, scene)
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=len(MODES))
 
 
@@ -40,7 +42,7 @@ MAST_BEAM: Solver[Stacker, StackerScene] = Solver(
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Stand, Start, Brake}),
     represents=frozenset(),
-    gives=frozenset({"column_stiffness", "natural_frequency", "period"}),
+    gives=frozenset({"column_stiffness", "natural_frequency", "period", "rest_deflection"}),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-3,
     valid=travels,

@@ -6,8 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast, mast_modes
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.derived import with_derived
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -21,7 +20,7 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
     """Deflection, force and frequency of the column as the lecture notes write them.
 
         m_2 = m + k m_c,   k = 0.236 for a rigid root, 0.305 for one that gives;   m_1 without any of the column
-        x = 2 P m_2/(c (m_1 + m_2)),   F = c x,   w = (c (m_1 + m_2)/(m_1 m_2))^(1/2),   t = v (m_1 + m_2)/P
+        x = 2 P m_2/(c (m_1 + m_2)),   F = c x,   w = (c (m_1 + m_2)/(m_1 m_2))^(1/2)
 
     A base that keeps to a ramp of speed has x = 2 a m_2/c and w = (c/m_2)^(1/2).
 
@@ -34,16 +33,14 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
     kept, c = coefficient(one), one.stiffness
     tip = one.exact.tip_mass + kept * one.exact.column_mass
     base = one.base + one.exact.root_mass
-    speed = model.speed(spec, scene)
     if push.size <= 0:
         return Result({}, work=1)
     if push.kind == "ramp":
-        deflection, time, frequency = 2 * push.size * tip / c, speed / push.size, math.sqrt(c / tip)
+        deflection, frequency = 2 * push.size * tip / c, math.sqrt(c / tip)
     else:
         deflection = mast.notes_deflection(push.size, c, base, one.exact.tip_mass, one.exact.column_mass, kept)
-        time, frequency = speed * (base + tip) / push.size, math.sqrt(c / base + c / tip)
+        frequency = math.sqrt(c / base + c / tip)
     loads = {
-        "start_time" if isinstance(scene, Start) else "brake_time": time,
         "mast_deflection_max": deflection,
         "mast_force_max": c * deflection,
         "mast_moment_max": c * deflection * spec.column.length,
@@ -104,16 +101,14 @@ MAST_HANDBOOK: Solver[Stacker, DrivenScene] = Solver(
     represents=frozenset(),
     gives=frozenset(
         {
-            "start_time",
-            "brake_time",
             "mast_deflection_max",
             "mast_force_max",
             "mast_moment_max",
             "natural_frequency",
             "period",
-            "combination_force",
         }
-    ),
+    )
+    | DERIVED,
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
     valid=travels,

@@ -37,7 +37,7 @@ _BLOW = 1.5
 _COMPARED = 0.7
 """Panels of the run that a bar is found with, over the usual ones."""
 _DOUBLINGS = 5
-_FREQUENCIES = 24
+_FREQUENCIES = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,13 +149,10 @@ def _of_the_column(built: Built, base: float) -> dict[str, Found]:
     found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
     lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
     for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
-        estimate = Estimate(value, value - doubt, value * (1 + 1e-11), numerical=doubt)
-        found[of("natural_frequency", mode)] = Found(estimate)
+        found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
         if mode == MODES[0]:
             swing = 2 * math.pi / value
-            found["period"] = Found(
-                Estimate(swing, swing, 2 * math.pi / (value - doubt), numerical=swing * doubt / value)
-            )
+            found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
     return found
 
 

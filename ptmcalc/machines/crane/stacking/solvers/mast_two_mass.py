@@ -10,8 +10,8 @@ from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import march
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
-from ptmcalc.machines.crane.stacking.names_mast import FLEXIBLE, GRAVITY, HOLDING, MASS
 from ptmcalc.machines.crane.stacking.mast import swinging
+from ptmcalc.machines.crane.stacking.names_mast import FLEXIBLE, GRAVITY, HOLDING, MASS
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
@@ -28,8 +28,8 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
 
         m_22 x'' + b x' + c x = -(m_12 + m_22) u'',   (m_11 + 2 m_12 + m_22) u'' + (m_12 + m_22) x'' = P(t)
 
-    The base slips or is held, by a brake that sticks or a drive that keeps its speed; each change is a root of the exact
-    motion, and so is each peak. The moment is that of the inertia of the column in its shape, and of the load.
+    The base slips or is held, by a brake that sticks or a drive that keeps its speed; each change is a root of the
+    exact motion, and so is each peak. The moment is that of the inertia of the column in its shape, and of the load.
 
     **Range** the shape of a force at the far end; no guide at the head.
     **Error** of two masses rounding, which the balance of energy tells; what the shape leaves out is the bound of the

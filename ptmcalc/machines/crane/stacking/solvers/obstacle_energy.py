@@ -1,4 +1,4 @@
-"""The column that runs into an obstacle, by its energy: the notes' formula, and the bound that holds for any contact."""
+"""The column that runs into an obstacle: the energy formula of the notes, and the bound that holds for any contact."""
 
 import math
 
@@ -7,14 +7,16 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, obstacle
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.derived import with_derived
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, MASS
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 SCENES = frozenset({ObstacleScene})
-GIVES = frozenset({"collision_force", "collision_deflection", "collision_speed", "contact_force", "combination_force"})
+ALWAYS = frozenset({FLEXIBLE, MASS, CONTACT})
+GIVES = DERIVED | frozenset({"collision_force", "collision_deflection", "collision_speed", "contact_force"})
 
 
 def pushed(spec: Stacker, scene: ObstacleScene) -> float:
@@ -84,11 +86,10 @@ def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: i
         met = spec.obstacle
         give = 1.0 if met is not None and met.stiffness is not None else 0.0  # a spring: its force over a metre
         contact = met.stiffness if met is not None and met.stiffness is not None else 1.0
-        stiffness = one.stiffness + max(one.weight, 0.0)  # weights make the energy of a deflection larger
+        stiffness = one.stiffness + (max(one.weight, 0.0) if GRAVITY in carried else 0.0)
         most = obstacle.column_force_bound(one.total, stiffness, v, max(push, 0.0), contact, give, 1.0)
-        softest = obstacle.column_force_bound(one.total, one.stiffness, v, max(push, 0.0), contact, give, 1.0)
-        loads["collision_force"] = _below(max(most, softest))
-        loads["collision_deflection"] = _below(softest / one.stiffness)
+        loads["collision_force"] = _below(most * one.stiffness / stiffness)  # the column's own part
+        loads["collision_deflection"] = _below(most / stiffness)
     found = {name: Found(estimate) for name, estimate in loads.items()}
     return Result(with_derived(spec, scene, found), work=1)
 
@@ -114,9 +115,10 @@ OBSTACLE_BOUND: Solver[Stacker, ObstacleScene] = Solver(
     title="most the column can get: all energy bends it",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
-    represents=frozenset({"mast_flexibility", "column_mass", "higher_modes", "obstacle_contact", "mast_gravity"}),
+    represents=ALWAYS | {GRAVITY},
     gives=GIVES - {"contact_force"},
     run=bound,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="derived: energy",
+    always=ALWAYS,
 )
