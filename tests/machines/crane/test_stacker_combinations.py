@@ -120,7 +120,8 @@ CHANGES = [
     ),
     (OVERHEAD, {"scenes__10__speed_share": 0.55}, {"11.1,4"}),
     (OVERHEAD, {"hoisting__speed": "0.21 m/s"}, {"11.1,5"}),
-    (RACK, {"travel__speed": "2.1 m/s"}, {"11.2,5"}),
+    (RACK, {"travel__speed": "2.1 m/s"}, {"11.2,2", "11.2,5"}),  # of starts, stops and the rail
+    (RACK, {"rail__step": "0.6 mm"}, {"11.2,5"}),
     (RACK, {"travel__acceleration": "0.42 m/s^2"}, {"11.2,2"}),
     (RACK, {"fork__speed": "0.31 m/s"}, {"11.2,3"}),
     (RACK, {"hoisting__speed": "0.61 m/s"}, {"11.2,4"}),
