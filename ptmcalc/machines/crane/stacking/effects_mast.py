@@ -101,36 +101,34 @@ def mass_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
     return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mass of the column over what climbs it", "laws.mast")
 
 
-def modes_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Criterion | None:
+def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """Whether the second mode is set off, or has much to move.
 
         max( T_2/(0.2 t_r), m_c/(2 m_2) )
 
-    **Range** starts and stops; without end for a sudden force and for a collision.
+    **Range** starts and stops; without end for a sudden force.
     **Error** an engineering measure.
     **Source** modal analysis; thresholds of the theory of this tool.
     """
     if turns(spec, scene):
         return None
-    rise = math.inf
-    if not isinstance(scene, ObstacleScene):
-        one, push = _given(spec, scene)
-        rise = _period(one, push, 2) / push.rise / RISE_OF_MODES if push.rise > 0 else math.inf
+    one, push = _given(spec, scene)
+    rise = _period(one, push, 2) / push.rise / RISE_OF_MODES if push.rise > 0 else math.inf
     heavy = spec.column.mass / model.climbing_mass(spec, scene) / MASS_OF_MODES
     meaning = "second mode over the rise of the load, column over the load, each over its threshold"
     return Criterion("T₂/t_r, m_c/m_2", max(rise, heavy), MODES_THRESHOLD, meaning, "modal analysis")
 
 
-def modes_bound(spec: Stacker, scene: DrivenScene | ObstacleScene, loads: Loads) -> Offsets:
+def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
     """What all modes but the one shape of two masses may change, from exact sums over the modes.
 
-    **Range** starts and stops of a column whose head is free; with a guide, and of a collision, nothing is known.
+    **Range** starts and stops of a column whose head is free; with a guide nothing is known.
     **Error** derived but for one factor that is calibrated on a seeded sample: `bounds_mast.modes_bound`.
     **Source** modal analysis.
     """
     if turns(spec, scene):
         return {}
-    if guided(spec) or isinstance(scene, ObstacleScene):
+    if guided(spec):
         return _anything(loads)
     return bounds_mast.modes_bound(spec, scene, loads)
 
@@ -188,20 +186,18 @@ def contact_criterion(spec: Stacker, scene: ObstacleScene) -> Criterion:
     return Criterion("v√(c m_1)/W", value, CONTACT_THRESHOLD, "force of the collision over the brake's", "laws.buffer")
 
 
-def holding_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Criterion | None:
+def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """What the column asks of the brake, or of a drive that keeps its speed, after the stop, over what that has.
 
         2 (m_12 + m_22)/m max(1, (1 + r)/(2 r^(1/2))),   1 + r = m_22 m/(m_11 m_22 - m_12^2)
 
-    **Range** starts and stops by a force; 0 along a ramp of speed; of a collision v (c m_1)^(1/2)/W. In every run.
+    **Range** starts and stops by a force; 0 along a ramp of speed. It is in every run.
     **Error** exact at worst for two masses and a sudden force without damping: above 1 the base may slip again.
     **Source** `laws.mast.after_stop_ratio`.
     """
     if turns(spec, scene):
         return None
     meaning = "pull of the swinging column after the stop over what holds the base"
-    if isinstance(scene, ObstacleScene):
-        return Criterion("F/P", contact_criterion(spec, scene).value, HOLDING_THRESHOLD, meaning, "laws.buffer")
     one, push = _given(spec, scene)
     value = 0.0
     if push.kind == "force":
@@ -247,9 +243,9 @@ def guide_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
 EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
     Effect(FLEXIBLE, "column that bends", BENT, flexible_criterion, anything_bound),
     Effect(MASS, "mass of the column", BENT, mass_criterion, anything_bound),
-    Effect(MODES, "higher modes of the column", BENT, modes_criterion, modes_bound, calibrated=True),
+    Effect(MODES, "higher modes of the column", DRIVEN, modes_criterion, modes_bound, calibrated=True),
     Effect(GRAVITY, "weights on the bent column", BENT | {Stand}, gravity_criterion, gravity_bound, calibrated=True),
     Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
-    Effect(HOLDING, "what holds the base after the stop", BENT, holding_criterion, anything_bound),
-    Effect(GUIDE, "guide at the head of the column", BENT, guide_criterion, guide_bound),
+    Effect(HOLDING, "what holds the base after the stop", DRIVEN, holding_criterion, anything_bound),
+    Effect(GUIDE, "guide at the head of the column", DRIVEN, guide_criterion, guide_bound),
 )

@@ -9,13 +9,13 @@ from ptmcalc.laws import buffer, obstacle
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
-from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, HOLDING, MASS, MODES
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, MASS
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 SCENES = frozenset({ObstacleScene})
-ALWAYS = frozenset({FLEXIBLE, MASS, MODES, CONTACT, HOLDING})
+ALWAYS = frozenset({FLEXIBLE, MASS, CONTACT})
 GIVES = DERIVED | frozenset({"collision_force", "collision_deflection", "collision_speed", "contact_force"})
 
 
