@@ -10,24 +10,25 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import rail
 from ptmcalc.machines.crane.stacking.derived import with_derived
 from ptmcalc.machines.crane.stacking.effects_events import JUMPING, UNEVEN
-from ptmcalc.machines.crane.stacking.events import Roll, roll_of, wheel_load
+from ptmcalc.machines.crane.stacking.events import Roll, Swinger, roll_of, wheel_load
 from ptmcalc.machines.crane.stacking.loads import OF_THE_RAIL, names
-from ptmcalc.machines.crane.stacking.marching import Course, course
+from ptmcalc.machines.crane.stacking.marching import Course, compared
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.rolling import (
-    column_readings,
-    column_trains,
+    DOWN,
+    column_stages,
     detuning,
-    machine_trains,
+    machine_stages,
+    pulses,
     swing_loads,
     wave_share,
     wave_swing,
-    wheel_readings,
 )
 from ptmcalc.machines.crane.stacking.scenes import RailScene
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL
 
 _SCENES = frozenset({RailScene})
+STILL = Estimate.exact(0.0)
 _GIVES = names(OF_THE_RAIL) | {
     "mast_deflection_max",
     "mast_force_max",
@@ -93,11 +94,7 @@ def jump(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: in
     roll = roll_of(spec, scene)
     waves, _ = _waves(roll)
     free, held = (
-        [
-            course(scene.label, train, window, lambda played: wheel_readings(played, roll.gravity))
-            for train, window in machine_trains(roll, law)
-        ]
-        for law in (NO_PULL, LINEAR)
+        [compared(scene.label, machine_stages(roll, pulse, law)) for pulse in pulses(roll)] for law in (NO_PULL, LINEAR)
     )
     runs = [*free, *held]
     tops = [one.found["phi4"] for one in free] + [Found(Estimate.exact(1 + waves))]
@@ -128,20 +125,26 @@ def _result(spec: RackStacker, scene: RailScene, roll: Roll, loads: Mapping[str,
         found["rail_detuning"] = Found(Estimate.exact(apart))
     if roll.column is not None:
         column = roll.column
-        swings = [
-            course(scene.label, train, window, lambda played: column_readings(played, column))
-            for train, window in column_trains(roll, column)
-        ]
+        swings, swung = _swings(scene, roll, column)
         steady = swing_loads(wave_swing(roll, column), column)
         for name, value in steady.items():
-            largest = [one.found[name] for one in swings] + [Found(Estimate.exact(value))]
-            found[name] = max(largest, key=lambda one: one.estimate.value)
+            found[name] = max([swung[name], Found(Estimate.exact(value))], key=lambda one: one.estimate.value)
         runs = [*runs, *swings]
     findings: tuple[Finding, ...] = tuple(finding for one in runs for finding in one.findings)
-    residual = max((one.played.ledger.residual for one in runs), default=0.0)
+    residual = max((one.residual for one in runs), default=0.0)
     work = sum(one.work for one in runs) + 1
     health = {"energy_residual": residual} if runs else {}
     return Result(with_derived(spec, scene, found), work=work, health=health, findings=findings)
+
+
+def _swings(scene: RailScene, roll: Roll, column: Swinger) -> tuple[list[Course], dict[str, Found]]:
+    """The column's runs over step and gap, and the largest of its loads."""
+    runs = [compared(scene.label, column_stages(roll, column, pulse)) for pulse in pulses(roll) if pulse.name != DOWN]
+    largest = {
+        name: max([one.found[name] for one in runs], key=lambda one: one.estimate.value, default=Found(STILL))
+        for name in swing_loads(0.0, column)
+    }
+    return runs, largest
 
 
 def undamped(spec: RackStacker, scene: RailScene) -> Criterion | None:
