@@ -23,8 +23,10 @@ HANGING, STANDING = "hanging", "standing"
 NOTES_RIGID, NOTES_ELASTIC = 0.236, 0.305
 """Shares of the column's mass at its tip of the lecture notes, for a rigid root and for one that gives."""
 
-_MEAN, _FIRST, _SQUARE = 3 / 8, 11 / 40, 33 / 140
-"""Integrals of q, s q and q^2 of the clamped shape q = (3 s^2 - s^3)/2."""
+FIRST_MOMENT = 11 / 40
+"""Integral of s q, q = (3 s^2 - s^3)/2 the shape of a clamped column."""
+_MEAN, _FIRST, _SQUARE = 3 / 8, FIRST_MOMENT, 33 / 140
+"""Integrals of q, s q and q^2."""
 _NEAR = 0.5
 _TERMS = 12
 
@@ -469,6 +471,29 @@ def root_moment(force: float, total_mass: float, tip_mass: float, column_mass: f
     **Source** derived: inertia of load and column.
     """
     return 2 * force * (tip_mass / total_mass + column_mass / total_mass / 2) * length
+
+
+def leaning(moment: float, length: float, flexural_stiffness: float, root_stiffness: float, place: float) -> float:
+    """How far the tip of a column leans under a moment somewhere along it: weights that act beside its axis.
+
+        x = M s l (l - s l/2)/(E J) + M l/k
+
+    Args:
+        moment: M [N*m].
+        length: l [m].
+        flexural_stiffness: E J [N*m^2].
+        root_stiffness: k, of the root against turning, infinite for a rigid one [N*m].
+        place: s, of the moment, from the root over the length [1].
+
+    Returns:
+        x [m].
+
+    **Range** an even column, small deflections, a free tip; what weights do to the stiffness left out.
+    **Error** exact for that column.
+    **Source** bending of beams.
+    """
+    bent = place * (1 - place / 2) * (length / flexural_stiffness)
+    return moment * (bent + 1 / root_stiffness) * length
 
 
 # --- gravity ----------------------------------------------------------------------------------------------------

@@ -736,6 +736,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     mast.rise_factor: [(0.3,), (0.0,)],
     mast.after_stop_ratio: [(2.1, 0.5), (2.1, 3.0)],
     mast.root_moment: [(9e3, 7e3, 1800.0, 1200.0, 6.0)],
+    mast.leaning: [(1e4, 6.0, 4.2e7, k, 0.8) for k in (3e7, np.inf)],
     mast.gravity_stiffness: [(2e4, 1.2e4, 6.0, 0.3, 0.1, attitude) for attitude in ATTITUDES],
     mast.weighted_tip_compliance: [
         (6.0, 4.2e7, 3e7, weight, attitude) for weight in (0.0, 2e4, 9e5) for attitude in ATTITUDES

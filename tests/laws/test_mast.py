@@ -221,6 +221,17 @@ class TestMotion:
         )
 
 
+class TestLeaning:
+    @pytest.mark.parametrize("rotation", [0.0, 3e-8])
+    @pytest.mark.parametrize("place", [1.0, 0.6])
+    def test_against_finite_elements(self, rotation: float, place: float) -> None:
+        stiffness, _ = beam(6.0, 4.2e7, 0.0, 10, root_rotation=rotation)
+        turned = round(10 * place) * 2 + (0 if rotation else -1)
+        expected = np.linalg.solve(stiffness, np.eye(len(stiffness))[:, turned] * 1e4)[-2]
+        found = mast.leaning(1e4, 6.0, 4.2e7, 1 / rotation if rotation else math.inf, place)
+        assert found == pytest.approx(expected, rel=1e-9)
+
+
 class TestGravity:
     @pytest.mark.parametrize("attitude", ["hanging", "standing"])
     @pytest.mark.parametrize("rotation", [0.0, 5e-8])

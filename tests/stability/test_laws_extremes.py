@@ -413,6 +413,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "rise_factor": (mast.rise_factor, lambda d: tuple(d.positive(1))),
     "after_stop_ratio": (mast.after_stop_ratio, lambda d: tuple(d.positive(2))),
     "root_moment": (mast.root_moment, lambda d: tuple(d.positive(5))),
+    "leaning": (mast.leaning, lambda d: (*d.positive(4), d.share())),
     "gravity_stiffness": (
         mast.gravity_stiffness,
         lambda d: (*d.positive(3), *shares_of_a_root(d), "hanging"),

@@ -23,6 +23,7 @@ _RISE_PERIODS = 5.0
 FEWEST = 2
 _COARSE = 2
 """Times as many elements as those a bar is found with."""
+_ROUNDING = 4 * float(np.finfo(float).eps)
 _BAR = 1.0
 """Share of the difference to half as many elements that a frequency may be wrong by; the fourth power says 1/15."""
 
@@ -105,7 +106,7 @@ class Frequencies:
     bars: FloatArray
 
 
-def frequencies(column: Column, number: int, base: float = math.inf, count: int = 32) -> Frequencies:
+def frequencies(column: Column, number: int, base: float = math.inf, count: int = 16) -> Frequencies:
     """The lowest frequencies of a column, on a base that is held or that rolls.
 
     Args:
@@ -115,13 +116,13 @@ def frequencies(column: Column, number: int, base: float = math.inf, count: int 
         count: elements.
 
     **Error** told: the elements are conforming, so a frequency is too high, by about 1/15 of what half as many elements
-    change it; the bar is the whole of that change, and rounding.
+    change it; the bar is the whole of that change, and rounding, which grows as the fourth power of their number.
     **Source** module docstring; Rayleigh's principle.
     """
     fine, coarse = (_lowest(column, one, base) for one in (_COARSE * count, count))
     number = min(number, len(fine), len(coarse))
     values = fine[:number]
-    bars = _BAR * np.abs(coarse[:number] - values) + 1e-11 * values
+    bars = _BAR * np.abs(coarse[:number] - values) + _ROUNDING * (_COARSE * count) ** 4 * values
     return Frequencies(values, np.asarray(bars))
 
 

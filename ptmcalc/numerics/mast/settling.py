@@ -122,7 +122,9 @@ def _last(ring: Ring, window: float, lean: float) -> tuple[float, float]:
                 waiting = [(middle, ends)]
             else:
                 high = max(high, ends)
-        elif ends - begins <= finest:
+        elif (
+            ends - begins <= finest or reach <= slack
+        ):  # a summit that only touches cannot be told from one that leaves
             high = max(high, ends)
         else:
             waiting += [(begins, middle), (middle, ends)]

@@ -171,6 +171,8 @@ class MastSystem:
         while now.stretch + 1 < len(self.breaks) and time >= self.breaks[now.stretch + 1] * (1 - _LATE):
             now = now._replace(stretch=now.stretch + 1)
             z[self.clock] = 0.0
+        if mode.contact == JAMMED:
+            self._stand_still(z)
         self._calm(z)
         found = next(self._holding(now, z), None)
         rigid = self.case.obstacle is not None and math.isinf(self.case.obstacle.stiffness)
@@ -238,6 +240,16 @@ class MastSystem:
         way = float(z[0] + place @ z[2 : 2 + self.count]) - self.case.obstacle.gap
         rate = float(z[1] + place @ z[2 + self.count : self.own])
         return way >= -1e-12 * float(self.scale[0]) and rate > 1e-12 * float(self.scale[1])
+
+    def _stand_still(self, z: FloatArray) -> None:
+        """A point that has stood still is where it was, to the last digit."""
+        assert self.case.obstacle is not None
+        place = self.case.mast.at(self.case.obstacle.place)[: self.count]
+        size = float(place @ place)
+        off = float(z[0] + place @ z[2 : 2 + self.count]) - self.case.obstacle.gap
+        z[2 : 2 + self.count] -= place * (off / size)
+        rate = float(z[1] + place @ z[2 + self.count : self.own])
+        z[2 + self.count : self.own] -= place * (rate / size)
 
     def _strike(self, now: State, z: FloatArray) -> float:
         """The struck point stops dead; the energy that is lost. A base that is moved keeps its speed."""
@@ -428,7 +440,7 @@ class _Rows:
         if self.case.guide is not None:
             side, way = self.state.guide, self.apart[-1]
             gap = self.case.guide.gap * self.one
-            rows += [side * way] if side else [gap - way, gap + way]
+            rows += [-side * self.force[-1] / self.case.guide.stiffness] if side else [gap - way, gap + way]
         return np.array(rows).reshape(len(rows), self.size)
 
     def _contact_guards(self, obstacle: Obstacle) -> list[FloatArray]:
@@ -437,8 +449,8 @@ class _Rows:
             return [-self.force[0]]
         if contact == FREE:
             return [-apart]
-        if not self.system.damped:
-            return [apart]
+        if not self.system.damped:  # by the force: of a hard contact nothing is left of how far it gives but rounding
+            return [-self.force[0] / obstacle.stiffness]
         pushes = obstacle.stiffness * apart + obstacle.damping * self.dash_rate
         return [apart, pushes if contact == TOUCH else -pushes]
 

@@ -6,12 +6,12 @@ Each derived load rises or falls evenly with each load it comes from, so that it
 """
 
 import itertools
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found, of
 from ptmcalc.machines.crane.stacking import strength
-from ptmcalc.machines.crane.stacking.loads import COMBINATIONS, SIDES
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -61,24 +61,21 @@ def derived(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) -> d
     return found
 
 
-DERIVED = frozenset(
-    {"combination_force", "column_stress", "bridge_stress", "stability_reserve"}
-    | {of("stability_reserve", side) for side in SIDES}
-    | {of("combination_force", number) for numbers in COMBINATIONS.values() for number in numbers}
-)
-"""Names of all that may follow: part of what a solver of an event gives."""
+DERIVED = frozenset({"combination_force", "column_stress", "bridge_stress", "stability_reserve"})
+"""Families of all that may follow: part of what a solver of an event gives."""
 
 
 def with_derived(spec: Stacker, scene: StackerScene, found: Mapping[str, Found]) -> dict[str, Found]:
     """The loads of a run, with those that follow from them and carry their bars."""
     estimates = {name: one.estimate for name, one in found.items()}
     values = {name: one.value for name, one in estimates.items()}
+    whole = _Ranges(spec, scene, values, {name: (one.low, one.high) for name, one in estimates.items()})
+    numerical = _Ranges(spec, scene, values, {name: _about(one, one.numerical) for name, one in estimates.items()})
+    model = _Ranges(spec, scene, values, {name: _about(one, one.model) for name, one in estimates.items()})
     follows = dict(found)
     for name, value in derived(spec, scene, values).items():
-        low, high = _ends(spec, scene, name, {key: (one.low, one.high) for key, one in estimates.items()})
-        numerical = _share(spec, scene, name, estimates, lambda one: one.numerical)
-        model = _share(spec, scene, name, estimates, lambda one: one.model)
-        estimate = Estimate(value, min(low, value), max(high, value), numerical, model)
+        low, high = whole.of(name)
+        estimate = Estimate(value, min(low, value), max(high, value), numerical.width(name), model.width(name))
         follows[name] = Found(estimate, at=_when(found))
     return follows
 
@@ -88,55 +85,63 @@ def bounds_of_derived(
 ) -> dict[str, Interval]:
     """Bounds of an effect on the loads of a run, with those on what follows from them."""
     values = {name: one.value for name, one in loads.items()}
-    moved = {
-        name: (value + bounds[name].low, value + bounds[name].high) if name in bounds else (value, value)
-        for name, value in values.items()
-    }
+    moved = {name: (values[name] + one.low, values[name] + one.high) for name, one in bounds.items() if name in values}
+    ranges = _Ranges(spec, scene, values, moved)
     spread = dict(bounds)
     for name, value in derived(spec, scene, values).items():
-        low, high = _ends(spec, scene, name, moved)
-        spread[name] = Interval(min(low - value, 0.0), max(high - value, 0.0))
+        low, high = ranges.of(name)
+        if math.isfinite(value):
+            spread[name] = Interval(min(low - value, 0.0), max(high - value, 0.0))
     return spread
 
 
-def _ends(
-    spec: Stacker, scene: StackerScene, name: str, ranges: Mapping[str, tuple[float, float]]
-) -> tuple[float, float]:
-    """Least and largest value of a derived load over the corners of the ranges it reads."""
-    middle = {key: low for key, (low, _) in ranges.items()}
-    read = [key for key in ranges if _moves(spec, scene, name, ranges, middle, key)]
-    values = []
-    for corner in itertools.product((0, 1), repeat=len(read)):
-        at = middle | {key: ranges[key][side] for key, side in zip(read, corner, strict=True)}
-        values.append(derived(spec, scene, at)[name])
-    return min(values), max(values)
+def _about(one: Estimate, part: float) -> tuple[float, float]:
+    return one.value - part, one.value + part
 
 
-def _moves(
-    spec: Stacker,
-    scene: StackerScene,
-    name: str,
-    ranges: Mapping[str, tuple[float, float]],
-    middle: Mapping[str, float],
-    key: str,
-) -> bool:
-    low, high = ranges[key]
-    if low == high:
-        return False
-    return derived(spec, scene, {**middle, key: low})[name] != derived(spec, scene, {**middle, key: high})[name]
+class _Ranges:
+    """What follows from loads that are known within ranges: it rises or falls evenly with each of them."""
 
+    def __init__(
+        self,
+        spec: Stacker,
+        scene: StackerScene,
+        values: Mapping[str, float],
+        ranges: Mapping[str, tuple[float, float]],
+    ) -> None:
+        self._spec, self._scene, self._values = spec, scene, values
+        self._ranges = {key: ends for key, ends in ranges.items() if ends[0] != ends[1]}
+        self._known: dict[tuple[tuple[str, float], ...], dict[str, float]] = {}
 
-def _share(
-    spec: Stacker,
-    scene: StackerScene,
-    name: str,
-    estimates: Mapping[str, Estimate],
-    part: Callable[[Estimate], float],
-) -> float:
-    """A share of the error of a derived load, from the shares of what it comes from."""
-    ranges = {key: (one.value - part(one), one.value + part(one)) for key, one in estimates.items()}
-    low, high = _ends(spec, scene, name, ranges)
-    return (high - low) / 2
+    def _of(self, **loads: float) -> dict[str, float]:
+        key = tuple(sorted(loads.items()))
+        if key not in self._known:
+            self._known[key] = derived(self._spec, self._scene, {**self._values, **loads})
+        return self._known[key]
+
+    def of(self, name: str) -> tuple[float, float]:
+        """Least and largest value of a derived load over the corners of the ranges of what it reads; anything where one
+        of them has no end."""
+        value = self._of()[name]
+        read = [key for key in self._ranges if self._moves(name, key)]
+        if any(not math.isfinite(end) for key in read for end in self._ranges[key]):
+            return -math.inf, math.inf
+        corners = [
+            self._of(**{key: self._ranges[key][side] for key, side in zip(read, sides, strict=True)})[name]
+            for sides in itertools.product((0, 1), repeat=len(read))
+        ]
+        return min(value, *corners), max(value, *corners)
+
+    def width(self, name: str) -> float:
+        """Half of what is between the ends."""
+        low, high = self.of(name)
+        return (high - low) / 2 if high > low else 0.0
+
+    def _moves(self, name: str, key: str) -> bool:
+        """Whether a derived load reads another; a number is put in for an end that is not there."""
+        value = self._of()[name]
+        finite = [end for end in self._ranges[key] if math.isfinite(end)] or [1.0]
+        return any(self._of(**{key: at})[name] != value for at in (*finite, 2 * abs(finite[0]) + 1.0))
 
 
 def _when(found: Mapping[str, Found]) -> Mapping[str, float]:

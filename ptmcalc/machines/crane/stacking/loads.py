@@ -29,6 +29,7 @@ OF_MOTION = (
     LoadInfo("mast_deflection_max", "largest swing of the far end of the column", units.LENGTH, governing=True),
     LoadInfo("mast_force_max", "largest force of the column", units.FORCE, governing=True),
     LoadInfo("mast_moment_max", "largest moment at the root of the column", units.TORQUE, governing=True),
+    LoadInfo("rest_deflection", "lean of the far end at rest under weights beside its axis", units.LENGTH),
     LoadInfo("settling_time", "from standstill until the far end stays in the window", units.TIME, governing=True),
 )
 OF_THE_OBSTACLE = (

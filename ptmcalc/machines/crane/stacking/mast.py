@@ -1,8 +1,8 @@
 """The column of a stacker crane as the laws of a mast see it: what gives, what swings, what its weight does.
 
-A column whose `stiffness` the file gives has a rigid root and the bending stiffness that makes that stiffness at its far
-end. Of an overhead stacker whose bridge travels, girders that bend sideways lie between bridge and trolley: the bridge is
-the base, the trolley sits at the root. The base of a rack stacker does not give.
+A column whose `stiffness` the file gives has a rigid root and the bending stiffness that makes that stiffness at its
+far end. Of an overhead stacker whose bridge travels, girders that bend sideways lie between bridge and trolley: the
+bridge is the base, the trolley sits at the root. The base of a rack stacker does not give.
 """
 
 import math
@@ -80,6 +80,13 @@ def swinging(spec: Stacker, scene: StackerScene, rotor_mass: float = 0.0) -> Swi
     return Swinging(gives, exact, _weight(spec, scene, gives))
 
 
+def standing(spec: Stacker, scene: StackerScene) -> mast_modes.Mast:
+    """The column over a base at rest, its head held by a top guide without play."""
+    guide = spec.column.top_guide
+    stiff = guide.stiffness if guide is not None and guide.gap == 0 else None
+    return replace(swinging(spec, scene).held, guide_stiffness=stiff or 0.0)
+
+
 def compliance(spec: Stacker, direction: model.Direction) -> mast.Compliance:
     """How far the far end of the column gives along the travel of bridge or base, or across it [m/N]."""
     column = spec.column
@@ -105,6 +112,18 @@ def compliance(spec: Stacker, direction: model.Direction) -> mast.Compliance:
             length, bridge.elasticity, moment, bridge.span, vertical, place, bridge.ends
         )
     return mast.Compliance(bending, girders.rotation + joint, girders.translation)
+
+
+def rest_deflection(spec: Stacker, scene: StackerScene) -> float:
+    """Lean of the far end at rest under weights beside its axis, in the direction of a scene [m]."""
+    one = swinging(spec, scene)
+    moment = abs(model.eccentric_moment(spec, scene, model.direction(spec, scene)))
+    beam = one.exact
+    root = 1 / beam.root_rotation if beam.root_rotation else math.inf
+    lean = mast.leaning(moment, beam.length, beam.flexural_stiffness, root, min(beam.place, 1.0))
+    guide = spec.column.top_guide
+    held = guide.stiffness if guide is not None and guide.stiffness is not None and guide.gap == 0 else 0.0
+    return lean * one.stiffness / (one.stiffness + held)
 
 
 def _weight(spec: Stacker, scene: StackerScene, gives: mast.Compliance) -> float:

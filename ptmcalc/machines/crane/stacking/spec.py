@@ -120,6 +120,8 @@ _NEEDED = {
     "safety_gear": ("safety_gear", "safety_gear: {type: progressive, force: 30 kN, stroke: 300 mm}"),
     "rail": ("rail", "rail: {step: 1 mm}"),
 }
+_OF_THE_OTHER = {"overhead_stacker": ("fork_push", "rail", "safety_gear"), "rack_stacker": ("obstacle",)}
+"""Scenes that only the other type has."""
 MECHANISMS = {"bridge": "bridge_travel", "trolley": "trolley_travel", "rotation": "rotation", "travel": "travel"}
 """The key of a file that a mechanism is described by."""
 
@@ -138,6 +140,8 @@ def scenes_that_lack(given: Given) -> Iterator[Conflict]:
         if scene is None or not isinstance(what, str):
             continue
         here = ("scenes", index)
+        if what in _OF_THE_OTHER.get(str(given.raw.get("type")), ()):
+            continue  # its word is refused already
         if what in _NEEDED:
             key, example = _NEEDED[what]
             if key not in given:

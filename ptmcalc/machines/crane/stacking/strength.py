@@ -11,7 +11,7 @@ from ptmcalc.laws import overturning
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import Brake, StackerScene, Start
+from ptmcalc.machines.crane.stacking.scenes import Brake, ForkPush, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
@@ -46,8 +46,9 @@ def _swinging(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) ->
     """A column that swings: the moment at its root, the force on it, and how hard its base is stopped by both."""
     moment = loads.get("mast_moment_max")
     force = loads.get("collision_force", loads.get("mast_force_max"))
-    if moment is None or force is None:
+    if moment is None or force is None or not (math.isfinite(moment) and math.isfinite(force)):
         return None
+    moment, force = max(moment, 0.0), max(force, 0.0)  # ends of bars that no largest value reaches
     across = model.direction(spec, scene) == "across"
     hard = _deceleration(spec, scene, force)
     return Event(0.0 if across else moment, moment if across else 0.0, 0.0, force, 0.0, hard)
@@ -156,8 +157,13 @@ def stability(spec: Stacker, scene: StackerScene, happens: Event) -> dict[str, f
     """Of a rack stacker: what holds over what tips, along the rail and across the aisle, where anything tips."""
     if not isinstance(spec, RackStacker) or scene.type not in ("stand", "start", "brake", "fork_push"):
         return {}
-    sides = {"along": _along(spec, scene, happens), "across": _across(spec, scene, happens)}
-    return {side: reserve for side, reserve in sides.items() if reserve is not None and math.isfinite(reserve)}
+    tips = isinstance(scene, Start | Brake) or model.eccentric_moment(spec, scene, "along") != 0
+    leans = isinstance(scene, ForkPush) or model.eccentric_moment(spec, scene, "across") != 0
+    sides = {
+        "along": _along(spec, scene, happens) if tips else None,
+        "across": _across(spec, scene, happens) if leans else None,
+    }
+    return {side: reserve for side, reserve in sides.items() if reserve is not None}
 
 
 def _along(spec: RackStacker, scene: StackerScene, happens: Event) -> float:

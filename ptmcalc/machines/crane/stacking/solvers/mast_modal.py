@@ -2,24 +2,26 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import march
-from ptmcalc.machines.crane.stacking.derived import with_derived
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Built, Happening
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS
+from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
 from ptmcalc.numerics.mast.run import Course, play, settled
+from ptmcalc.spec.scene import Scene
 
-ALWAYS = frozenset({"mast_flexibility", "column_mass", "higher_modes", "brake_sticking", "obstacle_contact"})
-GRAVITY = "mast_gravity"
+ALWAYS = frozenset({FLEXIBLE, MASS})
 MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
 """Modes at the coarsest refinement, for a load that comes at once and at most; how often they are doubled, less one."""
 _ELEMENTS = 3
@@ -35,7 +37,7 @@ _BLOW = 1.5
 _COMPARED = 0.7
 """Panels of the run that a bar is found with, over the usual ones."""
 _DOUBLINGS = 5
-_FREQUENCIES = 24
+_FREQUENCIES = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,20 +141,18 @@ def _play(
 
 
 def _of_the_column(built: Built, base: float) -> dict[str, Found]:
-    """Stiffness at the far end and the lowest frequencies, over a base that is held or one that rolls."""
-    fine, coarse = (Mast.of(built.column, count, (built.column.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    """Stiffness at the far end, without weights, and the lowest frequencies, over a base that is held or rolls."""
+    light = replace(built.column, pull=0.0)
+    fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
     stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
     bar = abs(stiffness - other) + 1e-9 * stiffness
     found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
     lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
     for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
-        estimate = Estimate(value, value - doubt, value * (1 + 1e-11), numerical=doubt)
-        found[of("natural_frequency", mode)] = Found(estimate)
+        found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
         if mode == MODES[0]:
             swing = 2 * math.pi / value
-            found["period"] = Found(
-                Estimate(swing, swing, 2 * math.pi / (value - doubt), numerical=swing * doubt / value)
-            )
+            found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
     return found
 
 
@@ -207,6 +207,7 @@ def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
     found = {
         "collision_force": _times(deflection, fine.moves.column.stiffness),
         "collision_deflection": deflection,
+        "mast_moment_max": _moment(fine, coarse),
     }
     obstacle = fine.moves.obstacle
     assert obstacle is not None
@@ -301,23 +302,48 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
     return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
-MAST_MODAL: Solver[Stacker, StackerScene] = Solver(
-    name="mast_modal",
-    title="the column in finite elements and modes, event by event",
-    fidelity=Fidelity.TRANSIENT,
-    scenes=frozenset({Stand, Start, Brake, ObstacleScene}),
-    represents=ALWAYS | {GRAVITY},
-    gives=frozenset(
-        {
-            *("column_stiffness", "natural_frequency", "period", "start_time", "brake_time", "settling_time"),
-            *("mast_deflection_max", "mast_force_max", "mast_moment_max", "combination_force"),
-            *("collision_force", "collision_deflection", "contact_force"),
-        }
+def _solver(
+    name: str, title: str, scenes: frozenset[type[Scene]], always: frozenset[str], gives: frozenset[str], levels: int
+) -> Solver[Stacker, StackerScene]:
+    return Solver(
+        name=name,
+        title=title,
+        fidelity=Fidelity.TRANSIENT,
+        scenes=scenes,
+        represents=always | {GRAVITY},
+        gives=gives | {"column_stiffness", "natural_frequency", "period"} | DERIVED,
+        run=run,
+        cost=_cost,
+        source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
+        valid=travels,
+        always=always,
+        levels=levels,
+    )
+
+
+MAST_MODAL = _solver(
+    "mast_modal",
+    "the column in finite elements and modes, event by event",
+    frozenset({Start, Brake}),
+    ALWAYS | {MODES_HIGHER, HOLDING, GUIDE},
+    frozenset(
+        {"start_time", "brake_time", "settling_time", "mast_deflection_max", "mast_force_max", "mast_moment_max"}
     ),
-    run=run,
-    cost=_cost,
-    source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
-    valid=travels,
-    always=ALWAYS,
-    levels=LEVELS,
+    LEVELS,
+)
+COLLISION_MODAL = _solver(
+    "collision_modal",
+    "the column in finite elements and modes that runs into an obstacle",
+    frozenset({ObstacleScene}),
+    ALWAYS | {CONTACT},
+    frozenset({"collision_force", "collision_deflection", "mast_moment_max", "contact_force"}),
+    LEVELS,
+)
+STANDING_MODAL = _solver(
+    "standing_modal",
+    "frequencies of the column in finite elements",
+    frozenset({Stand}),
+    frozenset(),
+    frozenset(),
+    1,
 )
