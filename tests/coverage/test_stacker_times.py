@@ -13,11 +13,12 @@ from ptmcalc.machines.crane.stacking.scenes import Brake, Start
 from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
-COUNT = 10
+COUNT = 12
+WORDS = ("trolley", "travel", "bridge")
 
 
 def _machine(seed: int) -> dict[str, Any]:
-    """A stacker whose column is soft and heavy beside what carries it; every other one stands."""
+    """A stacker whose column is soft and heavy beside what carries it; every third one stands."""
     rng = np.random.default_rng([20261122, seed])
     length = float(rng.uniform(4, 9))
     climbing = 10 ** float(rng.uniform(2.5, 3.7))
@@ -37,12 +38,13 @@ def _machine(seed: int) -> dict[str, Any]:
     travel["braking_force"] = f"{force * rng.uniform(0.5, 2):.6g} N"
     for key in ("driving_rise", "braking_rise"):
         travel[key] = f"{rng.choice([0.0, rng.uniform(0, 1)]):.6g} s"
-    if seed % 2:
+    if seed % 3 == 1:
         base = {"mass": f"{10 ** rng.uniform(3, 4):.6g} kg", "wheel_base": "4 m", "wheel_diameter": "400 mm"}
         return data | {"type": "rack_stacker", "base": base, "travel": travel}
     bridge = {"mass": "6 t", "span": "14 m", "girder_vertical": "90000 cm^4", "girder_horizontal": "15000 cm^4"}
     trolley = {"mass": f"{10 ** rng.uniform(2.8, 3.8):.6g} kg", "gauge": "2 m"}
-    return data | {"type": "overhead_stacker", "bridge": bridge, "trolley": trolley, "trolley_travel": travel}
+    moves = f"{WORDS[seed % 3]}_travel"
+    return data | {"type": "overhead_stacker", "bridge": bridge, "trolley": trolley, moves: travel}
 
 
 @cache
@@ -50,7 +52,7 @@ def _shares(seed: int) -> tuple[float, ...]:
     """How far the time of the modes is from that by momentum, over the bar on its side: of a start and of a stop."""
     spec = loaded(_machine(seed)).spec
     assert isinstance(spec, Stacker)
-    word = "travel" if seed % 2 else "trolley"
+    word = WORDS[seed % 3]
     shares = []
     for scene, name in ((Start(mechanism=word), "start_time"), (Brake(mechanism=word), "brake_time")):
         told = starts.time(spec, scene)
