@@ -4,13 +4,18 @@ asks for the impossible is told."""
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from support.machines import changed, load_of, loaded, report_of, scene_of
 from support.stacker_masts import OVERHEAD, RACK
+from support.stopped_mast import stop, stopped
 
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
+from ptmcalc.laws.mast_modes import Mast
+from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.spec import Stacker
 
 TYPES = {one.type: one for one in load_kind("crane").types}
 
@@ -91,6 +96,52 @@ class TestVerdicts:
         assert verdict(tight, "CRN251") == "fail"
         guided = changed(tight, column__top_guide={"stiffness": "2 MN/m"})
         assert verdict(guided, "CRN251") == "pass"
+
+
+class TestWitness:
+    """A trolley that is stopped and held, without damping, by finite elements and modes of another hand."""
+
+    MASSES = ((4000.0, 1800.0, 1200.0), (2500.0, 600.0, 1500.0), (6000.0, 3000.0, 900.0))
+
+    @staticmethod
+    def machine(base: float, load: float, column: float) -> dict[str, Any]:
+        return changed(
+            OVERHEAD,
+            trolley__mass=f"{base} kg",
+            load=f"{load - 100} kg",
+            cab=None,
+            carriage__mass="100 kg",
+            column__mass=f"{column} kg",
+            effects={"mast_gravity": "off"},
+        )
+
+    @pytest.mark.parametrize("masses", MASSES)
+    def test_two_masses_are_two_masses(self, masses: tuple[float, float, float]) -> None:
+        """The consistent matrix written out by hand from 33/140 and 3/8."""
+        _, load, column = masses
+        square, mean = 33 / 140 * column, 3 / 8 * column
+        mass = np.array([[sum(masses), load + mean], [load + mean, load + square]])
+        stiffness = np.diag([0.0, 6e5])
+        mass = np.array([[1.0, 0.0], [-1.0, 1.0]]).T @ mass @ np.array([[1.0, 0.0], [-1.0, 1.0]])
+        stiffness = np.array([[1.0, 0.0], [-1.0, 1.0]]).T @ stiffness @ np.array([[1.0, 0.0], [-1.0, 1.0]])
+        expected = stop(stiffness, mass, 0, 1, 9000.0, 1.0)
+        swing = load_of(scene_of(report_of(self.machine(*masses)), ""), "mast_deflection_max")
+        assert swing.solver == "mast_two_mass"
+        assert swing.estimate.value == pytest.approx(expected.deflection, rel=1e-6)
+
+    @pytest.mark.parametrize("masses", MASSES)
+    def test_elements_lie_in_the_bar_of_two_masses_and_meet_the_modes(self, masses: tuple[float, float, float]) -> None:
+        base, load, column = masses
+        one = Mast(6.0, 6e5 * 72, column, base, load)
+        expected = stopped(one, 9000.0, 1.0, 12)
+        data = self.machine(*masses)
+        swing = load_of(scene_of(report_of(data), ""), "mast_deflection_max").estimate
+        assert swing.low <= expected.deflection <= swing.high
+        spec = loaded(data).spec
+        assert isinstance(spec, Stacker)
+        run = MAST_MODAL.run(spec, spec.all_scenes[0], MAST_MODAL.always, 0).loads
+        assert run["mast_deflection_max"].estimate.value == pytest.approx(expected.deflection, rel=3e-4)
+        assert run["brake_time"].estimate.value == pytest.approx(expected.time, rel=1e-5)
 
 
 class TestSettling:
