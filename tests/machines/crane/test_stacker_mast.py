@@ -48,7 +48,7 @@ class TestThresholds:
         [
             ("mast_flexibility", {"trolley_travel__braking_rise": "2.5 s"}, {"trolley_travel__braking_rise": "1.5 s"}),
             ("column_mass", {"column__mass": "80 kg"}, {"column__mass": "100 kg"}),
-            ("higher_modes", {"trolley_travel__braking_rise": "0.2 s"}, {"trolley_travel__braking_rise": "0.1 s"}),
+            ("column_modes", {"trolley_travel__braking_rise": "0.2 s"}, {"trolley_travel__braking_rise": "0.1 s"}),
             ("mast_gravity", {"column__stiffness": "110 kN/m"}, {"column__stiffness": "90 kN/m"}),
             ("brake_sticking", {"trolley__mass": "2 t"}, {"trolley__mass": "1.1 t"}),
         ],
@@ -74,10 +74,10 @@ class TestThresholds:
 class TestVerdicts:
     """Limits between a run with an effect and one without it."""
 
-    def test_higher_modes(self) -> None:
+    def test_column_modes(self) -> None:
         tight = changed(OVERHEAD, checks={"mast_deflection": "9.644 mm"}, effects={"mast_gravity": "off"})
         assert verdict(tight, "CRN251") == "fail"  # 9.6456 mm; two masses make 9.6429
-        assert verdict(changed(tight, effects__higher_modes="off"), "CRN251") == "pass"
+        assert verdict(changed(tight, effects__column_modes="off"), "CRN251") == "pass"
 
     def test_weights(self) -> None:
         with_them, without = (
