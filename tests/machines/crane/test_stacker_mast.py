@@ -13,7 +13,7 @@ from support.stopped_mast import stop, stopped
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.laws.mast_modes import Mast
+from ptmcalc.laws.mast_modes import Mast, mast_frequency
 from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -186,6 +186,29 @@ class TestCollision:
         most = 1.0 * math.sqrt(6e5 * 7000)
         data = changed(HIT, checks={"column_force": f"{1.02 * most:.6g} N"})
         assert verdict(data, "CRN255") == "pass"
+
+
+class TestEdges:
+    def test_a_carriage_at_the_root_swings_with_the_base(self) -> None:
+        data = changed(RACK, scenes=[{"type": "brake", "height": "0 m"}], effects={"mast_gravity": "off"})
+        one = Mast(12.0, 210e9 * 6e-4, 1500.0, 2500.0 + 1500.0, 0.0, root_rotation=1 / 4e8)
+        found = load_of(scene_of(report_of(data), ""), "natural_frequency[1]").estimate.value
+        assert found == pytest.approx(mast_frequency(one, 1), rel=1e-9)
+        beside = changed(data, scenes=[{"type": "brake", "height": "1 mm"}])
+        near = load_of(scene_of(report_of(beside), ""), "natural_frequency[1]").estimate.value
+        assert near == pytest.approx(found, rel=1e-4)
+
+    def test_a_drive_that_stalls_bends_nothing(self) -> None:
+        travel = {"speed": "1 m/s", "driving_force": "0.5 kN", "braking_force": "9 kN", "resistance": "1 kN"}
+        data = changed(OVERHEAD, trolley_travel=travel, scenes=[{"type": "start", "mechanism": "trolley"}])
+        scene = scene_of(report_of(data), "")
+        assert not any(load.info.name.startswith("mast_") for load in scene.loads)
+        assert load_of(scene, "start_time").estimate.value == math.inf
+
+    def test_a_column_its_weights_buckle_is_undecided(self) -> None:
+        report = report_of(changed(RACK, load="3000 t", checks={"mast_deflection": "100 mm"}))
+        assert report.verdict in ("undecided", "fail")
+        assert any("buckles" in one.message for one in report.diagnostics)
 
 
 class TestNotes:
