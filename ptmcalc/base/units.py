@@ -171,6 +171,8 @@ WEAR_RATE = _quantity("wear coefficient", "Hz/N", "Hz/MN", example="0.00006 Hz/M
 WEAR_DEPTH = _quantity("depth of wear over pressure and path", "m^2/N", "mm^2/MN", example="0.0004 mm^2/MN")
 THICKNESS = _quantity("length", "m", "mm", example="0.02 mm")
 PRESSURE = _quantity("pressure", "Pa", "kPa", "MPa", example="50 kPa")
+SECOND_MOMENT = _quantity("second moment of area", "m^4", "cm^4", example="20000 cm^4")
+SECTION_MODULUS = _quantity("section modulus", "m^3", "cm^3", example="1600 cm^3")
 
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _VALUE = re.compile(rf"((?>{_NUMBER}))\s*((?:[^\W\d_]|[°%]|1(?![0-9])).*|)", re.DOTALL)

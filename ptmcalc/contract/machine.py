@@ -1,17 +1,20 @@
 """The manifest of a machine kind: everything the rest of the house needs to know of it."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic
+from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, S
+from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.spec.machine import MachineSpec
+
+Piece = TypeVar("Piece")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,9 @@ class MachineKind(Generic[S]):
     template: str
     assumptions: tuple[Assumption[S], ...] = ()
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
+    tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
+    """for a kind that has tables of its own: what they say of the scenes of a machine"""
+
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
     """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
 
@@ -83,6 +89,10 @@ class MachineKind(Generic[S]):
         """The loads of a machine."""
         return tuple(self.parts(spec)) if self.parts else self.loads
 
+    def tables_of(self, spec: S, scenes: Sequence[SceneReport]) -> tuple[TableReport, ...]:
+        """The tables of its own that a kind has of a machine."""
+        return tuple(self.tables(spec, scenes)) if self.tables else ()
+
     def load_info(self, spec: S, name: str) -> LoadInfo:
         """What is known of a load of a machine by its name."""
         return next(info for info in self.loads_of(spec) if info.name == name)
@@ -102,9 +112,14 @@ def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
         title=title,
         spec=MachineSpec,
         loads=tuple(reversed(loads.values())),
-        effects=tuple(effect for one in types for effect in one.effects),
-        solvers=tuple(solver for one in types for solver in one.solvers),
-        checks=tuple(check for one in types for check in one.checks),
+        effects=_once(effect for one in types for effect in one.effects),
+        solvers=_once(solver for one in types for solver in one.solvers),
+        checks=_once(check for one in types for check in one.checks),
         template=types[0].template,
         types=types,
     )
+
+
+def _once(pieces: "Iterable[Piece]") -> "tuple[Piece, ...]":
+    """Pieces in their order, what two types have in common once."""
+    return tuple({id(piece): piece for piece in pieces}.values())

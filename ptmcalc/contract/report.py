@@ -150,6 +150,38 @@ class SceneReport:
 
 
 @dataclass(frozen=True, slots=True)
+class Amount:
+    """A number in a table of a machine."""
+
+    estimate: Estimate
+    quantity: Quantity
+
+
+Cell = str | Amount | tuple[str, ...]
+"""What stands in a table of a machine: words, a number, or a list of words; empty where there is nothing to say."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table: its key in JSON, its heading; a detail is left out of the short table."""
+
+    key: str
+    heading: str
+    detail: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TableReport:
+    """A table of a kind's own that its scenes together make: shape (rows, columns), with notes below."""
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class AssumedReport:
     """A value the file did not write and a default filled in."""
 
@@ -170,6 +202,7 @@ class FileReport:
     diagnostics: tuple[Diagnostic, ...] = ()
     assumed: tuple[AssumedReport, ...] = ()
     scenes: tuple[SceneReport, ...] = ()
+    tables: tuple[TableReport, ...] = ()
     ignored: int = 0
     """findings and verdicts that the run was told to leave out"""
 

@@ -108,7 +108,9 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     today = options.today or date.today()
     diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
-    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, waived(spec, scenes, today))
+    judged = waived(spec, scenes, today)
+    tables = kind.tables_of(spec, judged)
+    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:

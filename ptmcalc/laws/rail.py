@@ -275,3 +275,42 @@ def waviness_acceleration(speed: float, wavelength: float, height: float) -> flo
     **Source** derived: second derivative of the path.
     """
     return height / 2 * (2 * math.pi * (speed / wavelength)) ** 2
+
+
+def tilt_way(lift: float, height: float, base: float) -> float:
+    """Way of a point of a mast when a wheel of its bottom carriage is lifted.
+
+        x = h l/B
+
+    Args:
+        lift: h, of the wheel [m].
+        height: l, of the point over the rail [m].
+        base: B, between the wheels [m].
+
+    Returns:
+        x [m].
+
+    **Range** a rigid mast on a rigid carriage, small angles; the other wheel stays.
+    **Error** (h/B)^2/2 of it.
+    **Source** geometry of the tilt.
+    """
+    return lift * (height / base)
+
+
+def resonance_speed(frequency: float, wavelength: float) -> float:
+    """Speed at which a wavy rail shakes a mode at its own frequency.
+
+        v = f lambda
+
+    Args:
+        frequency: w = 2 pi f, of the mode [rad/s].
+        wavelength: lambda, of the rail [m].
+
+    Returns:
+        v [m/s].
+
+    **Range** a rail of one wavelength.
+    **Error** exact.
+    **Source** w = 2 pi v/lambda.
+    """
+    return frequency / (2 * math.pi) * wavelength

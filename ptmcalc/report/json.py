@@ -11,7 +11,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.units import TIME
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import (
+    Amount,
     AssumedReport,
+    Cell,
     EffectReport,
     FileReport,
     Judgement,
@@ -19,6 +21,7 @@ from ptmcalc.contract.report import (
     Place,
     SceneReport,
     SolverReport,
+    TableReport,
     count,
 )
 from ptmcalc.contract.result import History
@@ -62,7 +65,25 @@ def _file(report: FileReport) -> dict[str, Any]:
         "assumed": [_assumed(value) for value in report.assumed],
         "diagnostics": [_diagnostic(diagnostic) for diagnostic in report.diagnostics],
         "scenes": [_scene(scene) for scene in report.scenes],
+        **({"tables": [_table(table) for table in report.tables]} if report.tables else {}),
     }
+
+
+def _table(table: TableReport) -> dict[str, Any]:
+    """Its rows by the keys of its columns."""
+    keys = [column.key for column in table.columns]
+    return {
+        "name": table.name,
+        "title": table.title,
+        "rows": [dict(zip(keys, map(_cell, row), strict=True)) for row in table.rows],
+        "notes": list(table.notes),
+    }
+
+
+def _cell(cell: Cell) -> Any:
+    if isinstance(cell, Amount):
+        return {**_estimate(cell.estimate), "unit": cell.quantity.si}
+    return list(cell) if isinstance(cell, tuple) else cell or None
 
 
 def _assumed(value: AssumedReport) -> dict[str, Any]:

@@ -1,8 +1,11 @@
-"""`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep."""
+"""`file:line:column: verdict CODE ...`, one line each, the worst first: for editors, logs and grep.
+
+A kind's own tables follow as `file: table ...` lines.
+"""
 
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.contract.report import FileReport, count
-from ptmcalc.report import words
+from ptmcalc.report import tables, words
 from ptmcalc.report.entries import said
 
 
@@ -25,4 +28,4 @@ def _lines(report: FileReport) -> list[str]:
         about = f"{judgement.code} {words.subject(judgement)} [{scene}]"
         because = said(judgement)
         lines.append(f"{where}: {judgement.verdict.value} {about}" + (f": {because}" if because else ""))
-    return lines
+    return lines + [f"{report.path}: {line}" for table in report.tables for line in tables.lines(table)]

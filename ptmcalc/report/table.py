@@ -14,7 +14,7 @@ from ptmcalc.base.span import dotted
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, LoadReport, SceneReport, count
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.report import details, ledger, pick, words
+from ptmcalc.report import details, ledger, pick, tables, words
 from ptmcalc.report.drawing import GAP, STYLE, new_table, printed, put
 from ptmcalc.report.pick import Row
 
@@ -84,6 +84,7 @@ def _short(console: Console, report: FileReport) -> None:
     _loads(console, report.scenes, pick.loads(report), edge=False)
     if not bad:
         _checks(console, report, rows, edge=False)
+    tables.draw(console, report, whole=False)
     for heading, lines in ledger.sections(report, console.width):
         console.print(Text(heading, style="bold"))
         for line in lines:
@@ -95,6 +96,7 @@ def _whole(console: Console, report: FileReport) -> None:
     if report.scenes:
         _loads(console, report.scenes, pick.all_loads(report), edge=True)
         _checks(console, report, pick.all_checks(report), edge=True)
+        tables.draw(console, report, whole=True)
         details.notes(console, report.scenes)
         details.effects(console, report.scenes)
         details.events(console, report.scenes)

@@ -29,15 +29,18 @@ from ptmcalc.laws import (
     brake,
     buffer,
     capstan,
+    carriage,
     chain_fatigue,
     chain_resonance,
     chain_selection,
     chain_start,
     chain_wear,
     classification,
+    contact_damping,
     coulomb,
     duty,
     equalising,
+    fork,
     gearing,
     hoist_class,
     hoisting,
@@ -45,7 +48,11 @@ from ptmcalc.laws import (
     lift_off,
     lift_off_standard,
     loop_bounds,
+    mast,
+    mast_modes,
     motor,
+    obstacle,
+    overturning,
     pendulum,
     polygon,
     rail,
@@ -54,6 +61,7 @@ from ptmcalc.laws import (
     response,
     rope_drum,
     rope_rod,
+    safety_gear,
     sag,
     shaft,
     shock,
@@ -78,6 +86,7 @@ from ptmcalc.laws import (
     wire_rope,
 )
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.laws.mast_modes import Mast
 
 SEEDS = range(5)
 Law = Callable[..., Any]
@@ -153,6 +162,13 @@ MODELS = [("full", 0.1, 0.1, 1.0, 1.0), ("geometric", 0.1, 0.5, 0.7, 1.0), ("bal
 PACKINGS = ("nested", "square")
 SHAPES = ("step", "ramp", "cosine", "parabolic")
 POINTS = ((0.0, 0.0), (0.3, 0.1), (1.0, 1.0))
+ENDS, ATTITUDES = ("supported", "clamped"), ("hanging", "standing")
+BRIDGE = (6.0, 210e9, 2e-4, 16.5, 1.2e-3)  # column, elasticity, its second moment, span, that of a girder
+MASTS = (
+    Mast(6.0, 4.2e7, 1200.0, 4e3, 1800.0, 500.0, 3e-8, 4e-7, 0.7, 80.0),
+    Mast(6.0, 4.2e7, 1200.0, np.inf, 1800.0),
+    Mast(6.0, 4.2e7, 1200.0, 4e3, 1800.0, 0.0, 3e-8, 0.0, 0.7, 80.0, 4e5),
+)
 
 CALLS: dict[Law, list[tuple[Any, ...]]] = {
     belt_damping.kelvin_voigt_change: [(0.7, 0.02)],
@@ -535,6 +551,15 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     chain_fatigue.tooth_passes: [(1e8, 0.32, 0.5)],
     chain_fatigue.stress_amplitude: [(7e4, 8e3, 16e-4)],
     chain_fatigue.fatigue_utilisation: [(2e7, 2.5e7, 9e7, 6e8), (2e7, 2.5e7, 9e7, np.inf)],
+    carriage.roller_reaction: [(1.2e4, 1.2, 1.03), (-9e3, 1.2, 1.0)],
+    carriage.roller_coefficient: [(0.015, 0.05, 5e-4, 0.16)],
+    carriage.guide_resistance: [(9e3, 0.011)],
+    carriage.jamming_ratio: [(-1.2e4, 1.5e4, 1.2, 0.3)],
+    carriage.rope_pull: [(1.5e4, 1.03, w, 2, 0.97, up) for w in (200.0, 9e4) for up in (True, False)],
+    carriage.sheave_of_tackle: [(2, 0.97), (1, 0.97), (4, 0.2)],
+    overturning.holding_moment: [(np.array([3e4, 1e4]), np.array([1.2, -0.4]))],
+    overturning.tipping_moment: [(4e4, 6e3, 0.5, 9e3, 0.4)],
+    overturning.stability_reserve: [(m, t) for m in (9e4, -2e3, 0.0) for t in (4e4, 0.0)],
     reeving.tackle_efficiency: [(4, 0.98), (1, 0.98)],
     reeving.lowering_tackle_efficiency: [(4, 0.98), (1, 0.98)],
     reeving.fall_pulls: [(5e4, falls, 0.98, 400.0, up) for falls in (1, 4, 5) for up in (True, False)],
@@ -656,6 +681,29 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rail.wheel_modes: [(3e4, 1.2e4, 2e7, 4e5), (2e4, 2e4, 8e6, 8e6)],
     rail.rail_factor: [(1.4, 0.315, 9.81, xi) for xi in (1.6, -1.2)],
     rail.waviness_acceleration: [(1.4, 0.6, 0.004)],
+    rail.tilt_way: [(0.002, 8.0, 3.2)],
+    rail.resonance_speed: [(7.0, 1.2)],
+    fork.push_force: [(4e3, 5e5, 300.0, 0.4)],
+    fork.push_bound: [(4e3, 5e5, 8e5, 300.0, 0.4)],
+    fork.clutch_push: [(4e3, 5e5, 80.0, 0.4)],
+    fork.caught_force: [(34e3, 15696.0, 9e5, 9e3, 0.3)],
+    fork.soft_caught_force: [(15696.0, 9e5, 9e3, 0.3, h) for h in (0.0, 4e4, 3e5)],
+    fork.stall_force: [(15696.0, 4e4, 0.3)],
+    fork.caught_bound: [(34e3, 15696.0, 9e5, 2.5e6, 9e3, 1600.0, 0.3)],
+    fork.rack_bound: [(34e3, 15696.0, 9e5, 2.5e6, 9e3, 1600.0, 0.3)],
+    fork.catching_number: [(p, 15696.0, 9e5, 9e3, 0.3) for p in (15696.0, 60e3)],
+    fork.slope_number: [(4e4, 9e5, 9e3)],
+    safety_gear.trip_speed: [(1.0, 1.4)],
+    safety_gear.trip_time: [(1.0, 1.4, 9.81)],
+    safety_gear.catch_speed: [(1.0, 1.4, 0.05, 9.81)],
+    safety_gear.fall_before_catch: [(1.0, 1.89, 9.81)],
+    safety_gear.progressive_deceleration: [(31392.0, 1600.0, 9.81)],
+    safety_gear.progressive_distance: [(31392.0, 1600.0, 1.89, 9.81)],
+    safety_gear.gear_force_needed: [(1600.0, 1.89, 0.2, 9.81)],
+    safety_gear.gear_speed_left: [(f, 1600.0, 1.89, 0.1, 9.81) for f in (31392.0, 12e3)],
+    safety_gear.instantaneous_force: [(1600.0, 4e6, 1.89, 9.81)],
+    safety_gear.eccentric_moment: [(3e4, 0.9)],
+    safety_gear.axial_shock: [(3e4,)],
     skew.skew_angle: [(x, 0.006, 4.2, 0.01, 0.001, e) for x in (0.008, 0.02) for e in ("full", *SKEW_EDITIONS)],
     skew.skew_friction: [(0.006, 0.3)],
     skew.slip_pole: [(*PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
@@ -673,6 +721,34 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         for push in (4e3, 7e3, 3e4, -3e4)
     ],
     skid.slip_motor_torque: [(0.59, 31200.0, 2354.0, 0.2, 20.0, 0.9)],
+    mast.column_bending: [BRIDGE[:3]],
+    mast.bridge_travel_compliance: [
+        (*BRIDGE, 1.6e-4, 2.0, 5.0, ends, wheels) for ends in ENDS for wheels in ("free", "braked")
+    ],
+    mast.trolley_travel_compliance: [(*BRIDGE, 5.0, ends) for ends in ENDS],
+    mast.mean_shape: [(0.3, 0.1)],
+    mast.mass_coefficient: [(0.3, 0.1)],
+    mast.tip_shape: [(0.6, 0.3, 0.1)],
+    mast.consistent_masses: [(4e3, 1800.0, 1200.0, 500.0, 0.3, 0.1, place) for place in (0.6, 1.0)],
+    mast.consistent_frequency: [(6e5, 4600.0, 170.0, 2100.0)],
+    mast.two_mass_damping: [(6e5, 4e3, 2100.0, 0.15), (6e5, np.inf, 2100.0, 0.15)],
+    mast.static_lag: [(9e3, 6e5, 4600.0, 170.0, 2100.0)],
+    mast.notes_deflection: [(9e3, 6e5, 4e3, 1800.0, 1200.0, 0.236)],
+    mast.rise_factor: [(0.3,), (0.0,)],
+    mast.after_stop_ratio: [(2.1, 0.5), (2.1, 3.0)],
+    mast.root_moment: [(9e3, 7e3, 1800.0, 1200.0, 6.0)],
+    mast.leaning: [(1e4, 6.0, 4.2e7, k, 0.8) for k in (3e7, np.inf)],
+    mast.gravity_stiffness: [(2e4, 1.2e4, 6.0, 0.3, 0.1, attitude) for attitude in ATTITUDES],
+    mast.weighted_tip_compliance: [
+        (6.0, 4.2e7, 3e7, weight, attitude) for weight in (0.0, 2e4, 9e5) for attitude in ATTITUDES
+    ],
+    mast_modes.clamped_beam_root: [(0.5, 1), (0.0, 2)],
+    mast_modes.mast_frequency: [(one, k) for one in MASTS for k in (1, 2)],
+    mast_modes.mode_compliance: [(MASTS[0], 1, "base"), *((one, 1, "load") for one in MASTS)],
+    contact_damping.dashpot_ratio: [(e,) for e in (0.0, 0.05, 0.6, 1.0)],
+    obstacle.elastic_contact_force: [(0.8, 3e7, 2100.0)],
+    obstacle.damped_contact: [(0.8, 2100.0, 3e5, 0.01, n, c) for n in (1.0, 1.5) for c in (0.0, 0.01, 0.4)],
+    obstacle.column_force_bound: [(7100.0, 6e5, 0.8, push, 3e5, x, 1.5) for push in (0.0, 4e3) for x in (0.0, 0.01)],
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
@@ -732,6 +808,19 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     motor.breakdown_slip: [(ValueError, (0.04, 2.3, 9.0))],
     motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
+    contact_damping.dashpot_ratio: [(ValueError, (1.1,)), (ValueError, (-0.1,))],
+    mast.bridge_travel_compliance: [
+        (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "hinged", "free")),
+        (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "clamped", "locked")),
+    ],
+    mast.trolley_travel_compliance: [(ValueError, (*BRIDGE, 5.0, "hinged"))],
+    mast.gravity_stiffness: [(ValueError, (2e4, 1.2e4, 6.0, 0.3, 0.1, "lying"))],
+    mast.weighted_tip_compliance: [
+        (ValueError, (6.0, 4.2e7, np.inf, 2e4, "lying")),
+        (ValueError, (6.0, 4.2e7, np.inf, 3e6, "standing")),
+        (ValueError, (6.0, 4.2e7, 1e6, 2e5, "standing")),
+    ],
+    mast_modes.mode_compliance: [(ValueError, (MASTS[0], 1, "tip"))],
     start_profile.phases: [(ValueError, ("step", True, 4.0, 3.0))],
     strand_tension.load_pull: [(ValueError, (5.0, 5.1, 160.0, 0.022, 9.81))],
     strand_tension.section_pull: [(ValueError, (5.0, -5.1, 18.0, 160.0, 20.0, 0.022, 9.81))],
@@ -796,6 +885,13 @@ class Units:
             suffix = {"mass": of["masses"], "compliance": of["compliances"]}
             numbers = {f.name: suffix[f.name.rpartition("_")[2]] for f in fields(value) if f.type is float}
             return replace(value, **{name: getattr(value, name) * self.factor(u) for name, u in numbers.items()})
+        if isinstance(value, Mast):
+            told = {
+                f.name: re.search(rf"\b{f.name}\b[^\[]*\[([^\]]+)\]", inspect.getdoc(Mast) or "") for f in fields(value)
+            }
+            return replace(
+                value, **{name: getattr(value, name) * self.factor(one[1]) for name, one in told.items() if one}
+            )
         return value * self.factor(unit) if unit is not None else value
 
 
@@ -827,7 +923,9 @@ def test_every_number_has_a_unit(law: Law) -> None:
     parameters = inspect.signature(law).parameters
     assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
     numbers = {
-        name for name, p in parameters.items() if p.annotation not in (str, bool, int, LoopMasses, start_profile.Shape)
+        name
+        for name, p in parameters.items()
+        if p.annotation not in (str, bool, int, LoopMasses, Mast, start_profile.Shape)
     }
     assert set(argument_units(law)) == numbers
     for unit in [*argument_units(law).values(), *units(section(law, "Returns"))]:

@@ -144,3 +144,9 @@ class TestNumbers:
         t = np.linspace(0, wave / v, 20001)
         bend = np.gradient(np.gradient(height / 2 * np.sin(2 * math.pi * v * t / wave), t), t)
         assert rail.waviness_acceleration(v, wave, height) == pytest.approx(np.max(np.abs(bend[5:-5])), rel=1e-6)
+
+
+def test_tilt_and_resonance() -> None:
+    assert rail.tilt_way(0.002, 8.0, 3.2) == pytest.approx(8.0 * math.sin(0.002 / 3.2), rel=1e-6)
+    speed = rail.resonance_speed(7.0, 1.2)
+    assert 2 * math.pi * speed / 1.2 == pytest.approx(7.0, rel=1e-14)

@@ -16,9 +16,11 @@ from ptmcalc.laws import (
     bodies,
     brake,
     buffer,
+    fork,
     gearing,
     inertia,
     response,
+    safety_gear,
     shock,
     similarity,
     two_mass,
@@ -338,3 +340,46 @@ class TestC25:
         assert time == pytest.approx(0.250085, rel=PRINTED)
         period = 2 * math.pi / two_mass.two_mass_frequency(1.2e6, 18000.0, 5000.0)
         assert time / period == pytest.approx(0.697013, rel=PRINTED)
+
+
+class TestC20:
+    """A fork caught by the rack while hoisting: closed forms; the elastic rack goes through a file."""
+
+    M, M1, K, V, SLOPE = 1600.0, 9000.0, 9e5, 0.3, 4e4
+    Q = M * G
+
+    def test_constant_motor(self) -> None:
+        even = fork.caught_force(self.Q, self.Q, self.K, self.M1, self.V)
+        most = fork.caught_force(2.2 * self.Q, self.Q, self.K, self.M1, self.V)
+        assert (self.Q, even, most) == pytest.approx((15696.0, 42696.0, 67451.8), rel=PRINTED)
+        assert (even / self.Q, most / self.Q) == pytest.approx((2.72018, 4.29739), rel=PRINTED)
+
+    def test_soft_motor(self) -> None:
+        stalls = fork.stall_force(self.Q, self.SLOPE, self.V)
+        assert stalls == pytest.approx(27696.0, rel=PRINTED)
+        assert stalls < fork.soft_caught_force(self.Q, self.K, self.M1, self.V, self.SLOPE)
+
+    def test_criterion(self) -> None:
+        number = fork.catching_number(self.Q, self.Q, self.K, self.M1, self.V)
+        assert number == pytest.approx(1.72018, rel=PRINTED)
+
+
+class TestC21:
+    """Safety gear: trip at 1.4 v, 50 ms of reaction, a progressive and an instantaneous gear."""
+
+    M, V, RATIO, REACTION, FORCE, STIFFNESS = 1600.0, 1.0, 1.4, 0.05, 31392.0, 4e6
+
+    def test_fall(self) -> None:
+        trips = safety_gear.trip_speed(self.V, self.RATIO), safety_gear.trip_time(self.V, self.RATIO, G)
+        assert trips == pytest.approx((1.4, 0.0407747), rel=PRINTED)
+        catch = safety_gear.catch_speed(self.V, self.RATIO, self.REACTION, G)
+        assert catch == pytest.approx(1.8905, rel=PRINTED)
+        assert safety_gear.fall_before_catch(self.V, catch, G) == pytest.approx(0.131192, rel=PRINTED)
+
+    def test_gears(self) -> None:
+        catch = safety_gear.catch_speed(self.V, self.RATIO, self.REACTION, G)
+        assert safety_gear.progressive_deceleration(self.FORCE, self.M, G) == pytest.approx(9.81, rel=PRINTED)
+        way = safety_gear.progressive_distance(self.FORCE, self.M, catch, G)
+        assert way == pytest.approx(0.182161, rel=PRINTED)
+        bites = safety_gear.instantaneous_force(self.M, self.STIFFNESS, catch, G)
+        assert (bites, bites / (self.M * G)) == pytest.approx((167748.0, 10.6873), rel=PRINTED)

@@ -25,15 +25,18 @@ from ptmcalc.laws import (
     brake,
     buffer,
     capstan,
+    carriage,
     chain_fatigue,
     chain_resonance,
     chain_selection,
     chain_start,
     chain_wear,
     classification,
+    contact_damping,
     coulomb,
     duty,
     equalising,
+    fork,
     gearing,
     hoist_class,
     hoisting,
@@ -41,7 +44,11 @@ from ptmcalc.laws import (
     lift_off,
     lift_off_standard,
     loop_bounds,
+    mast,
+    mast_modes,
     motor,
+    obstacle,
+    overturning,
     pendulum,
     polygon,
     rail,
@@ -50,6 +57,7 @@ from ptmcalc.laws import (
     response,
     rope_drum,
     rope_rod,
+    safety_gear,
     sag,
     shaft,
     shock,
@@ -127,6 +135,26 @@ class Draw:
         if "ramp" in among and self.rng.random() < 0.2:
             return (0.0, 0.0), (self.share() / 2 + 1e-12, self.share()), (1.0, 1.0)
         return str(self.rng.choice(among))
+
+
+def under_a_bridge(draw: Draw) -> tuple[Any, ...]:
+    """A column under two girders, somewhere between their ends."""
+    column, span = draw.positive(3), draw.positive(1)[0]
+    place = span * (0.01 + 0.98 * draw.share())
+    ends, wheels = draw.rng.choice(["supported", "clamped"]), draw.rng.choice(["free", "braked"])
+    return *column, span, *draw.positive(3), place, str(ends), str(wheels)
+
+
+def shares_of_a_root(draw: Draw) -> tuple[float, float]:
+    turned = draw.share()
+    return turned, (1 - turned) * draw.share()
+
+
+def a_mast(draw: Draw) -> mast_modes.Mast:
+    """Masses and springs twelve decades apart, a base that is free, a load at its tip or below."""
+    draw = Draw(int(draw.rng.integers(1 << 30)), (-3.0, 3.0))
+    place = draw.rng.uniform(0.3, 1.0) if draw.share() else 1.0
+    return mast_modes.Mast(*draw.positive(6), *(one * draw.share() for one in draw.positive(2)), place)
 
 
 def packed(draw: Draw) -> str:
@@ -363,6 +391,51 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*d.positive(4), d.rng.choice([-1.0, 1.0]) * d.positive(1)[0], d.shape("tip_stopped", "whole")),
     ),
     "collision_force_bound": (buffer.collision_force_bound, lambda d: tuple(d.positive(5))),
+    "column_bending": (mast.column_bending, lambda d: tuple(d.positive(3))),
+    "bridge_travel_compliance": (lambda *a: astuple(mast.bridge_travel_compliance(*a)), under_a_bridge),
+    "trolley_travel_compliance": (
+        lambda *a: astuple(mast.trolley_travel_compliance(*a[:5], *a[7:9])),
+        under_a_bridge,
+    ),
+    "mean_shape": (mast.mean_shape, shares_of_a_root),
+    "mass_coefficient": (mast.mass_coefficient, shares_of_a_root),
+    "tip_shape": (mast.tip_shape, lambda d: (d.share(), *shares_of_a_root(d))),
+    "consistent_masses": (
+        mast.consistent_masses,
+        lambda d: (*d.positive(4), *shares_of_a_root(d), d.rng.uniform(0.3, 1.0)),
+    ),
+    "consistent_frequency": (
+        mast.consistent_frequency,
+        lambda d: (lambda c, a, b: (c, a, 0.9 * d.share() * math.sqrt(a * b), b))(*d.positive(3)),
+    ),
+    "two_mass_damping": (mast.two_mass_damping, lambda d: tuple(d.positive(4))),
+    "static_lag": (mast.static_lag, lambda d: tuple(d.positive(5))),
+    "notes_deflection": (mast.notes_deflection, lambda d: tuple(d.positive(6))),
+    "rise_factor": (mast.rise_factor, lambda d: tuple(d.positive(1))),
+    "after_stop_ratio": (mast.after_stop_ratio, lambda d: tuple(d.positive(2))),
+    "root_moment": (mast.root_moment, lambda d: tuple(d.positive(5))),
+    "leaning": (mast.leaning, lambda d: (*d.positive(4), d.share())),
+    "gravity_stiffness": (
+        mast.gravity_stiffness,
+        lambda d: (*d.positive(3), *shares_of_a_root(d), "hanging"),
+    ),
+    "weighted_tip_compliance": (
+        mast.weighted_tip_compliance,
+        lambda d: (*d.positive(4), "hanging"),
+    ),
+    "clamped_beam_root": (mast_modes.clamped_beam_root, lambda d: (d.positive(1)[0], int(d.rng.integers(1, 4)))),
+    "mast_frequency": (mast_modes.mast_frequency, lambda d: (a_mast(d), int(d.rng.integers(1, 4)))),
+    "mode_compliance": (mast_modes.mode_compliance, lambda d: (a_mast(d), 1, str(d.rng.choice(["base", "load"])))),
+    "dashpot_ratio": (contact_damping.dashpot_ratio, lambda d: (d.share(),)),
+    "elastic_contact_force": (obstacle.elastic_contact_force, lambda d: tuple(d.positive(3))),
+    "damped_contact": (
+        obstacle.damped_contact,
+        lambda d: (*d.positive(4), d.rng.uniform(0.5, 4.0), d.positive(1)[0] * d.share()),
+    ),
+    "column_force_bound": (
+        obstacle.column_force_bound,
+        lambda d: (*d.positive(5), d.positive(1)[0] * d.share(), d.rng.uniform(0.5, 4.0)),
+    ),
     "series_stiffness": (buffer.series_stiffness, lambda d: tuple(d.positive(2))),
     "linear_buffer": (buffer.linear_buffer, lambda d: tuple(d.positive(3))),
     "constant_force_buffer": (buffer.constant_force_buffer, lambda d: tuple(d.positive(3))),
@@ -796,6 +869,21 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
         lambda d: (*whole_loop(bool(d.rng.integers(2)))(d), *d.positive(1), 0.9 + d.share()),
     ),
     "modal_damping": (belt_modes.modal_damping, lambda d: tuple(d.positive(4))),
+    "roller_reaction": (carriage.roller_reaction, lambda d: tuple(d.positive(3))),
+    "roller_coefficient": (carriage.roller_coefficient, lambda d: tuple(d.positive(4))),
+    "guide_resistance": (carriage.guide_resistance, lambda d: tuple(d.positive(2))),
+    "jamming_ratio": (carriage.jamming_ratio, lambda d: tuple(d.positive(4))),
+    "rope_pull": (
+        carriage.rope_pull,
+        lambda d: (*d.positive(3), int(d.rng.integers(1, 64)), max(d.share(), 1e-12), bool(d.rng.integers(2))),
+    ),
+    "sheave_of_tackle": (carriage.sheave_of_tackle, lambda d: (int(d.rng.integers(1, 64)), d.share())),
+    "holding_moment": (
+        overturning.holding_moment,
+        lambda d: (np.array(d.positive(3)), np.array(d.positive(3)) * d.rng.choice([-1, 1], 3)),
+    ),
+    "tipping_moment": (overturning.tipping_moment, lambda d: tuple(d.positive(5))),
+    "stability_reserve": (overturning.stability_reserve, lambda d: tuple(d.positive(2))),
     "tackle_efficiency": (reeving.tackle_efficiency, lambda d: (int(d.rng.integers(1, 64)), d.share())),
     "lowering_tackle_efficiency": (
         reeving.lowering_tackle_efficiency,
@@ -970,6 +1058,35 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "wheel_modes": (rail.wheel_modes, lambda d: tuple(d.positive(4))),
     "rail_factor": (rail.rail_factor, lambda d: tuple(d.positive(4))),
     "waviness_acceleration": (rail.waviness_acceleration, lambda d: tuple(d.positive(3))),
+    "tilt_way": (rail.tilt_way, lambda d: tuple(d.positive(3))),
+    "resonance_speed": (rail.resonance_speed, lambda d: tuple(d.positive(2))),
+    "push_force": (fork.push_force, lambda d: tuple(d.positive(4))),
+    "push_bound": (fork.push_bound, lambda d: tuple(d.positive(5))),
+    "clutch_push": (fork.clutch_push, lambda d: tuple(d.positive(4))),
+    "caught_force": (fork.caught_force, lambda d: tuple(d.positive(5))),
+    "soft_caught_force": (fork.soft_caught_force, lambda d: tuple(d.positive(5))),
+    "stall_force": (fork.stall_force, lambda d: tuple(d.positive(3))),
+    "caught_bound": (fork.caught_bound, lambda d: tuple(d.positive(7))),
+    "rack_bound": (fork.rack_bound, lambda d: tuple(d.positive(7))),
+    "catching_number": (fork.catching_number, lambda d: tuple(d.positive(5))),
+    "slope_number": (fork.slope_number, lambda d: tuple(d.positive(3))),
+    "trip_speed": (safety_gear.trip_speed, lambda d: tuple(d.positive(2))),
+    "trip_time": (safety_gear.trip_time, lambda d: (*d.positive(1), 1.2 + d.share(), *d.positive(1))),
+    "catch_speed": (safety_gear.catch_speed, lambda d: tuple(d.positive(4))),
+    "fall_before_catch": (safety_gear.fall_before_catch, lambda d: (*sorted(d.positive(2)), *d.positive(1))),
+    "progressive_deceleration": (
+        lambda *given: abs(safety_gear.progressive_deceleration(*given)),  # below 0 where the gear does not hold
+        lambda d: tuple(d.positive(3)),
+    ),
+    "progressive_distance": (
+        lambda *given: min(safety_gear.progressive_distance(*given), 1e99),  # infinite where the gear does not hold
+        lambda d: tuple(d.positive(4)),
+    ),
+    "gear_force_needed": (safety_gear.gear_force_needed, lambda d: tuple(d.positive(4))),
+    "gear_speed_left": (safety_gear.gear_speed_left, lambda d: tuple(d.positive(5))),
+    "instantaneous_force": (safety_gear.instantaneous_force, lambda d: tuple(d.positive(4))),
+    "eccentric_moment": (safety_gear.eccentric_moment, lambda d: tuple(d.positive(2))),
+    "axial_shock": (safety_gear.axial_shock, lambda d: tuple(d.positive(1))),
     "skew_angle": (skew.skew_angle, lambda d: (*d.positive(5), d.shape("full", "en_13001_2", "en_1991_3"))),
     "skew_friction": (skew.skew_friction, lambda d: (*d.positive(1), d.share())),
     "slip_pole": (
@@ -1024,12 +1141,14 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
 }
 SIGNED = {
     "acceleration",
+    "holding_moment",
     "crank_angles",
     "reduced_inertia_slope",
     "rod_centre_height",
     "rod_centre_lift",
     "slider_velocity",
     "converter_torque",
+    "mode_compliance",
     "coulomb_decay",
     "coulomb_slide",
     "decay_response",

@@ -1,0 +1,6 @@
+"""Rack stacker: a column that stands on a base in the aisle between racks."""
+
+from ptmcalc.machines.crane.stacking.manifest import stacker
+from ptmcalc.machines.crane.stacking.rack import SCENES, RackStacker
+
+RACK_STACKER = stacker(__name__, "rack_stacker", "rack stacker: base, standing column", RackStacker, SCENES)

@@ -1,0 +1,183 @@
+"""How far a column of two masses may be from one with all its modes, and one without weights from one with them."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.machines.crane.stacking import march, model
+from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
+from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
+from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.two_mass import course_of, lumped
+from ptmcalc.numerics.mast.modes import Mast
+from ptmcalc.numerics.mast.run import Course, settled
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+_ELEMENTS = 10
+_GRAVITY, _LEAST = 2.0, 0.5
+"""Times the difference of two runs, one with the weights, and times what they change of the stiffness: calibrated."""
+_SETTLES = 1.5
+"""Times the same, of the swing that settles: calibrated."""
+_FREQUENCY = 2.0
+"""Times the difference of two runs, one with the exact frequency: calibrated."""
+
+
+def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
+    """What the shapes left out may change of the loads of two masses.
+
+    Deflection and moment at rest are exact; of what swings the first mode has the share g_1/g_s, all others together
+    no more than sum |g_k|:
+
+        |dx| <= P (s_1 |g_s - g_1| + sum_(k > 1) s_k |g_k|)   beside a base that rolls, P the force that comes
+              + a (|h_s - h_1| + sum_(k > 1) |h_k|)           as it stops, a its deceleration; 2 a s_k along a ramp
+              + 2 |x(w) - x(w_1)|                             two masses with the frequency of the exact column
+
+    s_k = 1, or 2/(w_k t_r) for what comes up in the time t_r: a mode is set off by each kink of it. The time in which
+    the swing settles is that of a window so much narrower or wider.
+
+    **Range** every start and stop of two masses.
+    **Error** the sums are bounds; the factor of the last line is calibrated on a seeded sample.
+    **Source** modal analysis: a mode strays from rest under its force by no more than its share of each jump.
+    """
+    try:
+        told = _offsets(spec, scene)
+    except NumericsError:
+        return dict.fromkeys(loads, ANYTHING)
+    spread = {name: offset for name, offset in told.items() if name in loads}
+    return bounds_of_derived(spec, scene, loads, spread)
+
+
+def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
+    moves = march.happening(spec, scene, gravity=False)
+    length, stiffness = spec.column.length, swinging(spec, scene).stiffness
+    exact = Mast.of(moves.column.column, _ELEMENTS, (length,))
+    own = lumped(spec, scene, moves, gravity=False)
+    heavier = float((own.frequencies[0] / exact.frequencies[0]) ** 2)
+    plain, right = (course_of(spec, scene, gravity=False, heavier=factor) for factor in (1.0, heavier))
+    if moves.follows:
+        sums = [_strays(exact, length, math.inf, moves.rise, 2 * moves.jump)]
+    else:
+        deceleration = max(plain.largest("acceleration")[0], right.largest("acceleration")[0])
+        sums = [_strays(exact, length, math.inf, 0.0, deceleration)]
+        sums.append(_strays(exact, length, moves.base.mass, moves.rise, moves.jump))
+    shift, turn = (sum(one[k] for one in sums) for k in (0, 1))
+    shift += _FREQUENCY * abs(plain.largest("deflection")[0] - right.largest("deflection")[0])
+    turn += _FREQUENCY * abs(plain.largest("moment")[0] - right.largest("moment")[0])
+    told = {
+        "mast_deflection_max": Interval(-shift, shift),
+        "mast_force_max": Interval(-stiffness * shift, stiffness * shift),
+        "mast_moment_max": Interval(-turn, turn),
+    }
+    settles = _settling(spec, scene, plain, right, _SETTLES * shift)
+    return told if settles is None else told | {"settling_time": settles}
+
+
+def _strays(mast: Mast, place: float, base: float, rise: float, jump: float) -> tuple[float, float]:
+    """How far deflection at a place and moment at the root may stray as a force or an acceleration comes up."""
+    built = mast.elements
+    total = built.total + base
+    values, shapes = (mast.frequencies, mast.shapes) if math.isinf(base) else mast.rolling(base)
+    pushed = built.carried @ shapes
+    per = pushed / values**2 if math.isinf(base) else pushed / values**2 / total
+    inertia = built.turned @ shapes
+    if math.isfinite(base):
+        inertia = inertia - built.moment * pushed / total
+    strays = np.minimum(1.0, 2 / (values * rise)) if rise > 0 else np.ones(len(values))
+    found = []
+    for gains in ((built.row(place) @ shapes) * per, inertia * values**2 * per):
+        others = float(np.abs(gains[1:]) @ strays[1:])
+        first = abs(float(gains[1:].sum())) * float(strays[0])
+        found.append((others + first) * abs(jump))
+    return found[0], found[1]
+
+
+def _settling(spec: Stacker, scene: DrivenScene, plain: Course, right: Course, doubt: float) -> Interval | None:
+    """Offsets of the settling time from that of the plain run."""
+    window = spec.settling.window
+    if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
+        return None
+    if not (plain.stays and right.stays):
+        return ANYTHING
+    place = spec.column.length
+    value = settled(plain, place, window).time
+    if math.isinf(value):
+        return None
+    found = settled(right, place, window, doubt=min(doubt, window))
+    return Interval(min(found.low - value, 0.0), max(found.high - value, 0.0))
+
+
+# -- weights --------------------------------------------------------------------------------------------------------
+
+
+def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str, Interval]:
+    """What weights may change of a run without them.
+
+    At rest the work of the weights on any shape is at most r times its strain energy, r the share of the weight that
+    buckles the column, so that by Courant's principle
+
+        w_k (1 - r)^(1/2) <= w_k' <= w_k (1 + r)^(1/2)
+
+    where a column that hangs only gets stiffer, one that stands only softer. Of a start or stop twice the difference of
+    two runs of two masses, with weights and without; of a collision twice what the stiffness changes.
+
+    **Range** columns that their weights do not buckle.
+    **Error** the first line is a bound, the factors of the others are calibrated on a seeded sample.
+    **Source** R. Courant, Methods of mathematical physics; `laws.mast`.
+    """
+    share = buckling_share(spec, scene)
+    if share >= 1:
+        return dict.fromkeys(loads, ANYTHING)
+    low, high = (0.0, share) if model.hangs(spec) else (-share, 0.0)
+    told = {}
+    for name, one in loads.items():
+        value = one.value
+        if name.startswith("natural_frequency"):
+            told[name] = Interval(value * (math.sqrt(1 + low) - 1), value * (math.sqrt(1 + high) - 1))
+        elif name == "period":
+            told[name] = Interval(value * (1 / math.sqrt(1 + high) - 1), value * (1 / math.sqrt(1 + low) - 1))
+    if isinstance(scene, Stand):
+        return told
+    if isinstance(scene, ObstacleScene):
+        given = swinging(spec, scene)
+        rise = _GRAVITY * abs(given.weight) / given.stiffness
+        for name in ("collision_force", "collision_deflection", "contact_force"):
+            if name in loads and math.isfinite(loads[name].value):
+                size = rise * loads[name].value
+                told[name] = Interval(-min(size, max(loads[name].low, 0.0)), size)
+        return bounds_of_derived(spec, scene, loads, told)
+    assert isinstance(scene, DrivenScene)
+    try:
+        told |= {name: offset for name, offset in _weighted(spec, scene).items() if name in loads}
+    except NumericsError:
+        return dict.fromkeys(loads, ANYTHING)
+    return bounds_of_derived(spec, scene, loads, told)
+
+
+def _weighted(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
+    plain, heavy = (course_of(spec, scene, gravity=gravity) for gravity in (False, True))
+    stiffness = swinging(spec, scene).stiffness
+    shift, turn = (
+        _GRAVITY * abs(plain.largest(what)[0] - heavy.largest(what)[0]) + _LEAST * heavy.largest(what)[0] * share
+        for what, share in (("deflection", _weight_share(spec, scene)), ("moment", _weight_share(spec, scene)))
+    )
+    told = {
+        "mast_deflection_max": Interval(-shift, shift),
+        "mast_force_max": Interval(-stiffness * shift, stiffness * shift),
+        "mast_moment_max": Interval(-turn, turn),
+    }
+    settles = _settling(spec, scene, plain, heavy, shift)
+    if settles is None:
+        return told
+    swing = math.pi / float(heavy.case.mast.frequencies[0])  # it settles from swing to swing
+    return told | {"settling_time": Interval(settles.low - swing, settles.high + swing)}
+
+
+def _weight_share(spec: Stacker, scene: DrivenScene) -> float:
+    """What weights add to the stiffness, or take from it, as a share of it."""
+    given = swinging(spec, scene)
+    return abs(given.weight) / given.stiffness

@@ -1,0 +1,530 @@
+"""Checks of buffers, fork, rail and safety gear."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.scenes import (
+    BufferScene,
+    ForkCaught,
+    ForkPush,
+    RailScene,
+    SafetyGearScene,
+    StackerScene,
+)
+from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
+from ptmcalc.spec.scene import Scene
+
+OneCheck = Check[Stacker, StackerScene]
+Wanted = Callable[[Stacker, StackerScene], bool]
+Path = Callable[[Stacker, StackerScene], KeyPath]
+
+HITS: frozenset[type[Scene]] = frozenset({BufferScene})
+CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
+PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
+ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
+FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
+
+
+def _only(wanted: Wanted, check: OneCheck) -> OneCheck:
+    """A check that is made of some machines only."""
+
+    def each(spec: Stacker, scene: StackerScene) -> Iterable[OneCheck]:
+        return (check,) if wanted(spec, scene) else ()
+
+    return replace(check, each=each)
+
+
+def _at(*path: str) -> Path:
+    return lambda spec, scene: path
+
+
+def _blames(*path: str) -> Callable[[Stacker, StackerScene, Mapping[str, Estimate]], KeyPath]:
+    return lambda spec, scene, loads: path
+
+
+def _rating(value: float | None) -> Estimate:
+    return Estimate.exact(math.inf if value is None else value)
+
+
+# -- buffers --------------------------------------------------------------------------------------------------------
+
+
+def _of_buffers(*rest: str) -> Path:
+    """A key of the buffers of what travels."""
+    return lambda spec, scene: (MECHANISMS[model.mechanism(spec, scene)], "buffers", *rest)
+
+
+def _stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Way the buffers can be pressed in.
+
+    **Range** any buffer.
+    **Error** none: a limit of the file.
+    **Source** the maker of the buffer.
+    """
+    given = model.travel(spec, scene).buffers
+    return _rating(given.stroke if given is not None else None)
+
+
+STROKE: OneCheck = Check(
+    code="CRN281",
+    title="a buffer of a stacker crane that bottoms out",
+    scenes=HITS,
+    loads=("buffer_stroke",),
+    sense=Sense.AT_MOST,
+    limit=_stroke_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _of_buffers("stroke")(spec, scene),
+    repair=_of_buffers("stroke"),
+    what="The buffers stop the crane with its guided load within their stroke; else the report tells what is left.",
+    why="What the buffers do not take, end stop, column and whoever rides in the cab take in a few millimetres.",
+    formula="E(u) = m v^2/2 + P u,   u <= s",
+    source="energy; EN 13001-2, FEM 9.311",
+)
+
+
+def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of a buffer, or of what it stands on.
+
+    **Range** any buffer.
+    **Error** none: a limit of the file.
+    **Source** the maker of the buffer, the end stop's calculation.
+    """
+    given = model.travel(spec, scene).buffers
+    return _rating(given.rating if given is not None else None)
+
+
+FORCE: OneCheck = Check(
+    code="CRN282",
+    title="a buffer of a stacker crane pressed too hard",
+    scenes=HITS,
+    loads=("buffer_force",),
+    sense=Sense.AT_MOST,
+    limit=_force_limit,
+    needs=lambda spec, scene: (_of_buffers("rating")(spec, scene),),
+    blame=lambda spec, scene, loads: _of_buffers("rating")(spec, scene),
+    repair=_of_buffers("rating"),
+    what="The force of each buffer is within its rating, or that of the end stop.",
+    why="A buffer too stiff breaks what it is to protect, and shakes the column.",
+    formula="F = (P + (P^2 + c m v^2)^(1/2))/n <= F_max, by the type of buffer",
+    source="energy; EN 13001-2, FEM 9.311",
+)
+
+
+def _largest_speed(spec: Stacker, scene: StackerScene) -> float | None:
+    given = model.travel(spec, scene).buffers
+    own = given.largest_speed if given is not None else None
+    return spec.checks.collision_speed if spec.checks.collision_speed is not None else own
+
+
+def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest speed at which the buffers may be hit.
+
+    **Range** any buffer.
+    **Error** none: a limit of the file or of the buffer's maker.
+    **Source** the file.
+    """
+    return _rating(_largest_speed(spec, scene))
+
+
+def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    if spec.checks.collision_speed is not None:
+        return ("checks", "collision_speed")
+    return _of_buffers("largest_speed")(spec, scene)
+
+
+SPEED: OneCheck = _only(
+    lambda spec, scene: _largest_speed(spec, scene) is not None,
+    Check(
+        code="CRN283",
+        title="a buffer of a stacker crane hit too fast",
+        scenes=HITS,
+        loads=("collision_speed",),
+        sense=Sense.AT_MOST,
+        limit=_speed_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _speed_key(spec, scene),
+        repair=lambda spec, scene: (MECHANISMS[model.mechanism(spec, scene)], "speed"),
+        what="The crane hits its buffers no faster than they, or the rules of the plant, allow.",
+        why="Rubber and cells get stiffer the faster they are pressed; load and driver are not held.",
+        formula="share of v <= v_max",
+        source="the maker of the buffer",
+    ),
+)
+
+# -- fork -----------------------------------------------------------------------------------------------------------
+
+
+def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of the ropes over the weight with which the hoist has been calculated.
+
+    **Range** any hoist.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return _rating(spec.checks.fork_caught_factor)
+
+
+def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What lets the force of a caught fork grow: the limiter, or the motor."""
+    if spec.hoisting.limiter is not None:
+        return ("hoisting", "limiter", "force")
+    drive = spec.hoisting.drive
+    return (
+        ("hoisting", "drive", "largest_force") if drive and drive.largest_force is not None else ("hoisting", "speed")
+    )
+
+
+FACTOR: OneCheck = _only(
+    lambda spec, scene: spec.checks.fork_caught_factor is not None,
+    Check(
+        code="CRN284",
+        title="a caught fork that pulls harder than the hoist is built for",
+        scenes=CAUGHT,
+        loads=("fork_caught_factor",),
+        sense=Sense.AT_MOST,
+        limit=_factor_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _hoist_key(spec, scene),
+        repair=_hoist_key,
+        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the weight with"
+        " which the elements of the hoist have been calculated, until the limiter has switched it off.",
+        why="Combination 5 of overhead, 4 of rack stackers is this event; it is several times the weight at any speed"
+        " where the motor is strong.",
+        formula="F/Q,   m_1 x'' = P(x') - F,   F = Q + K (x - y)",
+        source="energy and motion of drive and carriage; lecture notes Kramatorsk 2007, tables 11.1 and 11.2",
+    ),
+)
+
+
+def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Breaking force of all falls together.
+
+    **Range** falls that share evenly.
+    **Error** none: a limit of the file.
+    **Source** the maker of the rope.
+    """
+    rope = spec.hoisting.rope
+    return _rating(None if rope.breaking_force is None else rope.falls * rope.breaking_force)
+
+
+ROPE: OneCheck = Check(
+    code="CRN285",
+    title="a rope that a caught fork tears",
+    scenes=CAUGHT,
+    loads=("rope_force_caught",),
+    sense=Sense.AT_MOST,
+    limit=_rope_limit,
+    needs=lambda spec, scene: (("hoisting", "rope", "breaking_force"),),
+    blame=_blames("hoisting", "rope", "breaking_force"),
+    repair=_at("hoisting", "rope", "breaking_force"),
+    what="The falls on which the carriage hangs bear the force of a fork that the rack catches while it is hoisted.",
+    why="A rope that tears drops the carriage into its safety gear; one that nearly did is worn out without notice.",
+    formula="F <= n F_b",
+    source="equilibrium of the carriage; the maker of the rope",
+)
+
+
+def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of the lifting fork on the rack.
+
+    **Range** any rack.
+    **Error** none: a limit of the file.
+    **Source** the maker of the rack.
+    """
+    return _rating(spec.rack.rating_vertical)
+
+
+RACK: OneCheck = _only(
+    lambda spec, scene: spec.rack.rating_vertical is not None and spec.rack.stiffness_vertical is not None,
+    Check(
+        code="CRN286",
+        title="a rack that a caught fork lifts off or breaks",
+        scenes=CAUGHT,
+        loads=("rack_force",),
+        sense=Sense.AT_MOST,
+        limit=_rack_limit,
+        needs=no_needs,
+        blame=_blames("rack", "rating_vertical"),
+        repair=_at("rack", "rating_vertical"),
+        what="The force of the caught fork on the beam of the rack is within what it bears upwards.",
+        why="Beams are hooked in from above: what lifts them takes the shelf, and the pallets on it, down.",
+        formula="R = K_r y",
+        source="motion of drive, rope and carriage; EN 15512 for what a beam bears",
+    ),
+)
+
+
+def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of the pushing fork on the rack.
+
+    **Range** any rack.
+    **Error** none: a limit of the file.
+    **Source** the maker of the rack.
+    """
+    return _rating(spec.rack.rating_push)
+
+
+PUSH: OneCheck = Check(
+    code="CRN287",
+    title="a rack that the fork pushes over",
+    scenes=PUSHES,
+    loads=("fork_push_force",),
+    sense=Sense.AT_MOST,
+    limit=_push_limit,
+    needs=lambda spec, scene: (("rack", "rating_push"),),
+    blame=_blames("rack", "rating_push"),
+    repair=_at("rack", "rating_push"),
+    what="The fork that runs out against the rack pushes no harder than the rack bears across the aisle.",
+    why="A pallet that sticks out stops the fork at full force and full speed.",
+    formula="F = P + (P^2 + K m v^2)^(1/2),   with a slip clutch P_c + v (K m)^(1/2)",
+    source="energy of the fork's drive; lecture notes Kramatorsk 2007, table 11.2, combination 3",
+)
+
+
+def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of the telescope.
+
+    **Range** any fork.
+    **Error** none: a limit of the file.
+    **Source** the maker of the fork.
+    """
+    return _rating(spec.fork.rating if spec.fork is not None else None)
+
+
+def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What lets the force of a pushing fork grow: its clutch, or its motor."""
+    fork = spec.fork
+    slips = fork is not None and fork.clutch_force is not None and fork.clutch_force < fork.motor_force
+    return ("fork", "clutch_force" if slips else "motor_force")
+
+
+TELESCOPE: OneCheck = _only(
+    lambda spec, scene: spec.fork is not None and spec.fork.rating is not None,
+    Check(
+        code="CRN288",
+        title="a fork pushed harder than it bears",
+        scenes=PUSHES,
+        loads=("fork_push_force",),
+        sense=Sense.AT_MOST,
+        limit=_telescope_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _push_key(spec, scene),
+        repair=_push_key,
+        what="The force of the fork against the rack is within that of its telescope, by its clutch or its motor.",
+        why="A slip clutch set too high protects nothing; chains and racks of telescopes break first.",
+        formula="F <= F_max",
+        source="energy of the fork's drive; the maker of the fork",
+    ),
+)
+
+
+def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """The limiter trips above what normal hoisting asks.
+
+    **Range** any limiter.
+    **Error** none: statics.
+    **Source** equilibrium of the carriage with its inertia.
+    """
+    return Estimate.exact(1.0)
+
+
+LIMITER: OneCheck = _only(
+    lambda spec, scene: spec.hoisting.limiter is not None,
+    Check(
+        code="CRN289",
+        title="a limiter that trips while the carriage is hoisted as usual",
+        scenes=CAUGHT,
+        loads=("limiter_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_limiter_limit,
+        needs=no_needs,
+        blame=_blames("hoisting", "limiter", "force"),
+        repair=_at("hoisting", "limiter", "force"),
+        what="The force at which the limiter trips is above the weight of carriage and load as the hoist starts.",
+        why="A limiter that trips every day is soon set out of action, and then misses the fork that is caught.",
+        formula="F_l/(Q (1 + a/g)) >= 1",
+        source="equilibrium of the carriage with its inertia",
+    ),
+)
+
+# -- safety gear ----------------------------------------------------------------------------------------------------
+
+
+def _gear_stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Way the safety gear has.
+
+    **Range** any gear.
+    **Error** none: a limit of the file.
+    **Source** the maker of the gear.
+    """
+    return _rating(spec.safety_gear.stroke if spec.safety_gear is not None else None)
+
+
+def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What says how hard the gear holds."""
+    gear = spec.safety_gear
+    return ("safety_gear", "stiffness" if gear is not None and gear.type == "instantaneous" else "force")
+
+
+GEAR_STROKE: OneCheck = Check(
+    code="CRN290",
+    title="a safety gear that comes to the end of its stroke",
+    scenes=FALLS,
+    loads=("safety_gear_distance",),
+    sense=Sense.AT_MOST,
+    limit=_gear_stroke_limit,
+    needs=no_needs,
+    blame=_blames("safety_gear", "stroke"),
+    repair=_at("safety_gear", "stroke"),
+    what="The safety gear stops the carriage within its stroke, from the speed the reaction of the governor leaves it.",
+    why="At the end of its stroke a progressive gear becomes an instantaneous one, with ten times the weight.",
+    formula="s = v_c^2/(2 (F_c/M - g)) <= s_max,   v_c = k v + g t_r",
+    source="free fall and energy; EN 528, EN 81-20",
+)
+
+
+def _holding_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """A gear holds more than the weight.
+
+    **Range** any gear.
+    **Error** none: equilibrium.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(1.0)
+
+
+HOLDS: OneCheck = Check(
+    code="CRN291",
+    title="a safety gear that does not hold the carriage",
+    scenes=FALLS,
+    loads=("safety_gear_factor",),
+    sense=Sense.AT_LEAST,
+    limit=_holding_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _gear_key(spec, scene),
+    repair=_gear_key,
+    what="The braking force of the safety gear is more than the weight of carriage, cab and load.",
+    why="A gear that brakes with less than the weight only makes the fall slower.",
+    formula="F_c/(M g) >= 1",
+    source="equilibrium",
+)
+
+
+def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest deceleration of the carriage.
+
+    **Range** any carriage; 9.81 m/s^2 is usual for a cab with a driver.
+    **Error** none: a limit of the file.
+    **Source** the file; EN 81-20: a mean of 0.2 to 1 g for progressive gears.
+    """
+    return _rating(spec.checks.catch_deceleration)
+
+
+DECELERATION: OneCheck = _only(
+    lambda spec, scene: spec.checks.catch_deceleration is not None,
+    Check(
+        code="CRN292",
+        title="a safety gear that stops the carriage too hard",
+        scenes=FALLS,
+        loads=("safety_gear_deceleration",),
+        sense=Sense.AT_MOST,
+        limit=_deceleration_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _gear_key(spec, scene),
+        repair=_gear_key,
+        what="The carriage is stopped no harder than driver, load and column bear.",
+        why="An instantaneous gear stops with many g: what it saves from the fall it may break by the stop.",
+        formula="a = F/M - g",
+        source="Newton's law; EN 528, EN 81-20",
+    ),
+)
+
+# -- rail -----------------------------------------------------------------------------------------------------------
+
+
+def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """A wheel stays on its rail.
+
+    **Range** any wheel.
+    **Error** none: a wheel does not pull.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(0.0)
+
+
+def _rail_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What is uneven."""
+    if isinstance(spec, RackStacker) and (spec.rail.step or spec.rail.gap):
+        return ("rail", "step" if spec.rail.step else "gap")
+    return ("rail", "waviness", "height")
+
+
+CONTACT: OneCheck = Check(
+    code="CRN293",
+    title="a rail so uneven that a wheel of the stacker leaves it",
+    scenes=ROLLS,
+    loads=("rail_contact",),
+    sense=Sense.AT_LEAST,
+    limit=_contact_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _rail_key(spec, scene),
+    repair=_at("travel", "speed"),
+    what="The wheels keep their contact with the rail on its steps, gaps and waves.",
+    why="A wheel that jumps comes down with a blow, and the column whips.",
+    formula="1 - (pi/2)^2 v^2/(g r) max(-u) >= 0,   1 - T (h/2) (2 pi v/lambda)^2/g >= 0",
+    source="one vertical mode over a cosine step; `laws.rail`",
+)
+
+
+def _detuning_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Least distance from resonance, 0.2 by default.
+
+    **Range** even waves.
+    **Error** none: an engineering rule.
+    **Source** handbooks: keep 20 to 30 % away from a natural frequency.
+    """
+    return Estimate.exact(spec.checks.rail_detuning)
+
+
+RESONANCE: OneCheck = _only(
+    lambda spec, scene: isinstance(spec, RackStacker) and spec.rail.waviness is not None,
+    Check(
+        code="CRN294",
+        title="a wavy rail that shakes the stacker in resonance",
+        scenes=ROLLS,
+        loads=("rail_detuning",),
+        sense=Sense.AT_LEAST,
+        limit=_detuning_limit,
+        needs=no_needs,
+        blame=_blames("rail", "waviness", "length"),
+        repair=no_repair,
+        what="The waves of the rail pass under the wheels with a frequency that is away from those of the machine on"
+        " its wheels and of its column.",
+        why="A rail ground in even waves shakes the column at one speed: v = f lambda.",
+        formula="|v/(lambda f) - 1| >= 0.2 for wheels and column",
+        source="resonance; `laws.rail.resonance_speed`",
+    ),
+)
+
+CHECKS_OF_EVENTS: tuple[AnyCheck, ...] = (
+    STROKE,
+    FORCE,
+    SPEED,
+    FACTOR,
+    ROPE,
+    RACK,
+    PUSH,
+    TELESCOPE,
+    LIMITER,
+    GEAR_STROKE,
+    HOLDS,
+    DECELERATION,
+    CONTACT,
+    RESONANCE,
+)

@@ -1,0 +1,268 @@
+"""Checks of the column's motion: how far it swings, how long, and what it and an obstacle do to each other."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, at, blames, block, given, of_the_mechanism, only
+from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.travelling import turns
+from ptmcalc.spec.scene import Scene
+
+DRIVEN: frozenset[type[Scene]] = frozenset({Start, Brake})
+HITS: frozenset[type[Scene]] = frozenset({ObstacleScene})
+
+
+def _rate_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What says how hard a mechanism starts or stops."""
+    key = block(spec, scene)
+    travel = model.travel(spec, scene)
+    starts = isinstance(scene, Start)
+    if travel.drive is not None:
+        if starts:
+            return (key, "drive")
+        return (key, "drive", "deceleration") if travel.drive.deceleration is not None else (key, "drive", "brake")
+    if starts:
+        return (key, "acceleration" if travel.acceleration is not None else "driving_force")
+    return (key, "deceleration" if travel.deceleration is not None else "braking_force")
+
+
+def _rate_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
+    return _rate_key(spec, scene)
+
+
+def _rate_repair(spec: Stacker, scene: StackerScene) -> KeyPath:
+    key = _rate_key(spec, scene)
+    return key if key[-1] in ("acceleration", "driving_force", "deceleration", "braking_force") else ()
+
+
+# -- the swing ------------------------------------------------------------------------------------------------------
+
+
+def _deflection_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest swing of the far end of the column that the file allows.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file: the formula of the lecture notes is lost, and no other is known.
+    """
+    return given(spec.checks.mast_deflection)
+
+
+def _asks_deflection(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.checks.mast_deflection is not None and not turns(spec, scene)
+
+
+DEFLECTION: OneCheck = only(_asks_deflection)(
+    Check(
+        code="CRN251",
+        title="a column that swings too far",
+        scenes=DRIVEN,
+        loads=("mast_deflection_max",),
+        sense=Sense.AT_MOST,
+        limit=_deflection_limit,
+        needs=no_needs,
+        blame=_rate_blame,
+        repair=_rate_repair,
+        what="The far end of the column swings no further beside what holds it than the file allows.",
+        why="What swings far hits the racks, shakes off the load and tires the column at its root.",
+        formula="x = 2 P m_2/(c (m_1 + m_2)) of a sudden force; with the mass of the column and its modes",
+        source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; limit of the file",
+    )
+)
+
+
+def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force of the column on what holds it that the file allows.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return given(spec.checks.column_force)
+
+
+def _asks_force(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.checks.column_force is not None and not turns(spec, scene)
+
+
+PULL: OneCheck = only(_asks_force)(
+    Check(
+        code="CRN252",
+        title="a column that pulls too hard in a start or a stop",
+        scenes=DRIVEN,
+        loads=("mast_force_max",),
+        sense=Sense.AT_MOST,
+        limit=_force_limit,
+        needs=no_needs,
+        blame=_rate_blame,
+        repair=_rate_repair,
+        what="The force of the bent column, its stiffness times the swing of its far end, is what its root bears.",
+        why="It is the dynamic load of starting and braking in the tables of combinations.",
+        formula="F = c x_max",
+        source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, tables 11.1 and 11.2",
+    )
+)
+
+# -- settling -------------------------------------------------------------------------------------------------------
+
+
+def _wait_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Longest wait for the column to stay in the window, from the standstill on.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file: no standard fixes it.
+    """
+    return given(spec.settling.wait)
+
+
+def _asks_wait(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.settling.wait is not None and not turns(spec, scene)
+
+
+SETTLES: OneCheck = only(_asks_wait)(
+    Check(
+        code="CRN253",
+        title="a column that swings too long for the fork to go out",
+        scenes=frozenset({Brake}),
+        loads=("settling_time",),
+        sense=Sense.AT_MOST,
+        limit=_wait_limit,
+        needs=lambda spec, scene: (("column", "log_decrement"),),
+        blame=blames("settling", "window"),
+        repair=at("settling", "wait"),
+        what="From the standstill on the far end of the column stays inside the window of the fork within the wait.",
+        why="A fork that goes out before meets the rack or the pallet beside the one it is for.",
+        formula="|x(t)| <= window for all t >= t_s,   t_s <= wait",
+        source="free vibration of the column; window and wait of the file",
+    )
+)
+
+
+def _window_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """The window of the fork to either side.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return given(spec.settling.window)
+
+
+def _asks_window(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.settling.window is not None and not turns(spec, scene)
+
+
+LEANS: OneCheck = only(_asks_window)(
+    Check(
+        code="CRN254",
+        title="a column that leans out of the window of its fork at rest",
+        scenes=frozenset({Brake}),
+        loads=("rest_deflection",),
+        sense=Sense.AT_MOST,
+        limit=_window_limit,
+        needs=no_needs,
+        blame=blames("settling", "window"),
+        repair=at("settling", "window"),
+        what="Under weights beside its axis the column leans at rest by less than the window of the fork is wide.",
+        why="A column that leans by more than the window is never inside it, however long the fork waits: the window is"
+        " narrower than the static deflection.",
+        formula="x = M ((s l)^2/2 + s l (l - s l))/(E J) + M l/k,   M = |Q a + G b|;   x <= window",
+        source="bending of beams; `laws.mast.leaning`",
+    )
+)
+
+# -- collision ------------------------------------------------------------------------------------------------------
+
+
+def _speed_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
+    return (block(spec, scene), "speed")
+
+
+BLOW: OneCheck = only(_asks_force)(
+    Check(
+        code="CRN255",
+        title="a column bent too hard by an obstacle",
+        scenes=HITS,
+        loads=("collision_force",),
+        sense=Sense.AT_MOST,
+        limit=_force_limit,
+        needs=no_needs,
+        blame=_speed_blame,
+        repair=of_the_mechanism("speed"),
+        what="The force of the column as its far end meets an obstacle is what its root bears.",
+        why="The column stops everything that travels: running into an obstacle is combination 4 of table 11.1.",
+        formula="F <= v (c (m_1 + m_2))^(1/2); simulated with the contact of the file",
+        source="energy; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, table 11.1",
+    )
+)
+
+
+def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest force between the column and an obstacle that the file allows.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return given(spec.checks.contact_force)
+
+
+def _asks_contact(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.checks.contact_force is not None
+
+
+STRUCK: OneCheck = only(_asks_contact)(
+    Check(
+        code="CRN256",
+        title="an obstacle struck too hard",
+        scenes=HITS,
+        loads=("contact_force",),
+        sense=Sense.AT_MOST,
+        limit=_contact_limit,
+        needs=no_needs,
+        blame=_speed_blame,
+        repair=of_the_mechanism("speed"),
+        what="The force between the far end of the column and what it meets is what both bear.",
+        why="It is short, and many times the force of the column: load and column's end stop by themselves.",
+        formula="F = v (k m_2)^(1/2), with the modes of the column",
+        source="contact of the file; `laws.obstacle`",
+    )
+)
+
+
+def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest speed at which an obstacle may be met.
+
+    **Range** any stacker crane.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return given(spec.checks.collision_speed)
+
+
+def _asks_speed(spec: Stacker, scene: StackerScene) -> bool:
+    return spec.checks.collision_speed is not None
+
+
+FAST: OneCheck = only(_asks_speed)(
+    Check(
+        code="CRN257",
+        title="an obstacle met too fast",
+        scenes=HITS,
+        loads=("collision_speed",),
+        sense=Sense.AT_MOST,
+        limit=_speed_limit,
+        needs=no_needs,
+        blame=_speed_blame,
+        repair=no_repair,
+        what="The column meets an obstacle no faster than the rules of the plant allow.",
+        why="The force of the column goes with the speed, the energy of the blow with its square.",
+        formula="share of v <= v_max",
+        source="limit of the file",
+    )
+)
+
+CHECKS_OF_MAST: tuple[AnyCheck, ...] = (DEFLECTION, PULL, SETTLES, LEANS, BLOW, STRUCK, FAST)

@@ -1,0 +1,223 @@
+"""Checks of the carriage, the ropes, and the times of the drives."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.laws import hoist_class
+from ptmcalc.machines.crane.stacking import model, starts
+from ptmcalc.machines.crane.stacking.drives import Rotation
+from ptmcalc.machines.crane.stacking.judging import OneCheck, at, blames, block, given, needs, only
+from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, HoistScene, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.spec.scene import Scene
+
+
+def _roller_limit(spec: Stacker, scene: HoistScene) -> Estimate:
+    """Largest load of a guide roller.
+
+    **Range** any roller.
+    **Error** none: a limit of the file.
+    **Source** the maker of the roller.
+    """
+    return given(spec.carriage.rollers.rating)
+
+
+ROLLERS: OneCheck = Check(
+    code="CRN201",
+    title="a guide roller loaded too heavily",
+    scenes=frozenset({HoistScene}),
+    loads=("roller_load",),
+    sense=Sense.AT_MOST,
+    limit=_roller_limit,
+    needs=needs("carriage", "rollers", "rating"),
+    blame=blames("carriage", "rollers", "rating"),
+    repair=at("carriage", "rollers", "distance"),
+    what="The eccentric weights of load, carriage and cab, with the carriage's acceleration, press no roller against"
+    " the column harder than it bears.",
+    why="The reaction goes by arm over distance of the rollers: short carriages with long forks wear roller and rail.",
+    formula="(1 + a/g) |Q a + G b|/h <= n R_0",
+    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the maker of the roller",
+)
+
+
+def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
+    """A resistance as large as the weight holds the carriage up.
+
+    **Range** any guide.
+    **Error** none: a balance; a file may ask for more than 1.
+    **Source** balance of the carriage.
+    """
+    return Estimate.exact(spec.checks.self_jamming)
+
+
+JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
+    Check(
+        code="CRN202",
+        title="a carriage that jams on its column",
+        scenes=frozenset({HoistScene}),
+        loads=("jamming",),
+        sense=Sense.AT_MOST,
+        limit=_jamming_limit,
+        needs=no_needs,
+        blame=blames("carriage", "rollers", "distance"),
+        repair=at("carriage", "rollers", "distance"),
+        what="The resistance of the guide is less than the weight that has to overcome it on the way down.",
+        why="A carriage that jams like a drawer stays up while its ropes go slack, and falls when it comes free.",
+        formula="2 w |Q a + G b|/(h (Q + G)) <= 1,   w = (mu d + 2 f)/D",
+        source="balance of the carriage",
+    )
+)
+
+
+def _rope_limit(spec: Stacker, scene: HoistScene) -> Estimate:
+    """Safety that the file, or the group of the mechanism, asks of a rope on one layer.
+
+    **Range** running wire ropes.
+    **Error** none: a table.
+    **Source** ISO 4308-1:2003 by the group (`laws.hoist_class`); or the file.
+    """
+    asked, group = spec.checks.rope_safety, spec.hoisting.group
+    if asked is None and group is not None:
+        asked = hoist_class.rope_safety_of_group(group, 1)
+    return given(asked)
+
+
+def _rope_needs(spec: Stacker, scene: HoistScene) -> tuple[KeyPath, ...]:
+    limited = spec.checks.rope_safety is not None or spec.hoisting.group is not None
+    return (("hoisting", "rope", "breaking_force"), *(() if limited else (("hoisting", "group"),)))
+
+
+ROPE: OneCheck = Check(
+    code="CRN203",
+    title="a rope too weak for the carriage",
+    scenes=frozenset({HoistScene}),
+    loads=("rope_safety",),
+    sense=Sense.AT_LEAST,
+    limit=_rope_limit,
+    needs=_rope_needs,
+    blame=blames("hoisting", "rope", "breaking_force"),
+    repair=at("hoisting", "rope", "breaking_force"),
+    what="The breaking force of the rope over its largest pull, with the acceleration of the carriage, the resistance"
+    " of its guide and the losses of the sheaves, is what its group asks.",
+    why="It is combination 1 of both tables of the notes; inertia is in their formula though not in the combination.",
+    formula="F_min/S >= Z_p,   S = ((Q + G)(1 + a/g) + W)/(m eta_r)",
+    source="ISO 4308-1:2003; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",
+)
+
+
+def _drive_key(spec: Stacker, scene: Braked) -> KeyPath:
+    """What governs how long a mechanism starts or stops."""
+    mechanism, stops = model.moving(spec, scene), isinstance(scene, Brake)
+    here = block(spec, scene)
+    if isinstance(mechanism, Rotation):
+        return here, "braking_torque" if stops else "driving_torque"
+    if mechanism.drive is not None:
+        ramp, torque = ("deceleration", ("brake", "torque")) if stops else ("acceleration", ("motor",))
+        return (here, "drive", ramp) if getattr(mechanism.drive, ramp) is not None else (here, "drive", *torque)
+    ramp, force = ("deceleration", "braking_force") if stops else ("acceleration", "driving_force")
+    return here, ramp if getattr(mechanism, ramp) is not None else force
+
+
+def _drive_repair(spec: Stacker, scene: Braked) -> KeyPath:
+    key = _drive_key(spec, scene)
+    return () if key[-1] == "motor" else key
+
+
+def _start_limit(spec: Stacker, scene: Braked) -> Estimate:
+    """Longest start, 10 s by default.
+
+    **Range** any mechanism.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines: 8 to 10 s for travel.
+    """
+    return Estimate.exact(spec.checks.start_time)
+
+
+def _brake_limit(spec: Stacker, scene: Braked) -> Estimate:
+    """Longest stop, 10 s by default.
+
+    **Range** any mechanism.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines: 8 to 10 s for travel.
+    """
+    return Estimate.exact(spec.checks.brake_time)
+
+
+START_TIME: OneCheck = Check(
+    code="CRN204",
+    title="a mechanism that starts too slowly",
+    scenes=frozenset({Start}),
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=_start_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _drive_key(spec, scene),
+    repair=_drive_repair,
+    what="Bridge, trolley, column or base come to their speed in the time allowed; a drive below its resistance never"
+    " does.",
+    why="It is combination 1 of the notes' tables: weights alone, for the drives of all mechanisms.",
+    formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
+    source="momentum; handbooks of lifting machines",
+)
+BRAKE_TIME: OneCheck = Check(
+    code="CRN205",
+    title="a mechanism that stops too slowly",
+    scenes=frozenset({Brake}),
+    loads=("brake_time",),
+    sense=Sense.AT_MOST,
+    limit=_brake_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _drive_key(spec, scene),
+    repair=_drive_repair,
+    what="Bridge, trolley, column or base come to rest in the time allowed.",
+    why="A weak brake saves the column and costs the way to the next buffer.",
+    formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
+    source="momentum; handbooks of lifting machines",
+)
+
+
+def _starts_limit(spec: Stacker, scene: Braked) -> Estimate:
+    """As many starts as motor and brake allow.
+
+    **Range** any mechanism.
+    **Error** none: a limit of the file.
+    **Source** the maker of motor and brake.
+    """
+    return Estimate.exact(1.0)
+
+
+def _counts(spec: Stacker, scene: Braked | HoistScene) -> bool:
+    if isinstance(scene, HoistScene):
+        return scene.direction == "up" and spec.hoisting.starts_per_hour is not None
+    return model.moving(spec, scene).starts_per_hour is not None
+
+
+def _starts_block(spec: Stacker, scene: Braked | HoistScene) -> str:
+    return "hoisting" if isinstance(scene, HoistScene) else block(spec, scene)
+
+
+def _starts_needs(spec: Stacker, scene: Braked | HoistScene) -> tuple[KeyPath, ...]:
+    known = isinstance(scene, Start) and starts.permitted(model.moving(spec, scene)) is not None
+    return () if known else ((_starts_block(spec, scene), "permitted_starts_per_hour"),)
+
+
+_STARTING: frozenset[type[Scene]] = frozenset((Start, HoistScene))
+STARTS: OneCheck = only(_counts)(
+    Check(
+        code="CRN206",
+        title="a mechanism started too often",
+        scenes=_STARTING,
+        loads=("starts_ratio",),
+        sense=Sense.AT_MOST,
+        limit=_starts_limit,
+        needs=_starts_needs,
+        blame=lambda spec, scene, loads: (_starts_block(spec, scene), "starts_per_hour"),
+        repair=lambda spec, scene: (_starts_block(spec, scene), "starts_per_hour"),
+        what="The mechanism starts no more often than motor and brake allow.",
+        why="Each start leaves the energy of all that moves in rotor and brake once more.",
+        formula="z <= z_0",
+        source="the maker of motor and brake; combination 1 of the notes' tables",
+    )
+)
+
+CHECKS_OF_STATICS: tuple[AnyCheck, ...] = (ROLLERS, JAMMING, ROPE, START_TIME, BRAKE_TIME, STARTS)

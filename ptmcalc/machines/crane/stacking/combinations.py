@@ -1,0 +1,204 @@
+"""The load combinations of stacker cranes as data, and which event of a file gives each its force.
+
+A dynamic load is never a weight times a stored factor: it is the load of an event that has been run.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from ptmcalc.contract.effect import EffectState
+from ptmcalc.contract.report import Amount, Cell, Column, LoadReport, SceneReport, TableReport
+from ptmcalc.contract.result import of
+from ptmcalc.machines.crane.stacking.spec import Stacker
+
+CRANE, LOAD = "weight of the crane", "weight of the lifted load"
+MECHANISMS, OBSTACLE = "dynamic: starting and braking of mechanisms", "dynamic: running into an obstacle"
+PUSH, CAUGHT = "dynamic: fork pushing against the rack", "dynamic: fork caught by the rack while hoisting"
+RAIL, GEAR = "dynamic: irregularities of the rail", "dynamic: safety gear"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A load of a table, and the combinations that take it."""
+
+    load: str
+    taken: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Combinations:
+    """A table of the notes: its loads, what each combination is for, and what the source leaves open."""
+
+    name: str
+    title: str
+    rows: tuple[Row, ...]
+    uses: tuple[str, ...]
+    notes: tuple[str, ...]
+    count: int = 6
+
+    def loads(self, number: int) -> tuple[str, ...]:
+        """The loads of a combination, from 1 on."""
+        return tuple(row.load for row in self.rows if number in row.taken)
+
+
+_ALL = (1, 2, 3, 4, 5, 6)
+_INERTIA = (
+    "combination 1 leaves starting and braking out although the rope formula of the same source has inertia in it:"
+    " inertia is taken in the rope force (scene `hoist`), and the combination stays one of weights"
+)
+_STRUCTURE = "bridge structure, column, mechanisms"
+
+OVERHEAD = Combinations(
+    "11.1",
+    "Load combinations of overhead stackers, table 11.1",
+    (
+        Row(CRANE, _ALL),
+        Row(LOAD, _ALL),
+        Row(MECHANISMS, (3,)),
+        Row(OBSTACLE, (4,)),
+        Row(CAUGHT, (5,)),
+    ),
+    (
+        "start and brake times, starts per hour, rope breaking force",
+        _STRUCTURE,
+        _STRUCTURE,
+        _STRUCTURE,
+        "elements of the hoisting mechanism",
+        "structures and intermediate elements",
+    ),
+    (
+        "combinations 1, 2 and 6 take the same loads: they can differ only by partial factors or limit states (rated,"
+        " test, fatigue), which the source does not state",
+        _INERTIA,
+        "the last printed line, `while hoisting`, has empty cells: it is the end of the line above it, as table 11.2"
+        " shows",
+    ),
+)
+RACK = Combinations(
+    "11.2",
+    "Load combinations of rack stackers, table 11.2",
+    (
+        Row(CRANE, _ALL),
+        Row(LOAD, _ALL),
+        Row(MECHANISMS, (2,)),
+        Row(PUSH, (3,)),
+        Row(CAUGHT, (4,)),
+        Row(RAIL, (5,)),
+        Row(GEAR, (6,)),
+    ),
+    (
+        "motors and brakes of all mechanisms, ropes",
+        "stability",
+        "not stated; the column across the aisle and the rack",
+        "not stated; the hoisting mechanism and the carriage",
+        "not stated; wheels, base and column",
+        "not stated; column and safety gear",
+    ),
+    (
+        "lines of the printed table have five or seven cells instead of six: read on the diagonal, the only reading in"
+        " which each combination takes one dynamic load",
+        _INERTIA,
+        "what combinations 3 to 6 are for is not stated in the source",
+    ),
+)
+TABLES = {"overhead_stacker": OVERHEAD, "rack_stacker": RACK}
+
+EVENTS = {
+    MECHANISMS: "start or brake",
+    OBSTACLE: "obstacle",
+    PUSH: "fork_push",
+    CAUGHT: "fork_caught",
+    RAIL: "rail",
+} | {GEAR: "safety_gear"}
+"""The scene of a file that gives a dynamic load."""
+
+_DYNAMIC = frozenset(EVENTS)
+
+
+def tables(spec: Stacker, scenes: Sequence[SceneReport]) -> Iterator[TableReport]:
+    """The table of a machine as the source prints it, and the force, the run and the stresses of each combination."""
+    given = TABLES[spec.type]
+    yield _matrix(given)
+    yield _forces(given, scenes)
+
+
+def _matrix(given: Combinations) -> TableReport:
+    numbers = range(1, given.count + 1)
+    columns = (Column("load", "load"), *(Column(str(n), str(n)) for n in numbers))
+    rows = tuple((row.load, *("+" if n in row.taken else "-" for n in numbers)) for row in given.rows)
+    return TableReport(given.name, given.title, columns, rows)
+
+
+_COLUMNS = (
+    Column("combination", ""),
+    Column("dynamic_load", "dynamic load", detail=True),
+    Column("force", "force"),
+    Column("scene", "scene"),
+    Column("solver", "solver"),
+    Column("effects", "effects of the run"),
+    Column("column_stress", "column"),
+    Column("bridge_stress", "bridge"),
+    Column("use", "for"),
+)
+
+
+def _forces(given: Combinations, scenes: Sequence[SceneReport]) -> TableReport:
+    rows = tuple(tuple(_row(given, number, scenes)) for number in range(1, given.count + 1))
+    shown = tuple(
+        index
+        for index, column in enumerate(_COLUMNS)
+        if column.key not in ("column_stress", "bridge_stress") or any(row[index] for row in rows)
+    )
+    return TableReport(
+        f"{given.name} forces",
+        f"Forces of table {given.name}: the load that marks each combination, and the run it comes from",
+        tuple(_COLUMNS[index] for index in shown),
+        tuple(tuple(row[index] for index in shown) for row in rows),
+        given.notes,
+    )
+
+
+def _row(given: Combinations, number: int, scenes: Sequence[SceneReport]) -> Iterator[Cell]:
+    dynamic = next((load for load in given.loads(number) if load in _DYNAMIC), "")
+    name = of("combination_force", f"{given.name},{number}")
+    marked = [(scene, load) for scene in scenes for load in scene.loads if load.info.name == name]
+    yield f"{given.name},{number}"
+    yield dynamic or "none: weights alone"
+    if not marked:
+        event = EVENTS.get(dynamic, "stand")
+        yield from ("", f"no scene `{event}` was run", "", ())
+    else:
+        scene, force = max(marked, key=lambda one: _size(one[1]))
+        yield Amount(force.estimate, force.info.quantity)
+        yield scene.name
+        yield force.solver
+        yield tuple(_ledger(scene, force.solver))
+    for stress in ("column_stress", "bridge_stress"):
+        yield _largest(stress, (scene for scene, _ in marked))
+    yield given.uses[number - 1]
+
+
+def _size(load: LoadReport) -> float:
+    value = load.estimate.value
+    return -math.inf if math.isnan(value) else value
+
+
+def _ledger(scene: SceneReport, solver: str) -> Iterator[str]:
+    """The effects of a scene's ledger that its run carried, or whose bound is in its bar."""
+    carried = next((one.effects for one in scene.solvers if one.name == solver and one.decides), ())
+    for effect in scene.effects:
+        if effect.name in carried:
+            yield f"{effect.name} simulated"
+        elif effect.state is not EffectState.SKIPPED:
+            yield f"{effect.name} bounded"
+        else:
+            yield f"{effect.name} skipped"
+
+
+def _largest(name: str, scenes: Iterable[SceneReport]) -> Cell:
+    found = [load for scene in scenes for load in scene.loads if load.info.name == name]
+    if not found:
+        return ""
+    largest = max(found, key=_size)
+    return Amount(largest.estimate, largest.info.quantity)

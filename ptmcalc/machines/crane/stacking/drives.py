@@ -1,0 +1,226 @@
+"""What moves a stacker crane, as a designer writes it: travel, rotation of the column, hoisting."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.components.buffer import Buffer
+from ptmcalc.components.travel_drive import TravelDrive
+from ptmcalc.spec.fields import (
+    Efficiency,
+    Force,
+    Inertia,
+    Measure,
+    PositiveAcceleration,
+    PositiveAngularSpeed,
+    PositiveArea,
+    PositiveForce,
+    PositiveInertia,
+    PositiveLength,
+    PositiveMass,
+    PositiveRatio,
+    PositiveSpan,
+    PositiveSpeed,
+    PositiveStress,
+    PositiveTorque,
+    Time,
+    Torque,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+
+Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
+Slope = Annotated[float, Measure(units.DAMPING, above=0)]
+Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
+Falls = Annotated[int, Field(ge=1, le=64, strict=True)]
+Group = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
+
+
+class Travel(Fragment):
+    """A mechanism that travels: how fast, and what starts and stops it.
+
+    It keeps to a ramp of speed (`acceleration`, `deceleration`), or a force acts at the rims of its wheels
+    (`driving_force`, `braking_force`, or those of a `drive`).
+    """
+
+    speed: PositiveSpeed
+    """at full"""
+    acceleration: PositiveAcceleration | None = None
+    """of a start along a ramp of speed"""
+    deceleration: PositiveAcceleration | None = None
+    """of a stop along a ramp of speed"""
+    ramp_rise: Time = 0.0
+    """in which the acceleration of a ramp comes up and goes down, in a straight line"""
+    driving_force: PositiveForce | None = None
+    """at the rims, of a start by force"""
+    driving_rise: Time = 0.0
+    """in which it comes up, in a straight line"""
+    braking_force: PositiveForce | None = None
+    """at the rims, of a stop by force, without the resistance"""
+    braking_delay: Time = 0.0
+    """from switching off until it begins"""
+    braking_rise: Time = 0.0
+    """in which it comes up, in a straight line"""
+    resistance: Force = 0.0
+    """to travel, at the rims"""
+    drive: TravelDrive | None = None
+    """motors, gear and brakes, instead of forces and ramps"""
+    wheel_diameter: PositiveLength | None = None
+    """of the driven wheels; with a `drive`"""
+    starts_per_hour: Rate | None = None
+    """what the mechanism does all day; needed to check its starts"""
+    permitted_starts_per_hour: Rate | None = None
+    """what motor and brake allow; that of the drive's motor when left out"""
+    buffers: Buffer | None = None
+    """at the ends of its way; needed for a `buffer`"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """What starts and what stops it is given in one way."""
+        yield from at_most_one(given, "acceleration", "driving_force")
+        yield from at_most_one(given, "deceleration", "braking_force")
+        if "drive" in given:
+            for key in ("acceleration", "driving_force", "deceleration", "braking_force"):
+                if key in given:
+                    yield Conflict((key,), "the `drive` says what starts and stops it", f"delete `{key}`, or the drive")
+            yield from together(given, "drive", "wheel_diameter", "its torques act at the rims of the wheels")
+        elif not any(key in given for key in ("deceleration", "braking_force")):
+            yield given.missing("braking_force", "nothing stops it: give `deceleration`, `braking_force` or a `drive`")
+        for key, force in (("driving_rise", "driving_force"), ("braking_rise", "braking_force")):
+            if given.number(key) and force not in given:
+                yield Conflict((key,), f"there is no `{force}` that comes up", f"delete `{key}`")
+        if given.number("ramp_rise") and not ({"acceleration", "deceleration"} & set(given.raw)):
+            yield Conflict(("ramp_rise",), "there is no ramp whose acceleration comes up", "delete `ramp_rise`")
+
+    @property
+    def starts(self) -> bool:
+        """Whether the file says what starts it."""
+        return any(one is not None for one in (self.acceleration, self.driving_force, self.drive))
+
+
+class Rotation(Fragment):
+    """The mechanism that turns the column about its own axis."""
+
+    speed: PositiveAngularSpeed
+    """at full"""
+    inertia: PositiveInertia
+    """of column, carriage, cab and load about the axis, the rotor reduced to it included"""
+    driving_torque: PositiveTorque
+    """at the column"""
+    braking_torque: PositiveTorque
+    """at the column"""
+    resistance: Torque = 0.0
+    """of its bearings, at the column"""
+    starts_per_hour: Rate | None = None
+    """what the mechanism does all day; needed to check its starts"""
+    permitted_starts_per_hour: Rate | None = None
+    """what motor and brake allow; needed to check the starts"""
+
+
+class HoistRope(Fragment):
+    """The ropes the carriage hangs on."""
+
+    falls: Falls
+    """parts of rope the carriage hangs on, all together"""
+    ropes: Literal[1, 2] = 1
+    """parts of rope that run onto the drum"""
+    sheave_efficiency: Efficiency | None = None
+    """of a sheave; 0.98 is assumed when neither it nor `efficiency` is given"""
+    efficiency: Efficiency | None = None
+    """of the whole tackle while it hauls, instead of that of a sheave"""
+    diameter: PositiveLength | None = None
+    """nominal"""
+    breaking_force: PositiveForce | None = None
+    """of one part of rope; needed to check its safety"""
+    stiffness: Stiffness | None = None
+    """of all falls at the carriage; or give `area` and `length`"""
+    area: PositiveArea | None = None
+    """metallic, of one part of rope"""
+    modulus: PositiveStress = 105e9
+    """of the rope on its metallic area, not of its wire; 105 GPa when left out"""
+    length: PositiveSpan | None = None
+    """of one rope between the drum and its end"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Losses and stiffness are given in one way; two ropes share out evenly."""
+        yield from at_most_one(given, "sheave_efficiency", "efficiency")
+        for key in ("area", "length"):
+            yield from at_most_one(given, "stiffness", key)
+        yield from together(given, "area", "length", "the stiffness of the rope goes by both")
+        yield from together(given, "length", "area", "the stiffness of the rope goes by both")
+        falls, ropes = given.raw.get("falls"), given.raw.get("ropes", 1)
+        if isinstance(falls, int) and ropes == 2 and falls % 2:
+            reason = f"{falls} falls do not share out on two ropes"
+            yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
+
+
+class Limiter(Fragment):
+    """What switches the hoist off at too large a force."""
+
+    force: PositiveForce
+    """at the carriage, at which it trips"""
+    reaction: Time
+    """from then until the motor is off and the brake acts"""
+    braking_force: PositiveForce | None = None
+    """of the brake, at the carriage; that of the motor in even hoisting when left out"""
+
+
+class HoistDrive(Fragment):
+    """Motor, gear and drum of the hoist, as the carriage feels them."""
+
+    reduced_mass: PositiveMass | None = None
+    """of all that turns, at the carriage, while the motor drives; or give `inertia`, `ratio` and `drum_diameter`"""
+    inertia: Inertia | None = None
+    """of rotor, coupling and brake, on the motor shaft"""
+    ratio: PositiveRatio | None = None
+    """of the gear"""
+    gear_efficiency: Efficiency = 0.94
+    """from motor to drum"""
+    drum_diameter: PositiveLength | None = None
+    """to the middle of the rope"""
+    largest_force: PositiveForce | None = None
+    """of the motor that goes on pulling, at the carriage; the weight when left out"""
+    slope: Slope | None = None
+    """by which the motor's force falls with the speed, at the carriage; a constant force when left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The mass is given in one way."""
+        parts = ("inertia", "ratio", "drum_diameter")
+        for key in parts:
+            yield from at_most_one(given, "reduced_mass", key)
+        if not any(key in given for key in ("reduced_mass", *parts)):
+            yield given.missing("reduced_mass", "give `reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")
+        for key in parts:
+            for other in parts:
+                if key in given and other not in given:
+                    yield given.missing(other, f"the mass at the carriage goes by it: `{other}` is missing")
+                    return
+
+
+class Hoisting(Fragment):
+    """The hoist that lifts the carriage."""
+
+    speed: PositiveSpeed
+    """of the carriage"""
+    acceleration: PositiveAcceleration
+    """of the carriage, starting up and stopping down"""
+    rope: HoistRope
+    """on which it hangs"""
+    drive: HoistDrive | None = None
+    """what turns; needed for a `fork_caught`"""
+    limiter: Limiter | None = None
+    """what switches it off at too large a force"""
+    group: Group | None = None
+    """of the mechanism (ISO 4301-1); with it the rope has to keep the safety of ISO 4308-1"""
+    starts_per_hour: Rate | None = None
+    """what the hoist does all day; needed to check its starts"""
+    permitted_starts_per_hour: Rate | None = None
+    """what motor and brake allow; needed to check the starts"""
+
+    @property
+    def catches(self) -> bool:
+        """Whether the file says enough to see the fork caught by the rack."""
+        return self.drive is not None and (self.rope.stiffness is not None or self.rope.area is not None)

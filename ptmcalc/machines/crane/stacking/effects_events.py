@@ -1,0 +1,326 @@
+"""Effects of buffers, fork, rail and safety gear."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import fork
+from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
+from ptmcalc.machines.crane.stacking.events import catch_of, fall_of, push_of, roll_of
+from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rolling import wave_share
+from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush, RailScene, SafetyGearScene
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+
+CATCHING, RACK, SLOPE, LIMITER = "fork_catching", "rack_elasticity", "hoist_motor_slope", "load_limiter"
+PUSHING, YIELDING = "fork_pushing", "column_yield"
+UNEVEN, JUMPING = "aisle_rail", "wheel_lift"
+GEAR = "safety_gear"
+
+CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
+PUSHED: frozenset[type[Scene]] = frozenset({ForkPush})
+ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
+FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
+
+CATCHING_THRESHOLD = 0.05
+RACK_THRESHOLD = 0.1
+SLOPE_THRESHOLD = 0.05
+LIMITER_THRESHOLD = 1.0
+PUSHING_THRESHOLD = 0.05
+YIELDING_THRESHOLD = 0.1
+UNEVEN_THRESHOLD = 0.02
+JUMPING_THRESHOLD = 1.0
+GEAR_THRESHOLD = 1.0
+
+
+def _anything(loads: Loads) -> Offsets:
+    return dict.fromkeys(loads, ANYTHING)
+
+
+# -- a caught fork --------------------------------------------------------------------------------------------------
+
+
+def catching_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
+    """What drive and motor can add to the weight on the rope.
+
+        max( v (K m_1)^(1/2), P - Q )/Q
+
+    **Range** every caught fork; it is in every run.
+    **Error** an engineering measure.
+    **Source** `laws.fork.catching_number`.
+    """
+    case = catch_of(spec, scene)
+    value = fork.catching_number(case.force, case.weight, case.rope, case.drive_mass, case.speed)
+    return Criterion("Π_c", value, CATCHING_THRESHOLD, "what a caught fork adds to the weight", "laws.fork")
+
+
+def catching_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
+    """Without the catch the rope bears the weight; with it between that and the energy of drive, carriage and motor.
+
+        Q <= F <= P + ((P - Q)^2 (1 + K/K_r) + K (m_1 + M) v^2)^(1/2)
+
+    **Range** every load of a caught fork.
+    **Error** exact at the lower end, a bound at the upper one.
+    **Source** `laws.fork.caught_bound`.
+    """
+    case = catch_of(spec, scene)
+    return _between(spec, scene, loads, case.weight, case.most)
+
+
+def _between(spec: Stacker, scene: ForkCaught, loads: Loads, least: float, most: float) -> Offsets:
+    """Offsets that widen the bar of the rope's force to an interval, where it is not as wide already [N]."""
+    case, force = catch_of(spec, scene), loads.get("rope_force_caught")
+    if force is None:
+        return {}
+    offset = Interval(min(least - force.low, 0.0), max(most - force.high, 0.0))
+    bounds = {
+        "rope_force_caught": offset,
+        "fork_caught_factor": Interval(offset.low / case.weight, offset.high / case.weight),
+    }
+    if "rack_force" in loads:
+        rack = loads["rack_force"]
+        bounds["rack_force"] = Interval(min(-rack.low, 0.0), max(case.most_of_rack - rack.high, 0.0))
+    return {name: one for name, one in bounds_of_derived(spec, scene, loads, bounds).items() if name in loads}
+
+
+def rack_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
+    """Stiffness of the rope over that of the rack.
+
+        K/K_r
+
+    **Range** 0 for a rigid rack.
+    **Error** an engineering measure.
+    **Source** springs in series; the threshold of 10 % changes the frequency by 5 %.
+    """
+    case = catch_of(spec, scene)
+    return Criterion("K/K_r", case.rope / case.rack, RACK_THRESHOLD, "rope stiffness over the rack's", "series springs")
+
+
+def rack_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
+    """What a rack that gives, and throws the carriage back, can make of the rope's force; nothing for a rigid one.
+
+        Q <= F <= P + ((P - Q)^2 (1 + K/K_r) + K (m_1 + M) v^2)^(1/2)
+
+    **Range** every load of a caught fork.
+    **Error** a bound: the carriage brings its own energy, and the motor works along the way of the rack.
+    **Source** `laws.fork.caught_bound`: energy.
+    """
+    case = catch_of(spec, scene)
+    return {} if case.rigid else _between(spec, scene, loads, case.weight, case.most)
+
+
+def slope_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
+    """How far the motor's slope damps the shock.
+
+        z = h/(2 (K m_1)^(1/2))
+
+    **Range** 0 for a motor of constant force.
+    **Error** exact as a damping ratio.
+    **Source** `laws.fork.slope_number`.
+    """
+    case = catch_of(spec, scene)
+    value = fork.slope_number(case.slope, case.rope, case.drive_mass)
+    return Criterion("z_h", value, SLOPE_THRESHOLD, "damping by the slope of the motor", "laws.fork")
+
+
+def slope_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
+    """What a motor that pulls less the faster it runs can take off the force of one at its largest; nothing without.
+
+        Q + v (K m_1)^(1/2) <= F,   as P(x') >= Q while the drive is slower than v
+
+    Behind a rack that gives, the peak may come at any bounce: it lies between the weight and the bound of that rack.
+
+    **Range** every load of a caught fork.
+    **Error** a bound, reached as the slope falls to 0 under a large standstill force.
+    **Source** energy of the drive with the least and the largest work of the motor; `laws.fork.caught_bound`.
+    """
+    case = catch_of(spec, scene)
+    if not case.slope:
+        return {}
+    return _between(spec, scene, loads, case.weight_force if case.rigid else case.weight, case.most)
+
+
+def limiter_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
+    """Most that the rope can get without the limiter, over the force at which it trips; 0 without one.
+
+        F_max/F_l
+
+    **Range** every caught fork.
+    **Error** an upper bound: below 1 it does not trip.
+    **Source** `laws.fork.caught_bound`.
+    """
+    case = catch_of(spec, scene)
+    value = case.most / case.limit.force if case.limit is not None else 0.0
+    return Criterion("F/F_l", value, LIMITER_THRESHOLD, "rope force over that of the limiter", "laws.fork")
+
+
+def limiter_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
+    """Nothing where no limiter trips; else nothing is known without it.
+
+    **Range** every load of a caught fork.
+    **Error** exact where the bound of the force is below the limiter's; else unbounded: a brake that catches a drive
+    that runs back has a peak of its own.
+    **Source** `laws.fork.caught_bound`.
+    """
+    case = catch_of(spec, scene)
+    return {} if case.limit is None or case.most < case.limit.force else _anything(loads)
+
+
+# -- a pushing fork -------------------------------------------------------------------------------------------------
+
+
+def pushing_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
+    """What the moving fork adds to the force of its drive.
+
+        v (K_r m)^(1/2)/P
+
+    **Range** every pushing fork; it is in every run.
+    **Error** an engineering measure.
+    **Source** `laws.fork.clutch_push`.
+    """
+    case = push_of(spec, scene)
+    value = case.speed * math.sqrt(case.rack * case.mass) / case.force
+    return Criterion("Π_p", value, PUSHING_THRESHOLD, "shock of the fork over the force of its drive", "laws.fork")
+
+
+def pushing_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
+    """Nothing is known of a push without it.
+
+    **Range** every load of a pushing fork.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+def yield_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
+    """Stiffness of the rack over that of the column at the fork.
+
+        K_r/c
+
+    **Range** every pushing fork.
+    **Error** an engineering measure.
+    **Source** springs in series.
+    """
+    case = push_of(spec, scene)
+    meaning = "stiffness of the rack over that of the column"
+    return Criterion("K_r/c", case.rack / case.support, YIELDING_THRESHOLD, meaning, "springs in series")
+
+
+def yield_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
+    """What a column that gives way can change; nothing for a rigid one.
+
+        P <= F <= P + (P^2 (1 + K_r/c) + K_r m v^2)^(1/2)
+
+    **Range** the force of a pushing fork, with motor or clutch.
+    **Error** a bound for every mass of the carriage: the drive does not stop before the rack brings its force.
+    **Source** `laws.fork.push_bound`.
+    """
+    case, force = push_of(spec, scene), loads.get("fork_push_force")
+    if force is None or math.isinf(case.support):
+        return {}
+    offset = Interval(min(case.force - force.low, 0.0), max(case.most - force.high, 0.0))
+    bounds = bounds_of_derived(spec, scene, loads, {"fork_push_force": offset})
+    return {name: one for name, one in bounds.items() if name in loads}
+
+
+# -- rail -----------------------------------------------------------------------------------------------------------
+
+
+def uneven_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
+    """Share of gravity by which the rail changes the wheel loads.
+
+        max( (pi/2)^2 v^2/(g r) max u,  T (h/2) (2 pi v/lambda)^2/g )
+
+    **Range** steps and gaps small beside the wheel; even waves.
+    **Error** exact for one undamped mode.
+    **Source** `laws.rail`.
+    """
+    roll = roll_of(spec, scene)
+    answers = [max(pair) for pair in roll.pulses(roll.frequency)]
+    value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
+    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+
+
+def uneven_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
+    """Nothing is known of an uneven rail without it.
+
+    **Range** every load of a rail.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+def jump_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
+    """Share of its load that a wheel loses on the rail: at 1 it leaves it.
+
+        max( (pi/2)^2 v^2/(g r) max(-u),  T (h/2) (2 pi v/lambda)^2/g )
+
+    **Range** as `uneven_criterion`.
+    **Error** exact for one undamped mode.
+    **Source** `laws.rail`.
+    """
+    roll = roll_of(spec, scene)
+    answers = [less for _, less in roll.pulses(roll.frequency)]
+    value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
+    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "what the rail takes off a wheel load", "laws.rail")
+
+
+def jump_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
+    """Nothing while the wheels stay on the rail; one that leaves it comes down with a blow of its own.
+
+    **Range** every load of a rail.
+    **Error** exact while the least wheel load is above 0; else unbounded, and a contact is not below 0.
+    **Source** a wheel does not pull.
+    """
+    contact = loads.get("rail_contact")
+    if contact is None or contact.low >= 0:
+        return {}
+    touched = {"phi4", "wheel_force", "combination_force[11.2,5]"}
+    return {name: ANYTHING for name in loads if name in touched}
+
+
+# -- safety gear ----------------------------------------------------------------------------------------------------
+
+
+def gear_criterion(spec: Stacker, scene: SafetyGearScene) -> Criterion:
+    """Force of the gear over the weight; it is never left out.
+
+        F/(M g)
+
+    **Range** every catch; it is in every run.
+    **Error** exact for the gear.
+    **Source** `laws.safety_gear`.
+    """
+    one = fall_of(spec, scene)
+    value = one.force / (one.mass * spec.gravity)
+    return Criterion("ψ", value, GEAR_THRESHOLD, "force of the safety gear over the weight", "laws.safety_gear")
+
+
+def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:
+    """Nothing is known of a catch without it.
+
+    **Range** every load of a catch.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+EFFECTS_OF_EVENTS: tuple[AnyEffect, ...] = (
+    Effect(CATCHING, "drive and motor that pull on a caught fork", CAUGHT, catching_criterion, catching_bound),
+    Effect(RACK, "rack that gives and throws the carriage back", CAUGHT, rack_criterion, rack_bound),
+    Effect(SLOPE, "motor that pulls less the faster it runs", CAUGHT, slope_criterion, slope_bound),
+    Effect(LIMITER, "limiter that switches the hoist off", CAUGHT, limiter_criterion, limiter_bound),
+    Effect(PUSHING, "fork that runs against the rack", PUSHED, pushing_criterion, pushing_bound),
+    Effect(YIELDING, "column that gives way under the fork", PUSHED, yield_criterion, yield_bound),
+    Effect(UNEVEN, "steps, gaps and waves of the rail", ROLLS, uneven_criterion, uneven_bound),
+    Effect(JUMPING, "wheels that leave the rail", ROLLS, jump_criterion, jump_bound),
+    Effect(GEAR, "safety gear that catches the carriage", FALLS, gear_criterion, gear_bound),
+)

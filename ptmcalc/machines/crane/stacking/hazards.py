@@ -1,0 +1,144 @@
+"""What a stacker crane meets: an obstacle, the rack at its fork, the rail, its safety gear; and how still it must be.
+
+What each block says belongs to the scene of the same name."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.spec.fields import Fraction, Measure, PositiveForce, PositiveLength, PositiveMass, PositiveSpeed, Time
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
+
+Arm = Annotated[float, Measure(units.SPAN)]
+Level = Annotated[float, Measure(units.SPAN, at_least=0)]
+SmallLength = Annotated[float, Measure(units.LENGTH, at_least=0)]
+Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
+TripRatio = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
+
+
+class Obstacle(Fragment):
+    """What the free end of the column runs into."""
+
+    contact: Literal["elastic", "plastic"] = "elastic"
+    """whether the far end springs back, or stays where it hits"""
+    stiffness: Stiffness | None = None
+    """of the place that is hit; of an `elastic` contact"""
+    restitution: Fraction = 1.0
+    """speed after an `elastic` contact over that before"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """What springs back has a stiffness."""
+        if given.word("contact") == "elastic" and "stiffness" not in given:
+            yield given.missing("stiffness", "an `elastic` contact needs its stiffness")
+        if given.word("contact") == "plastic":
+            for key in ("stiffness", "restitution"):
+                if key in given:
+                    yield Conflict((key,), "a `plastic` contact has none", "delete it, or write `contact: elastic`")
+
+
+class Fork(Fragment):
+    """The telescopic fork and its drive."""
+
+    mass: PositiveMass
+    """of fork and drive reduced to its way; with a slip clutch only what is behind it"""
+    speed: PositiveSpeed
+    """of the fork"""
+    motor_force: PositiveForce
+    """largest of its drive that goes on pushing, at the fork"""
+    clutch_force: PositiveForce | None = None
+    """at which its slip clutch slips, at the fork; none when left out"""
+    torsion_stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
+    """of the column against twisting, where the carriage is; rigid when left out"""
+    arm: Arm = 0.0
+    """of the pushing fork from the axis of the column, along the aisle"""
+    rating: PositiveForce | None = None
+    """largest force of the telescope; needed to check it"""
+
+
+class Rack(Fragment):
+    """The rack at the fork."""
+
+    stiffness_push: Stiffness | None = None
+    """against the fork that pushes; with a `fork` it is needed"""
+    stiffness_vertical: Stiffness | None = None
+    """against the fork that lifts; rigid when left out"""
+    rating_push: PositiveForce | None = None
+    """largest force of the pushing fork on the rack; needed to check it"""
+    rating_vertical: PositiveForce | None = None
+    """largest force of the lifting fork on the rack; needed to check it"""
+
+
+class Waviness(Fragment):
+    """Even waves of the rail."""
+
+    height: PositiveLength
+    """from trough to crest"""
+    length: PositiveLength
+    """from crest to crest"""
+
+
+class Rail(Fragment):
+    """The rail a rack stacker runs on."""
+
+    step: SmallLength = 0.0
+    """height of the largest step"""
+    gap: SmallLength = 0.0
+    """width of the largest gap"""
+    waviness: Waviness | None = None
+    """even waves"""
+    frequency: Annotated[float, Measure(units.FREQUENCY, above=0)] | None = None
+    """of the machine that swings vertically on its wheels; 10 Hz is assumed for a `rail`"""
+    damping: Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.5)] = 0.0
+    """damping ratio of that swing; none when left out, which is on the safe side"""
+
+    @property
+    def uneven(self) -> bool:
+        """Whether there is anything to run over."""
+        return bool(self.step or self.gap or self.waviness)
+
+
+class SafetyGear(Fragment):
+    """What catches the carriage when its ropes fail."""
+
+    type: Literal["progressive", "instantaneous"]
+    """`progressive`: it brakes with an even force; `instantaneous`: it locks, and only its mounting and the column
+    give way"""
+    force: PositiveForce | None = None
+    """braking force of a `progressive` gear"""
+    stiffness: Stiffness | None = None
+    """of an `instantaneous` gear with its mounting and the column"""
+    stroke: PositiveLength = Field(examples=["300 mm"])
+    """way it has: of a `progressive` gear to brake in, of an `instantaneous` one what it may give way"""
+    trip_ratio: TripRatio = 1.4
+    """speed at which it trips over the hoisting speed; 1.2 to 1.5"""
+    reaction_time: Time = 0.05
+    """from tripping until it grips"""
+    arm: Arm = 0.0
+    """of the gear's force from the axis of the column, along the travel of bridge or base"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Each type has its own number."""
+        what = given.word("type")
+        for kind, key, other in (("progressive", "force", "stiffness"), ("instantaneous", "stiffness", "force")):
+            if what == kind and key not in given:
+                yield given.missing(key, f"a `{kind}` safety gear needs its `{key}`")
+            if what == kind and other in given:
+                yield Conflict((other,), f"a `{kind}` safety gear has no `{other}`", f"delete `{other}`")
+
+
+class Settling(Fragment):
+    """How still the column must be before the fork may go out."""
+
+    window: PositiveLength | None = None
+    """distance to each side of the rest position within which the far end has to stay; no default: it is the racks'"""
+    wait: Annotated[float, Measure(units.TIME, above=0)] | None = None
+    """longest time from the standstill until then; needed to check it"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """A time to wait is for a window."""
+        yield from together(given, "wait", "window", "it is waited for the column to stay within a window")

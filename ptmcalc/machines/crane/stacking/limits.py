@@ -1,0 +1,45 @@
+"""Limits of the checks of a stacker crane. What no standard fixes has no default."""
+
+from ptmcalc.spec.fields import (
+    PositiveAcceleration,
+    PositiveForce,
+    PositiveLength,
+    PositiveRatio,
+    PositiveSpeed,
+    PositiveStress,
+    PositiveTime,
+)
+from ptmcalc.spec.machine import CheckSettings
+
+
+class StackerChecks(CheckSettings):
+    """Limits of the checks of a stacker crane; needed for the check where it has no default."""
+
+    start_time: PositiveTime = 10.0
+    """longest start of a mechanism"""
+    brake_time: PositiveTime = 10.0
+    """longest stop of a mechanism"""
+    rope_safety: PositiveRatio | None = None
+    """breaking force over the largest pull in a rope; that of the hoist's `group` (ISO 4308-1) when left out"""
+    self_jamming: PositiveRatio = 1.0
+    """largest resistance of the guide over the weight that has to overcome it: at 1 the carriage no longer sinks"""
+    stability: PositiveRatio = 1.0
+    """least moment that holds a rack stacker over that which tips it; standards and makers ask more than this 1"""
+    column_stress: PositiveStress | None = None
+    """largest stress of the column"""
+    bridge_stress: PositiveStress | None = None
+    """largest stress of the girders"""
+    mast_deflection: PositiveLength | None = None
+    """largest swing of the far end of the column; the formula of the source is lost and no other is known"""
+    column_force: PositiveForce | None = None
+    """largest force of the column on what holds it"""
+    collision_speed: PositiveSpeed | None = None
+    """largest speed at which obstacle or buffer may be met; of buffers that of their own data when left out"""
+    contact_force: PositiveForce | None = None
+    """largest force between the column and an obstacle"""
+    fork_caught_factor: PositiveRatio | None = None
+    """largest rope force of a caught fork over the weight"""
+    catch_deceleration: PositiveAcceleration | None = None
+    """largest deceleration of a carriage its safety gear catches; 9.81 m/s^2 is usual for a cab with a driver"""
+    rail_detuning: PositiveRatio = 0.2
+    """least distance of the waves of the rail from resonance, as a share of the frequency of wheels and column"""

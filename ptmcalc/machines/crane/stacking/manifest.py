@@ -1,0 +1,51 @@
+"""How both types of stacker crane are put together from what they have in common."""
+
+from collections.abc import Iterable
+from importlib import resources
+from typing import Any, TypeVar
+
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.contract.effect import AnyEffect
+from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.solver import AnySolver
+from ptmcalc.machines.crane.stacking.assumptions import assumptions
+from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
+from ptmcalc.machines.crane.stacking.checks_mast import CHECKS_OF_MAST
+from ptmcalc.machines.crane.stacking.checks_statics import CHECKS_OF_STATICS
+from ptmcalc.machines.crane.stacking.checks_strength import CHECKS_OF_STRENGTH
+from ptmcalc.machines.crane.stacking.combinations import tables
+from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
+from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
+from ptmcalc.machines.crane.stacking.loads import LOADS, parts
+from ptmcalc.machines.crane.stacking.solvers import SOLVERS
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.spec.scene import Scene
+
+EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)
+CHECKS = (*CHECKS_OF_STATICS, *CHECKS_OF_STRENGTH, *CHECKS_OF_MAST, *CHECKS_OF_EVENTS)
+
+Piece = TypeVar("Piece", AnyEffect, AnySolver, AnyCheck)
+
+
+def stacker(
+    package: str, word: str, title: str, spec: type[Stacker], scenes: frozenset[type[Scene]]
+) -> MachineKind[Any]:
+    """The manifest of a type: of all effects, solvers and checks those that a scene of this type may call for."""
+
+    def of_its_scenes(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
+        return tuple(piece for piece in pieces if piece.scenes & scenes)
+
+    return MachineKind(
+        name="crane",
+        type=word,
+        title=title,
+        spec=spec,
+        loads=LOADS,
+        effects=of_its_scenes(EFFECTS),
+        solvers=of_its_scenes(SOLVERS),
+        checks=of_its_scenes(CHECKS),
+        template=resources.files(package).joinpath("template.yaml").read_text("utf-8"),
+        assumed=assumptions,
+        parts=parts,
+        tables=tables,
+    )

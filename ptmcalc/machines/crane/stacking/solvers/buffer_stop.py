@@ -1,0 +1,56 @@
+"""A stacker crane that runs onto its buffers."""
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.buffer import stopped
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import buffer
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.events import struck
+from ptmcalc.machines.crane.stacking.loads import OF_THE_BUFFERS, names
+from ptmcalc.machines.crane.stacking.scenes import BufferScene
+from ptmcalc.machines.crane.stacking.spec import Stacker
+
+
+def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) -> Result:
+    """Force and stroke of the buffers by the energy of all that travels, the guided load with it.
+
+        m v^2/2 + P u = E(u):   linear F = P + (P^2 + c m v^2)^(1/2),  constant u = m v^2/(2 (F - P)),  orifice
+        v^2 = v_0^2 q + (P/k)(1 - q), q = exp(-2 k u/m);   phi_7 by the energy share xi of the curve
+
+    **Range** every buffer of `components.buffer`.
+    **Error** exact for a rigid crane; one whose column swings forward keeps a part of its energy for later: force and
+    stroke of springs are bounds then.
+    **Source** energy; EN 13001-2, ISO 8686-1 (`laws.buffer`).
+    """
+    given = model.travel(spec, scene).buffers
+    assert given is not None, "the scene has buffers"
+    mass, speed, push = struck(spec, scene)
+    hit = stopped(given, mass, speed, push)
+    loads = {
+        "collision_speed": speed,
+        "buffer_force": hit.force / given.count,
+        "buffer_stroke": hit.stroke,
+        "buffer_speed_left": hit.left,
+        "buffer_deceleration": (hit.force - push) / mass,
+        "phi7": buffer.buffer_factor(hit.energy_share),
+    }
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    if hit.left:
+        note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
+        found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)
+    return Result(found, work=1)
+
+
+BUFFER_STOP: Solver[Stacker, BufferScene] = Solver(
+    name="buffer_stop",
+    title="buffers by the energy of what hits them",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({BufferScene}),
+    represents=frozenset(),
+    gives=names(OF_THE_BUFFERS) | {"collision_speed"},
+    run=run,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="energy of what moves; EN 13001-2, ISO 8686-1",
+)

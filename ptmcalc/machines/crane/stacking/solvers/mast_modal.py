@@ -1,0 +1,349 @@
+"""The column in finite elements and modes, marched through drive, brake, standstill and contact."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.stacking import march
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
+from ptmcalc.machines.crane.stacking.loads import MODES
+from ptmcalc.machines.crane.stacking.march import Built, Happening
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS
+from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
+from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.travelling import travels
+from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
+from ptmcalc.numerics.mast.run import Course, play, settled
+from ptmcalc.spec.scene import Scene
+
+ALWAYS = frozenset({FLEXIBLE, MASS})
+MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
+"""Modes at the coarsest refinement, for a load that comes at once and at most; how often they are doubled, less one."""
+_ELEMENTS = 3
+"""Elements per mode."""
+_MARGIN = 3.0
+_UNSEEN = 1e-10
+"""Share of a reading that the march may miss of it."""
+_CLOSES = 1e-8
+_SWINGS = 3.0
+"""Periods of the column beside a base at rest that are looked at after the event."""
+_BLOW = 1.5
+"""Periods of everything against the column in which a collision is looked at."""
+_COMPARED = 0.7
+"""Panels of the run that a bar is found with, over the usual ones."""
+_DOUBLINGS = 5
+_FREQUENCIES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """A run, and the place and stiffness its deflections are read with."""
+
+    moves: Happening
+    course: Course
+
+    @property
+    def place(self) -> float:
+        """The far end [m]."""
+        return self.moves.column.column.length
+
+
+def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> Result:
+    """The column beside its base, from the beginning of an event until some swings after it.
+
+        M w'' + C w' + (K + K_weights) w = -M 1 a + forces,   m a + (M 1)^T w'' = drive + friction + contact
+
+    The base slips or is held (a brake that sticks, a drive that keeps its speed), contacts open and close: each change
+    is a root of the exact motion between two of them. Peaks are roots too. A base on a ramp of speed follows it.
+
+    **Range** small deflections of slender columns; a drive or brake whose force depends on time alone.
+    **Error** numerical: three times the difference to half as many elements and modes, and the bound of what modes left
+    out could add to a load that comes at once.
+    **Source** `numerics.mast`; lecture notes Kramatorsk 2007 for the two-mass equations it refines.
+    """
+    gravity = GRAVITY in carried
+    if isinstance(scene, Stand):
+        return Result(_of_the_column(march.built(spec, scene, gravity=gravity), math.inf), work=_FREQUENCIES)
+    moves = march.happening(spec, scene, gravity=gravity)
+    modes = followed(moves, level)
+    course = _play(spec, scene, moves, modes)
+    other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED)
+    fine, coarse = Played(moves, course), Played(moves, other)
+    found = _of_the_column(moves.column, moves.rolling)
+    if isinstance(scene, ObstacleScene):
+        found |= _of_the_blow(fine, coarse)
+    else:
+        found |= _of_the_swing(scene, fine, coarse)
+        found |= _settling(spec, scene, fine, coarse)
+    residual = max(course.residual, other.residual)
+    findings = list(_remarks(scene, fine))
+    if residual > _CLOSES:
+        findings.append(
+            Finding(
+                "NUM101", f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over: nothing is trusted"
+            )
+        )
+        found = {name: Found(Estimate.unknown(one.estimate.value), one.at, one.note) for name, one in found.items()}
+    return Result(
+        with_derived(spec, scene, found),
+        work=course.record.steps + other.record.steps,
+        window=(0.0, course.record.time),
+        health={"energy_residual": residual, "steps": float(course.record.steps)},
+        findings=tuple(findings),
+        events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
+        histories=lambda: _histories(spec, scene, moves, level, course.record.time),
+    )
+
+
+def followed(moves: Happening, level: int) -> int:
+    """Modes that are followed at a refinement, even in number: half of them are at least those up to 5/rise in Hz."""
+    if moves.rise <= 0:
+        return MODES_FIRST << level
+    values = frequencies(moves.column.column, MODES_MOST // 2, moves.rolling, MODES_MOST).values
+    return min(max(2 * wanted(values, moves.rise), MODES_FIRST), MODES_MOST) << level
+
+
+def _play(
+    spec: Stacker,
+    scene: StackerScene,
+    moves: Happening,
+    modes: int,
+    end: float = 0.0,
+    refined: float = 1.0,
+    *,
+    keep: bool = False,
+) -> Course:
+    """One run: to an end that is given, or until the event is over and some swings after it."""
+    case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
+    if end:
+        return play(case, end, refined, keep=keep)
+    swing = 2 * math.pi / float(case.mast.frequencies[0])
+    if isinstance(scene, ObstacleScene):
+        stiffness = moves.column.stiffness
+        return play(case, _BLOW * 2 * math.pi * math.sqrt(moves.column.total / stiffness), refined)
+    end = moves.lasts + _SWINGS * swing
+    course = play(case, end, refined)
+    for _ in range(_DOUBLINGS):
+        since = course.held_since
+        if since + _SWINGS * swing <= course.record.time * (1 + 1e-9):
+            break
+        end = since + _SWINGS * swing if math.isfinite(since) else 2 * end
+        course = play(case, end, refined)
+    return course
+
+
+# -- what is read ---------------------------------------------------------------------------------------------------
+
+
+def _of_the_column(built: Built, base: float) -> dict[str, Found]:
+    """Stiffness at the far end, without weights, and the lowest frequencies, over a base that is held or rolls."""
+    light = replace(built.column, pull=0.0)
+    fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
+    bar = abs(stiffness - other) + 1e-9 * stiffness
+    found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
+    lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
+    for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
+        found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
+        if mode == MODES[0]:
+            swing = 2 * math.pi / value
+            found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
+    return found
+
+
+def _bar(fine: float, coarse: float, more: float = 0.0) -> Estimate:
+    """A reading with its bar: from the run beside it, and what is known of the modes left out."""
+    return Estimate.within(fine, _MARGIN * abs(fine - coarse) + _UNSEEN * abs(fine) + more)
+
+
+def _deflection(fine: Played, coarse: Played) -> Found:
+    moves, course = fine.moves, fine.course
+    value, time = course.largest("deflection")
+    other = coarse.course.largest("deflection")[0]
+    mast, kept = course.case.mast, course.system.count
+    rest = left_out(mast, moves.rolling, fine.place, kept, moves.rise, moves.jump)
+    return Found(_bar(value, other, rest), {"time": time})
+
+
+def _times(one: Found, factor: float) -> Found:
+    e = one.estimate
+    return Found(Estimate(e.value * factor, e.low * factor, e.high * factor, e.numerical * factor), one.at)
+
+
+def _moment(fine: Played, coarse: Played) -> Found:
+    value, time = fine.course.largest("moment")
+    return Found(_bar(value, coarse.course.largest("moment")[0]), {"time": time})
+
+
+def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
+    deflection = _deflection(fine, coarse)
+    found = {
+        "mast_deflection_max": deflection,
+        "mast_force_max": _times(deflection, fine.moves.column.stiffness),
+        "mast_moment_max": _moment(fine, coarse),
+    }
+    name = "start_time" if isinstance(scene, Start) else "brake_time"
+    if fine.moves.follows:
+        found[name] = Found(Estimate.exact(fine.moves.lasts))
+        return found
+    word = "at speed" if isinstance(scene, Start) else "at rest"
+    time, other = (one.course.first("base", word) for one in (fine, coarse))
+    if math.isfinite(time) and math.isfinite(other):
+        found[name] = Found(_bar(time, other))
+    elif math.isinf(time) and math.isinf(other):
+        found[name] = Found(Estimate.exact(math.inf))
+    else:
+        found[name] = Found(Estimate.unknown(time))
+    return found
+
+
+def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
+    deflection = _deflection(fine, coarse)
+    found = {
+        "collision_force": _times(deflection, fine.moves.column.stiffness),
+        "collision_deflection": deflection,
+        "mast_moment_max": _moment(fine, coarse),
+    }
+    obstacle = fine.moves.obstacle
+    assert obstacle is not None
+    value, time = fine.course.top("contact")
+    if math.isinf(obstacle.stiffness):
+        note = "a point that stops dead is stopped by a blow: only its impulse is finite"
+        found["contact_force"] = Found(Estimate.unknown(math.inf), {"time": 0.0}, note)
+    elif obstacle.damping:
+        note = "a dashpot pushes at the first touch as hard as it is fast: the largest force is one of this model"
+        found["contact_force"] = Found(Estimate.unknown(value), {"time": time}, note)
+    else:
+        found["contact_force"] = Found(_bar(value, coarse.course.top("contact")[0]), {"time": time})
+    return found
+
+
+def _settling(spec: Stacker, scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
+    """From the standstill of the base until the far end stays in the window about its place of rest."""
+    window = spec.settling.window
+    if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
+        return {}
+    if not fine.course.stays:
+        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held for good")}
+    apart = abs(fine.course.largest("deflection")[0] - coarse.course.largest("deflection")[0])
+    found = settled(fine.course, fine.place, window, doubt=min(_MARGIN * apart, window))
+    late = _drift(fine, coarse, window, found.time)
+    if late:
+        found = settled(fine.course, fine.place, window, doubt=min(_MARGIN * apart + late, window))
+    if math.isinf(found.time):
+        return {"settling_time": Found(Estimate.exact(math.inf), note=found.reason)}
+    bar = found.high - found.time
+    low = min(found.low, found.time)
+    numerical = max(bar, found.time - low) if math.isfinite(bar) else found.time - low
+    return {"settling_time": Found(Estimate(found.time, low, found.high, numerical=numerical))}
+
+
+def _drift(fine: Played, coarse: Played, window: float, time: float) -> float:
+    """What the phase of the lowest mode may be wrong by until a time, as a deflection at the size of the window [m]."""
+    if not math.isfinite(time):
+        return 0.0
+    values = (one.course.case.mast.frequencies[0] for one in (fine, coarse))
+    first, second = values
+    return window * abs(float(first - second)) * time
+
+
+def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
+    """What happened on the way that a reader must know."""
+    course, said = fine.course, []
+    if isinstance(scene, Start | Brake) and not fine.moves.follows and math.isinf(course.held_since):
+        what = "come to its speed" if isinstance(scene, Start) else "come to rest"
+        said.append(
+            Finding("NUM103", f"scene `{scene.label}`: by {course.record.time:.3g} s the base does not {what} for good")
+        )
+    first = course.first("base", "at rest") if isinstance(scene, Brake) and not fine.moves.follows else math.inf
+    if math.isfinite(first) and math.isfinite(course.held_since) and course.held_since > first * (1 + 1e-9):
+        said.append(
+            Finding(
+                "NUM110",
+                f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at"
+                f" {first:.3g} s, for good at {course.held_since:.3g} s",
+            )
+        )
+    return said
+
+
+def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int, end: float) -> Mapping[str, History]:
+    """Deflection, force and moment over time, from a run that keeps them."""
+    course = _play(spec, scene, moves, followed(moves, level), end, keep=True)
+    times, deflections = course.over_time("deflection")
+    force = (deflections * moves.column.stiffness).tolist()
+    at = times.tolist()
+    if isinstance(scene, ObstacleScene):
+        contact = course.over_time("contact")[1].tolist()
+        return {
+            "collision_deflection": History(units.LENGTH, at, deflections.tolist()),
+            "collision_force": History(units.FORCE, at, force),
+            "contact_force": History(units.FORCE, at, contact),
+        }
+    return {
+        "mast_deflection_max": History(units.LENGTH, at, deflections.tolist()),
+        "mast_force_max": History(units.FORCE, at, force),
+        "mast_moment_max": History(units.TORQUE, at, course.over_time("moment")[1].tolist()),
+    }
+
+
+def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> float:
+    """Seconds by the swings of the modes in the time that is looked at: fast ones are passed over by long panels."""
+    if isinstance(scene, Stand):
+        return 0.02
+    moves = march.happening(spec, scene, gravity=False)
+    slowest = math.sqrt(moves.column.stiffness / moves.column.total)
+    modes = followed(moves, level)
+    return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
+
+
+def _solver(
+    name: str, title: str, scenes: frozenset[type[Scene]], always: frozenset[str], gives: frozenset[str], levels: int
+) -> Solver[Stacker, StackerScene]:
+    return Solver(
+        name=name,
+        title=title,
+        fidelity=Fidelity.TRANSIENT,
+        scenes=scenes,
+        represents=always | {GRAVITY},
+        gives=gives | {"column_stiffness", "natural_frequency", "period"} | DERIVED,
+        run=run,
+        cost=_cost,
+        source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
+        valid=travels,
+        always=always,
+        levels=levels,
+    )
+
+
+MAST_MODAL = _solver(
+    "mast_modal",
+    "the column in finite elements and modes, event by event",
+    frozenset({Start, Brake}),
+    ALWAYS | {MODES_HIGHER, HOLDING, GUIDE},
+    frozenset(
+        {"start_time", "brake_time", "settling_time", "mast_deflection_max", "mast_force_max", "mast_moment_max"}
+    ),
+    LEVELS,
+)
+COLLISION_MODAL = _solver(
+    "collision_modal",
+    "the column in finite elements and modes that runs into an obstacle",
+    frozenset({ObstacleScene}),
+    ALWAYS | {CONTACT},
+    frozenset({"collision_force", "collision_deflection", "mast_moment_max", "contact_force"}),
+    LEVELS,
+)
+STANDING_MODAL = _solver(
+    "standing_modal",
+    "frequencies of the column in finite elements",
+    frozenset({Stand}),
+    frozenset(),
+    frozenset(),
+    1,
+)

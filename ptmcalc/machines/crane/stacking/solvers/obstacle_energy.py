@@ -1,0 +1,124 @@
+"""The column that runs into an obstacle: the energy formula of the notes, and the bound that holds for any contact."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import buffer, obstacle
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
+from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, MASS
+from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
+from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
+from ptmcalc.machines.crane.stacking.spec import Stacker
+
+SCENES = frozenset({ObstacleScene})
+ALWAYS = frozenset({FLEXIBLE, MASS, CONTACT})
+GIVES = DERIVED | frozenset({"collision_force", "collision_deflection", "collision_speed", "contact_force"})
+
+
+def pushed(spec: Stacker, scene: ObstacleScene) -> float:
+    """Force that drives the base on through the collision; below 0 where it is braked [N]."""
+    if scene.drive == "on":
+        push = model.driving(spec, scene)
+        return push.size if push.kind == "force" else math.inf
+    if scene.brake == "on":
+        brake = model.stopping(spec, scene)
+        return -brake.size if brake.kind == "force" else -math.inf
+    return -model.travel(spec, scene).resistance
+
+
+def striking(spec: Stacker, scene: ObstacleScene) -> Swinging:
+    """What runs into the obstacle."""
+    push = model.driving(spec, scene) if scene.drive == "on" else model.stopping(spec, scene)
+    return swinging(spec, scene, push.rotors)
+
+
+def energy(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
+    """Largest force of the column by all its kinetic energy, less the work of the brake.
+
+        F = -W + (W^2 + c (m_1 + m_2) v^2)^(1/2),   x = F/c;   contact: v (k m_2)^(1/2)
+
+    The other reading of the notes, the tip stopped dead, counts m_1 alone: it stands in the remark.
+
+    **Range** two masses, a rigid obstacle.
+    **Error** no bound: a tip that rebounds shortens the way of the brake.
+    **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; `laws.buffer.collision_force`.
+    """
+    one, push, v = striking(spec, scene), pushed(spec, scene), model.speed(spec, scene)
+    loads = {"collision_speed": v, **_contact(spec, one, v)}
+    notes = {}
+    if math.isfinite(push):
+        m11, m12, m22 = one.masses
+        whole, dead = (
+            buffer.collision_force(m11 + m12, m12 + m22, one.stiffness, v, -push, reading)
+            for reading in (buffer.WHOLE, buffer.TIP_STOPPED)
+        )
+        loads |= {"collision_force": whole, "collision_deflection": whole / one.stiffness}
+        notes["collision_force"] = f"with all that moves; {dead:.4g} N with the tip stopped dead"
+    found = {name: Found(Estimate.unknown(value), note=notes.get(name, "")) for name, value in loads.items()}
+    return Result(with_derived(spec, scene, found), work=1)
+
+
+def _contact(spec: Stacker, one: Swinging, speed: float) -> dict[str, float]:
+    assert isinstance(spec, OverheadStacker)
+    met = spec.obstacle
+    if met is None or met.stiffness is None:
+        return {}
+    return {"contact_force": obstacle.elastic_contact_force(speed, met.stiffness, one.masses[2])}
+
+
+def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
+    """Most the column can get, whatever the contact does: all kinetic energy and all work of the drive bend it.
+
+        0 <= F <= P + (P^2 + c (m v^2 + 2 E_c))^(1/2),   m of all that travels
+
+    **Range** a brake or a drive of constant force; a drive that keeps to a ramp has a force without end.
+    **Error** a bound: the column bends at all, and no more than so. What it reports is the bound itself.
+    **Source** derived; `laws.obstacle.column_force_bound`.
+    """
+    assert isinstance(spec, OverheadStacker)
+    one, push, v = striking(spec, scene), pushed(spec, scene), model.speed(spec, scene)
+    loads = {"collision_speed": Estimate.exact(v)}
+    if push < math.inf:
+        met = spec.obstacle
+        give = 1.0 if met is not None and met.stiffness is not None else 0.0  # a spring: its force over a metre
+        contact = met.stiffness if met is not None and met.stiffness is not None else 1.0
+        stiffness = one.stiffness + (max(one.weight, 0.0) if GRAVITY in carried else 0.0)
+        most = obstacle.column_force_bound(one.total, stiffness, v, max(push, 0.0), contact, give, 1.0)
+        loads["collision_force"] = _below(most * one.stiffness / stiffness)  # the column's own part
+        loads["collision_deflection"] = _below(most / stiffness)
+    found = {name: Found(estimate) for name, estimate in loads.items()}
+    return Result(with_derived(spec, scene, found), work=1)
+
+
+def _below(most: float) -> Estimate:
+    return Estimate(most, 0.0, most, model=most)
+
+
+OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
+    name="obstacle_energy",
+    title="energy of all that moves, less the work of the brake",
+    fidelity=Fidelity.FORMULA,
+    scenes=SCENES,
+    represents=frozenset(),
+    gives=GIVES,
+    run=energy,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",
+    decides=False,
+)
+OBSTACLE_BOUND: Solver[Stacker, ObstacleScene] = Solver(
+    name="obstacle_bound",
+    title="most the column can get: all energy bends it",
+    fidelity=Fidelity.FORMULA,
+    scenes=SCENES,
+    represents=ALWAYS | {GRAVITY},
+    gives=GIVES - {"contact_force"},
+    run=bound,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="derived: energy",
+    always=ALWAYS,
+)

@@ -1,0 +1,109 @@
+"""How long mechanisms start and stop, and how often they may."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.machines.crane.stacking import mast, model
+from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
+from ptmcalc.machines.crane.stacking.scenes import Brake, Braked
+from ptmcalc.machines.crane.stacking.spec import Stacker
+
+
+def of_the_hoist(spec: Stacker) -> float | None:
+    """Starts of the hoist over what they may be; None where the file does not say [1]."""
+    asked, allowed = spec.hoisting.starts_per_hour, spec.hoisting.permitted_starts_per_hour
+    return None if asked is None or allowed is None else asked / allowed
+
+
+def permitted(block: Travel | Rotation) -> float | None:
+    """Starts per hour that motor and brake of a mechanism allow."""
+    if block.permitted_starts_per_hour is not None:
+        return block.permitted_starts_per_hour
+    if isinstance(block, Travel) and block.drive is not None:
+        return block.drive.motor.starts_per_hour
+    return None
+
+
+def of_the_mechanism(spec: Stacker, scene: Braked) -> float | None:
+    """Starts of a mechanism over what they may be; None where the file does not say [1]."""
+    block = model.moving(spec, scene)
+    allowed = permitted(block)
+    if block.starts_per_hour is None or allowed is None:
+        return None
+    return block.starts_per_hour / allowed
+
+
+def time(spec: Stacker, scene: Braked) -> Estimate:
+    """Of a start or a stop of the mechanism of a scene, until it first has its speed or first stands [s].
+
+        ramp:  t = v/a + t_r          force:  M v = integral of P
+
+    A force moves the centre of mass of all that travels as if it were rigid; the speed of what holds the column differs
+    from that of the centre by its swing, at most
+
+        beta = P ((1/m1 - 1/M) A)^(1/2),   A <= ((m_c + m_2)/M)^2/c
+
+    by Cauchy from sum phi_i^2/omega_i over the modes of the free crane: sum phi_i^2 = 1/m1 - 1/M (completeness) and
+    sum phi_i^2/omega_i^2 = A, twice the strain energy of the column under its own inertia, which is at most that of a
+    column that has it all at its end. So the time is between those to lose v - beta and v + beta.
+
+    **Range** a column that swings little; a resistance that begins with the brake; a guide at the head holds from
+    outside: no bound then.
+    **Error** as derived above.
+    **Source** momentum; derived.
+    """
+    block = model.moving(spec, scene)
+    if isinstance(block, Rotation):
+        return Estimate.exact(_of_a_rotation(block, scene))
+    push = model.stopping(spec, scene) if isinstance(scene, Brake) else model.driving(spec, scene)
+    speed = model.speed(spec, scene)
+    if push.kind == "ramp":
+        return Estimate.exact(ramp_time(speed, push.size, push.rise))
+    if push.size <= 0:
+        return Estimate.exact(math.inf)
+    whole = moving_mass(spec, scene) + push.rotors
+    value, low, high = (
+        push.delay + force_time(whole, max(v, 0.0), push.size, push.rise)
+        for v in (speed, *_ends_of_speed(spec, scene, push, speed, whole))
+    )
+    return Estimate(value, low, high, model=max(value - low, high - value))
+
+
+def _ends_of_speed(spec: Stacker, scene: Braked, push: model.Push, speed: float, whole: float) -> tuple[float, float]:
+    guide = spec.column.top_guide
+    if guide is not None and guide.stiffness is not None:
+        return 0.0, math.inf
+    given = mast.swinging(spec, scene, push.rotors)
+    stiffness = given.stiffness + min(given.weight, 0.0)
+    if stiffness <= 0:
+        return 0.0, math.inf
+    swing = push.size * math.sqrt((1 / given.base - 1 / whole) / stiffness) * (whole - given.base) / whole
+    return speed - swing, speed + swing
+
+
+def ramp_time(speed: float, acceleration: float, rise: float) -> float:
+    """Of a ramp of speed whose acceleration comes up and goes down in straight lines; without a flat part where the
+    speed is too small for it [s]."""
+    flat = speed / acceleration - rise
+    return flat + 2 * rise if flat >= 0 else 2 * math.sqrt(speed * rise / acceleration)
+
+
+def force_time(mass: float, speed: float, force: float, rise: float) -> float:
+    """In which a force that comes up in a straight line changes the speed of a mass [s]."""
+    momentum = mass * speed
+    if momentum <= force * rise / 2:
+        return math.sqrt(2 * momentum * rise / force)
+    return momentum / force + rise / 2
+
+
+def _of_a_rotation(block: Rotation, scene: Braked) -> float:
+    """Of the column about its own axis, rigid [s]."""
+    if isinstance(scene, Brake):
+        return block.inertia * scene.speed_share * block.speed / (block.braking_torque + block.resistance)
+    left = block.driving_torque - block.resistance
+    return block.inertia * block.speed / left if left > 0 else math.inf
+
+
+def moving_mass(spec: Stacker, scene: Braked) -> float:
+    """All that a mechanism moves, without rotors [kg]."""
+    return model.carrying_mass(spec, scene) + spec.column.mass + model.climbing_mass(spec, scene)

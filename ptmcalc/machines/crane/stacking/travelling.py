@@ -1,0 +1,31 @@
+"""What starts or stops the base of a column, whichever of the two a scene is about."""
+
+import math
+
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.model import Push
+from ptmcalc.machines.crane.stacking.scenes import StackerScene, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+
+
+def push_of(spec: Stacker, scene: StackerScene) -> Push:
+    """What starts or stops the mechanism of a scene."""
+    return model.driving(spec, scene) if isinstance(scene, Start) else model.stopping(spec, scene)
+
+
+def turns(spec: Stacker, scene: StackerScene) -> bool:
+    """Whether the column turns about its own axis: nothing then bends it."""
+    return model.mechanism(spec, scene) == "rotation"
+
+
+def travels(spec: Stacker, scene: StackerScene) -> Criterion | None:
+    """Out of range where the column only turns about its own axis.
+
+    **Range** every start and stop.
+    **Error** none.
+    **Source** what moves.
+    """
+    if not turns(spec, scene):
+        return None
+    return Criterion("ω", math.inf, 1.0, "the column turns about its own axis and does not bend", "what moves")

@@ -1,0 +1,71 @@
+"""The column as two coupled masses, marched from event to event: one shape, the consistent masses of it."""
+
+import math
+
+import numpy as np
+
+from ptmcalc.laws import mast as law
+from ptmcalc.machines.crane.stacking import march
+from ptmcalc.machines.crane.stacking.march import Happening
+from ptmcalc.machines.crane.stacking.mast import swinging
+from ptmcalc.machines.crane.stacking.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.travelling import push_of
+from ptmcalc.numerics.mast.assumed import one_shape
+from ptmcalc.numerics.mast.modes import Mast
+from ptmcalc.numerics.mast.run import Course, play
+from ptmcalc.numerics.mast.system import Case
+
+SWINGS = 3.0
+"""Periods of the column beside a base at rest that are looked at after the event."""
+_DOUBLINGS = 5
+
+
+def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, heavier: float = 1.0) -> Mast:
+    """The column of a scene that keeps to the shape of a force at its far end.
+
+    `heavier`: factor on the mass that swings beside a base at rest, by which a frequency may be set right.
+    """
+    given = swinging(spec, scene, push_of(spec, scene).rotors)
+    gives, one = given.compliance, given.exact
+    rotation, translation = gives.rotation_share, gives.translation_share
+
+    def shape(place: float) -> float:
+        return float(law.tip_shape(place / one.length, rotation, translation))
+
+    _, both, square = given.masses
+    mean = both + square
+    on_column = given.total - one.base_mass
+    at = one.place * one.length
+    bent = translation / 2 + rotation / 3 + (1 - rotation - translation) * law.FIRST_MOMENT
+    turned = one.tip_mass * at * shape(at) + one.column_mass * one.length * bent
+    pull = moves.column.column.pull if gravity else 0.0
+    return one_shape(
+        moves.column.column,
+        shape,
+        given.stiffness + (given.weight if gravity else 0.0),
+        (square * heavier, mean),
+        on_column,
+        (one.tip_mass * at + one.column_mass * one.length / 2, turned, pull * (mean - translation * on_column)),
+    )
+
+
+def course_of(spec: Stacker, scene: StackerScene, gravity: bool, heavier: float = 1.0, *, keep: bool = False) -> Course:
+    """A start or a stop of two masses, until the base is held for good and some swings beyond."""
+    moves = march.happening(spec, scene, gravity=gravity)
+    two = lumped(spec, scene, moves, gravity, heavier)
+    ratios = np.array([march.damping_ratio(spec, moves, two)])
+    return _until_held(Case(two, ratios, moves.base, (spec.column.length,)), moves, keep)
+
+
+def _until_held(case: Case, moves: Happening, keep: bool) -> Course:
+    swing = 2 * math.pi / float(case.mast.frequencies[0])
+    end = moves.lasts + SWINGS * swing
+    course = play(case, end, keep=keep)
+    for _ in range(_DOUBLINGS):
+        since = course.held_since
+        if since + SWINGS * swing <= course.record.time * (1 + 1e-9):
+            break
+        end = since + SWINGS * swing if math.isfinite(since) else 2 * end
+        course = play(case, end, keep=keep)
+    return course
