@@ -18,7 +18,7 @@ from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.solvers.mast_two_mass import MAST_TWO_MASS
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
-SEED, MACHINES, WEIGHED, TIGHTER = 11, 24, 8, 1 / 3
+SEED, MACHINES, WEIGHED, TIGHTER = 101, 60, 12, 1 / 3
 LOADS = ("mast_deflection_max", "mast_force_max", "mast_moment_max", "settling_time")
 
 

@@ -9,12 +9,14 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
+from ptmcalc.machines.crane.stacking.march import Happening
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.two_mass import course_of, lumped
 from ptmcalc.numerics.mast.modes import Mast
-from ptmcalc.numerics.mast.run import Course, settled
+from ptmcalc.numerics.mast.parts import FloatArray
+from ptmcalc.numerics.mast.run import Course, play, settled
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -23,8 +25,13 @@ _GRAVITY, _LEAST = 2.0, 0.5
 """Times the difference of two runs, one with the weights, and times what they change of the stiffness: calibrated."""
 _SETTLES = 1.5
 """Times the same, of the swing that settles: calibrated."""
+_JUST_BEFORE = 1e-9
 _FREQUENCY = 2.0
 """Times the difference of two runs, one with the exact frequency: calibrated."""
+_KICK = 2.0
+"""Times the kick of a base that is held a little earlier or later, and perhaps let go and held again: calibrated."""
+_GRAZES = 0.1
+"""Share of its mean deceleration below which a base comes to rest so softly that its time is not known."""
 
 
 def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
@@ -36,12 +43,20 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
         |dx| <= P (s_1 |g_s - g_1| + sum_(k > 1) s_k |g_k|)   beside a base that rolls, P the force that comes
               + a (|h_s - h_1| + sum_(k > 1) |h_k|)           as it stops, a its deceleration; 2 a s_k along a ramp
               + 2 |x(w) - x(w_1)|                             two masses with the frequency of the exact column
+              + sum |p_k L_k| min(2 V w_k, 2 a)/w_k^2         held-base modes, kicked by the speed V, a the step
+                                                              of acceleration that comes so much earlier or later
 
-    s_k = 1, or 2/(w_k t_r) for what comes up in the time t_r: a mode is set off by each kink of it. The time in which
-    the swing settles is that of a window so much narrower or wider.
+    s_k = 1, or 2/(w_k t_r) for what comes up in the time t_r: a mode is set off by each kink of it. V is how far the
+    speed of the rolling base may be off, by which it is held earlier or later:
 
-    **Range** every start and stop of two masses.
-    **Error** the sums are bounds; the factor of the last line is calibrated on a seeded sample.
+        V = P/m^2 ( sum_(k > 1) s_k L_k^2/w_k + s_1 |L_1^2/w_1 - L^2/w| )
+
+    with the momentum L_k^2/(m w_k) P that a mode swings with against the base, m all that rolls; L and w of two masses.
+    The time in which the swing settles is that of a window so much narrower or wider.
+
+    **Range** every start and stop of two masses; nothing is known where the base comes to rest so softly that the time
+    of it is open: with less than a tenth of the deceleration P/m.
+    **Error** the sums are bounds; the factors 2 are calibrated on a seeded sample.
     **Source** modal analysis: a mode strays from rest under its force by no more than its share of each jump.
     """
     try:
@@ -49,7 +64,7 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
     spread = {name: offset for name, offset in told.items() if name in loads}
-    return bounds_of_derived(spec, scene, loads, spread)
+    return bounds_of_derived(spec, scene, loads, _above_zero(spread, loads))
 
 
 def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
@@ -65,6 +80,10 @@ def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
         deceleration = max(plain.largest("acceleration")[0], right.largest("acceleration")[0])
         sums = [_strays(exact, length, math.inf, 0.0, deceleration)]
         sums.append(_strays(exact, length, moves.base.mass, moves.rise, moves.jump))
+        paces = _last_pace(plain), _last_pace(right)
+        if min(paces) < _GRAZES * moves.jump / plain.system.total:
+            raise NumericsError("NUM103", "the base comes to rest too softly to tell when")
+        sums.append(_kicked(exact, own, length, moves, max(paces)))
     shift, turn = (sum(one[k] for one in sums) for k in (0, 1))
     shift += _FREQUENCY * abs(plain.largest("deflection")[0] - right.largest("deflection")[0])
     turn += _FREQUENCY * abs(plain.largest("moment")[0] - right.largest("moment")[0])
@@ -94,6 +113,37 @@ def _strays(mast: Mast, place: float, base: float, rise: float, jump: float) -> 
         first = abs(float(gains[1:].sum())) * float(strays[0])
         found.append((others + first) * abs(jump))
     return found[0], found[1]
+
+
+def _above_zero(offsets: dict[str, Interval], loads: Loads) -> dict[str, Interval]:
+    """Offsets that leave magnitudes and times at 0 or above."""
+    return {name: Interval(max(one.low, -max(loads[name].low, 0.0)), one.high) for name, one in offsets.items()}
+
+
+def _last_pace(course: Course) -> float:
+    """Acceleration with which the base came to where it was first held, whichever way it was moved [m/s^2]."""
+    held = next((float(event.time) for event in course.record.events if event.element == "base"), 0.0)
+    if not held > 0:
+        return 0.0
+    before = play(course.case, held * (1 - _JUST_BEFORE))
+    forward = 1.0 if course.case.base.speed == 0 else -1.0
+    return forward * float(before.record.last[before.system.watched["acceleration", 0]])
+
+
+def _kicked(exact: Mast, own: Mast, place: float, moves: Happening, pace: float) -> tuple[float, float]:
+    """What a base that is held a little earlier or later does to deflection and moment; its acceleration ends there."""
+    base, total = moves.base.mass, exact.elements.total + moves.base.mass
+
+    def swings(mast: Mast) -> FloatArray:
+        values, shapes = mast.rolling(base)
+        strays = np.minimum(1.0, 2 / (values * moves.rise)) if moves.rise > 0 else np.ones(len(values))
+        return np.asarray(strays * (mast.elements.carried @ shapes) ** 2 / values)
+
+    each, one = swings(exact), swings(own)
+    speed = _KICK * moves.jump / total**2 * (float(each[1:].sum()) + abs(float(each[0] - one[0])))
+    kicks = np.abs(exact.participation) * np.minimum(speed * exact.frequencies, 2 * pace)
+    turned = np.abs(exact.elements.turned @ exact.shapes)
+    return float(np.abs(exact.at(place)) @ (kicks / exact.frequencies**2)), float(turned @ kicks)
 
 
 def _settling(spec: Stacker, scene: DrivenScene, plain: Course, right: Course, doubt: float) -> Interval | None:
@@ -152,7 +202,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         return bounds_of_derived(spec, scene, loads, told)
     assert isinstance(scene, DrivenScene)
     try:
-        told |= {name: offset for name, offset in _weighted(spec, scene).items() if name in loads}
+        told |= _above_zero({name: one for name, one in _weighted(spec, scene).items() if name in loads}, loads)
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
     return bounds_of_derived(spec, scene, loads, told)
