@@ -9,6 +9,7 @@ import yaml
 from support.command import ROOT
 from support.machines import changed, report_of
 
+from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import Amount, FileReport, TableReport
 from ptmcalc.machines.crane.stacking import combinations
 from ptmcalc.machines.crane.stacking.derived import MARKED_BY, UNMARKED
@@ -61,11 +62,11 @@ class TestTables:
         report = _report(name)
         scenes = {scene.name: scene for scene in report.scenes}
         for row in _rows(report.tables[1]):
-            ledger = {effect.name for effect in scenes[row["scene"]].effects}
-            named = {entry.split()[0] for entry in row["effects"]}
-            assert named <= ledger
+            states = {effect.name: effect.state for effect in scenes[row["scene"]].effects}
+            named = {entry.removesuffix(" (bounded)") for entry in row["effects"]}
+            assert all(states[name] is not EffectState.SKIPPED for name in named)
             if row["dynamic_load"].startswith("dynamic"):
-                assert any(entry.endswith(("simulated", "bounded")) for entry in row["effects"])
+                assert named
 
     def test_the_force_is_the_largest_of_the_scenes_of_its_event(self, name: str) -> None:
         report = _report(name)
@@ -86,7 +87,8 @@ class TestTables:
         for row in forces["rows"]:
             assert row["force"]["unit"] == "N"
             assert row["use"]
-        assert len(forces["notes"]) == 3
+        assert matrix["notes"]
+        assert forces["notes"]
 
 
 def test_the_matrix_is_that_of_the_source() -> None:

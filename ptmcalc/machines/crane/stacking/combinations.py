@@ -90,16 +90,15 @@ RACK = Combinations(
     (
         "motors and brakes of all mechanisms, ropes",
         "stability",
-        "not stated; the column across the aisle and the rack",
-        "not stated; the hoisting mechanism and the carriage",
-        "not stated; wheels, base and column",
-        "not stated; column and safety gear",
+        "the column across the aisle and the rack (not stated in the source)",
+        "the hoisting mechanism and the carriage (not stated in the source)",
+        "wheels, base and column (not stated in the source)",
+        "column and safety gear (not stated in the source)",
     ),
     (
         "lines of the printed table have five or seven cells instead of six: read on the diagonal, the only reading in"
         " which each combination takes one dynamic load",
         _INERTIA,
-        "what combinations 3 to 6 are for is not stated in the source",
     ),
 )
 TABLES = {"overhead_stacker": OVERHEAD, "rack_stacker": RACK}
@@ -127,7 +126,11 @@ def _matrix(given: Combinations) -> TableReport:
     numbers = range(1, given.count + 1)
     columns = (Column("load", "load"), *(Column(str(n), str(n)) for n in numbers))
     rows = tuple((row.load, *("+" if n in row.taken else "-" for n in numbers)) for row in given.rows)
-    return TableReport(given.name, given.title, columns, rows)
+    uses: dict[str, list[str]] = {}
+    for number, use in zip(numbers, given.uses, strict=True):
+        uses.setdefault(use, []).append(str(number))
+    notes = tuple(f"{', '.join(ones)} for {use}" for use, ones in uses.items())
+    return TableReport(given.name, given.title, columns, rows, notes)
 
 
 _COLUMNS = (
@@ -137,9 +140,9 @@ _COLUMNS = (
     Column("scene", "scene"),
     Column("solver", "solver"),
     Column("effects", "effects of the run"),
-    Column("column_stress", "column"),
-    Column("bridge_stress", "bridge"),
-    Column("use", "for"),
+    Column("column_stress", "column stress"),
+    Column("bridge_stress", "bridge stress"),
+    Column("use", "for", detail=True),
 )
 
 
@@ -185,15 +188,13 @@ def _size(load: LoadReport) -> float:
 
 
 def _ledger(scene: SceneReport, solver: str) -> Iterator[str]:
-    """The effects of a scene's ledger that its run carried, or whose bound is in its bar."""
+    """The effects of a scene's ledger that its run carried, or whose bound is in its bar; not those it skips."""
     carried = next((one.effects for one in scene.solvers if one.name == solver and one.decides), ())
     for effect in scene.effects:
         if effect.name in carried:
-            yield f"{effect.name} simulated"
+            yield effect.name
         elif effect.state is not EffectState.SKIPPED:
-            yield f"{effect.name} bounded"
-        else:
-            yield f"{effect.name} skipped"
+            yield f"{effect.name} (bounded)"
 
 
 def _largest(name: str, scenes: Iterable[SceneReport]) -> Cell:
