@@ -32,7 +32,7 @@ from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
-from ptmcalc.engine.textbook import far_from_textbook
+from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
@@ -101,7 +101,7 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)
     diagnostics = loaded.diagnostics + tuple(
-        Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, Severity.WARNING)
+        Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, _severity(f))
         for f, message in _said(settled)
     )
     scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
@@ -111,6 +111,11 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     judged = waived(spec, scenes, today)
     tables = kind.tables_of(spec, judged)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
+
+
+def _severity(finding: Finding) -> Severity:
+    """What is said of a textbook's formula doubts no number of ours: it is a note."""
+    return Severity.NOTE if finding.code in OF_TEXTBOOKS else Severity.WARNING
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:

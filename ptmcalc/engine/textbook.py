@@ -7,6 +7,8 @@ from ptmcalc.base.units import show
 from ptmcalc.contract.report import LoadReport, SceneReport
 from ptmcalc.engine.load import Loaded
 
+OF_TEXTBOOKS = frozenset({"NUM107", "NUM108"})
+"""Findings about a textbook's formula, not about a number of ours."""
 FAR = 0.1
 """Difference beyond the error bar, as a share of the formula's value, from which on it is said."""
 
