@@ -158,7 +158,7 @@ class TestObstacle:
 
     @pytest.mark.parametrize("stiff", [50 * STIFFNESS, None])
     def test_a_column_with_mass_against_the_witness(self, stiff: float | None) -> None:
-        """A point that stops dead lets go and is caught again: after some blows only damping keeps two runs together."""
+        """A point that stops dead is caught again and again: after some blows only damping keeps two runs together."""
         obstacle = Obstacle(LENGTH, math.inf if stiff is None else stiff, 0.05)
         one = case(braked(4000.0, 0.8, 5000.0), load=2100.0, obstacle=obstacle, count=2, ratio=0.03)
         other = witness(base=5000.0, load=2100.0, count=2, held_ratio=0.03)
