@@ -10,7 +10,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
-from ptmcalc.numerics.mast.run import Course, play
+from ptmcalc.numerics.mast.run import Course, play, ring_of
 from ptmcalc.numerics.mast.system import Case
 
 STIFFNESS, LENGTH = 600e3, 6.0
@@ -53,6 +53,20 @@ class TestBraking:
         """The largest deflection of the mast in the worked case."""
         course = play(case(braked(9000.0), count=count, modes=6), 0.5)
         assert course.largest("deflection")[0] == pytest.approx(0.00964556, rel=2e-6)
+
+    def test_c11_damped_as_two_masses(self) -> None:
+        """Printed: 8.60536 mm while it slips, at rest after 0.778533 s, 7.52749 mm after that."""
+        load = 2083.2
+        one = case(
+            braked(9000.0, 1.0, 4916.8), column=0.0, load=load, ratio=1414.73 / (2 * math.sqrt(STIFFNESS * load))
+        )
+        course = play(one, 1.5)
+        assert course.largest("deflection")[0] == pytest.approx(0.00860536, rel=1e-6)
+        assert course.held_since == pytest.approx(0.778533, rel=1e-6)
+        stopped = play(one, course.held_since + 1e-9)
+        ring = ring_of(stopped.system, stopped.record.state, one.mast.at(LENGTH)[:1])
+        after = max(abs(ring.at(time)) for time in np.linspace(0.0, 0.4, 40_001))
+        assert after == pytest.approx(0.00752749, rel=1e-5)
 
     @pytest.mark.parametrize(
         ("force", "ratio", "parts"),

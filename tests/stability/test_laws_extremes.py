@@ -32,6 +32,7 @@ from ptmcalc.laws import (
     chain_start,
     chain_wear,
     classification,
+    contact_damping,
     coulomb,
     duty,
     equalising,
@@ -425,6 +426,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "clamped_beam_root": (mast_modes.clamped_beam_root, lambda d: (d.positive(1)[0], int(d.rng.integers(1, 4)))),
     "mast_frequency": (mast_modes.mast_frequency, lambda d: (a_mast(d), int(d.rng.integers(1, 4)))),
     "mode_compliance": (mast_modes.mode_compliance, lambda d: (a_mast(d), 1, str(d.rng.choice(["base", "load"])))),
+    "dashpot_ratio": (contact_damping.dashpot_ratio, lambda d: (d.share(),)),
     "elastic_contact_force": (obstacle.elastic_contact_force, lambda d: tuple(d.positive(3))),
     "damped_contact": (
         obstacle.damped_contact,

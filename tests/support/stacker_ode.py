@@ -190,3 +190,24 @@ def rolled(
         elif t == lasts:
             t = math.nextafter(t, math.inf)
     return high, max(low, 0.0)
+
+
+def tilted(
+    frequency: float, driven: float, base: float, speed: float, radius: float, step: float, gap: float, end: float
+) -> float:
+    """Largest swing of a column's mode over a base whose wheels run over a step, or a gap, one after the other."""
+    way = gap or math.sqrt(2 * step * radius)
+    lasts, turns, side = way / speed, 2 if gap else 1, -1.0 if gap else 1.0
+    size = side * driven * (math.pi / 2 * speed) ** 2 / radius / base
+    y, best = np.zeros(2), 0.0
+    corners = [0.0, lasts, base / speed, base / speed + lasts, base / speed + lasts + end]
+    for begin, stop, sign in zip(corners, corners[1:], (-1.0, 0.0, 1.0, 0.0), strict=False):
+
+        def rate(t: float, y: State, begin: float = begin, sign: float = sign) -> list[float]:
+            push = sign * size * math.cos(turns * math.pi * (t - begin) / lasts)
+            return [y[1], push - frequency**2 * y[0]]
+
+        run = solve_ivp(rate, (begin, stop), y, method="DOP853", rtol=_RTOL, atol=1e-15, dense_output=True)
+        best = max(best, Caught._top(run, lambda y: np.abs(y[0])))
+        y = run.y[:, -1]
+    return best

@@ -209,6 +209,20 @@ def test_waves_of_the_rail() -> None:
     assert {item.code: item.verdict for item in scene.checks}["CRN294"] == "fail"
 
 
+@pytest.mark.parametrize(("rail", "speed"), [({"step": "2 mm"}, 2.0), ({"step": "2 mm"}, 3.3), ({"gap": "30 mm"}, 0.7)])
+def test_the_swing_of_the_column_as_integrated(rail: dict[str, str], speed: float) -> None:
+    data = changed(RACK, rail=rail | {"frequency": "10 Hz"}, travel__speed=f"{speed} m/s", scenes=[{"type": "rail"}])
+    # a cantilever of 12 m: 33/140 of its 1800 kg swing with the 1600 kg, 11/40 are driven by a tilt
+    swings, stiff = 1600 + 1800 * 33 / 140, 3 * 84e6 / 12**3
+    frequency, driven = math.sqrt(stiff / swings), 12 * (1600 + 1800 * 11 / 40) / swings
+    step, gap = (0.002, 0.0) if "step" in rail else (0.0, 0.03)
+    swing = stacker_ode.tilted(frequency, driven, 4.0, speed, 0.2, step, gap, 2 * math.pi / frequency)
+    found = run(RAIL_RESPONSE, data)
+    assert value(found, "mast_deflection_max") == pytest.approx(swing, rel=1e-6)
+    assert value(found, "mast_force_max") == pytest.approx(swing * stiff, rel=1e-6)
+    assert value(found, "mast_moment_max") == pytest.approx(swing * stiff * driven, rel=1e-6)
+
+
 def test_a_tilting_base_swings_the_column() -> None:
     """A slow climb tilts the column without any swing; the head follows the base."""
     slow = changed(RACK, travel__speed="0.01 m/s", scenes=[{"type": "rail"}])

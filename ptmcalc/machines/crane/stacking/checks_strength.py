@@ -1,5 +1,9 @@
 """Checks of stresses per combination, and of what keeps a rack stacker upright."""
 
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import Any
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
@@ -32,16 +36,31 @@ def _stability_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return Estimate.exact(spec.checks.stability)
 
 
+def _on_a_side(side: str, wanted: Callable[[Any, Any], bool]) -> Callable[[OneCheck], OneCheck]:
+    """A check of one of the two directions in which a machine may tip."""
+
+    def of(check: OneCheck) -> OneCheck:
+        def each(spec: Stacker, scene: StackerScene) -> Iterable[OneCheck]:
+            if not wanted(spec, scene):
+                return ()
+            blamed = check.blame(spec, scene, {})
+            return (check.of(side, check.limit, blamed, check.needs(spec, scene), check.repair(spec, scene)),)
+
+        return replace(check, each=each)
+
+    return of
+
+
 def _travels(spec: Stacker, scene: StackerScene) -> bool:
     return isinstance(spec, RackStacker)
 
 
-ALONG: OneCheck = only(_travels)(
+ALONG: OneCheck = _on_a_side("along", _travels)(
     Check(
         code="CRN207",
         title="a rack stacker that tips along its rail",
         scenes=frozenset({Start, Brake}),
-        loads=("stability_reserve[along]",),
+        loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
         limit=_stability_limit,
         needs=no_needs,
@@ -73,12 +92,12 @@ def _across_key(spec: Stacker, scene: StackerScene) -> KeyPath:
     return ("base", "gauge") if spec.base.gauge is not None else ("column", "top_guide", "rating")
 
 
-ACROSS: OneCheck = only(_leans)(
+ACROSS: OneCheck = _on_a_side("across", _leans)(
     Check(
         code="CRN208",
         title="a rack stacker that tips across the aisle",
         scenes=frozenset({Stand, ForkPush}),
-        loads=("stability_reserve[across]",),
+        loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
         limit=_stability_limit,
         needs=_across_needs,
@@ -95,6 +114,8 @@ ACROSS: OneCheck = only(_leans)(
 EVENTS: frozenset[type[Scene]] = frozenset(
     {Stand, Start, Brake, ObstacleScene, ForkCaught, ForkPush, RailScene, SafetyGearScene}
 )
+
+UNDER_A_BRIDGE: frozenset[type[Scene]] = frozenset({Stand, Start, Brake, ObstacleScene, ForkCaught})
 
 
 def _of_travel(spec: Stacker, scene: StackerScene) -> bool:
@@ -151,7 +172,7 @@ BRIDGE: OneCheck = only(_has_girders)(
     Check(
         code="CRN210",
         title="a bridge stressed too highly",
-        scenes=EVENTS,
+        scenes=UNDER_A_BRIDGE,
         loads=("bridge_stress",),
         sense=Sense.AT_MOST,
         limit=_bridge_limit,

@@ -9,15 +9,15 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 OF_THE_HOIST = (
     LoadInfo("roller_reaction", "largest reaction of a set of guide rollers", units.FORCE, governing=True),
     LoadInfo("roller_load", "largest load of a roller", units.FORCE),
-    LoadInfo("carriage_resistance", "resistance of the guide", units.FORCE, governing=True),
+    LoadInfo("carriage_resistance", "resistance of the guide", units.FORCE),
     LoadInfo("jamming", "resistance of the guide over the weight", units.RATIO),
     LoadInfo("rope_force", "largest pull of a rope at the drum", units.FORCE, governing=True),
     LoadInfo("rope_safety", "breaking force over the pull of a rope", units.RATIO),
 )
 OF_THE_COLUMN = (
-    LoadInfo("column_stiffness", "stiffness of the column at its far end", units.STIFFNESS, governing=True),
-    LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY, governing=True),
-    LoadInfo("period", "period of the first swing", units.TIME, governing=True),
+    LoadInfo("column_stiffness", "stiffness of the column at its far end", units.STIFFNESS),
+    LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY),
+    LoadInfo("period", "period of the first swing", units.TIME),
 )
 OF_STANDING = (
     LoadInfo("total_weight", "weight of crane and load", units.FORCE, governing=True),
@@ -28,7 +28,7 @@ OF_MOTION = (
     LoadInfo("brake_time", "time of the stop", units.TIME, governing=True),
     LoadInfo("mast_deflection_max", "largest swing of the far end of the column", units.LENGTH, governing=True),
     LoadInfo("mast_force_max", "largest force of the column", units.FORCE, governing=True),
-    LoadInfo("mast_moment_max", "largest moment at the root of the column", units.TORQUE, governing=True),
+    LoadInfo("mast_moment_max", "largest moment at the root of the column", units.TORQUE),
     LoadInfo("rest_deflection", "lean of the far end at rest under weights beside its axis", units.LENGTH),
     LoadInfo("settling_time", "from standstill until the far end stays in the window", units.TIME, governing=True),
 )

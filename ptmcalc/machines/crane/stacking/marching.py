@@ -1,7 +1,7 @@
 """A short motion of a few masses, played exactly from event to event, and what is read from it with its bars."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ptmcalc.base.estimate import Estimate
@@ -20,6 +20,8 @@ _MARGIN = 3.0
 _UNSEEN = FADED + 3e-12
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 _CLOSES = 1e-9
+MOST_SPREAD = 300.0
+"""Fastest over slowest vibration of what is played: beyond it the fast one has died in any machine, not in a run."""
 _MOST_EVENTS = 2000
 """Events after which something is said to chatter."""
 
@@ -56,6 +58,15 @@ class Played:
         high, low = self.top(what, index), self.bottom(what, index)
         return high if high[0] >= -low[0] else (-low[0], low[1])
 
+    def largest_of(self, sign: int, link: str) -> tuple[float, float]:
+        """Largest (1) or smallest (-1) force of a link, and its time."""
+        value, time = (self.top if sign > 0 else self.bottom)("link", self.link(link))
+        return value, time or 0.0
+
+    def last(self, what: str, index: int) -> float:
+        """Value of a watched signal at the end."""
+        return float(self.record.last[self.system.watched[what, index]])
+
     def first(self, element: str, after: str) -> float:
         """When an element first came to a state; infinite where it never did [s]."""
         times = (one.time for one in self.record.events if one.element == element and one.after == after)
@@ -75,6 +86,12 @@ def play(train: Train, window: float, refined: float = 1.0) -> Played:
     return Played(train, system, record, ledger(system, start, record))
 
 
+def spread(train: Train) -> float:
+    """Fastest over slowest vibration with every contact closed [1]."""
+    found = frequencies(train)
+    return float(found.max() / found.min())
+
+
 def slowest(train: Train) -> float:
     """Period of the slowest vibration with every contact closed [s]."""
     return 2 * math.pi / float(frequencies(train).min())
@@ -82,41 +99,59 @@ def slowest(train: Train) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """Loads of a motion with their bars, and what has to be said of it."""
+    """Loads of a motion with their bars, and what has to be said of it; `stages` are its runs, one after the other."""
 
     found: dict[str, Found]
     findings: tuple[Finding, ...]
-    played: Played
+    stages: tuple[Played, ...]
+    residual: float
     work: int
 
-    def result(self, found: Mapping[str, Found], findings: tuple[Finding, ...] = ()) -> Result:
-        """What a solver hands back."""
+    @property
+    def played(self) -> Played:
+        """The first run."""
+        return self.stages[0]
+
+    def result(self, found: Mapping[str, Found]) -> Result:
+        """What a solver hands back of a motion in one run."""
         record = self.played.record
-        residual = self.played.ledger.residual
         events = tuple(Event(float(one.time), one.element, one.before, one.after) for one in record.events)
         return Result(
             found,
             work=self.work,
             window=(0.0, record.time),
-            health={"energy_residual": residual, "steps": float(record.steps)},
-            findings=(*self.findings, *findings),
+            health={"energy_residual": self.residual, "steps": float(record.steps)},
+            findings=self.findings,
             events=events,
         )
 
 
+Stages = Callable[[float], tuple[Sequence[Played], Mapping[str, Reading]]]
+"""The runs of a motion with panels so much longer than usual, and what is read from them."""
+
+
 def course(label: str, train: Train, window: float, read: Read) -> Course:
+    """A motion in one run, and its loads."""
+
+    def stages(refined: float) -> tuple[Sequence[Played], Mapping[str, Reading]]:
+        played = play(train, window, refined)
+        return (played,), read(played)
+
+    return compared(label, stages)
+
+
+def compared(label: str, stages: Stages) -> Course:
     """A motion and its loads.
 
         bar = 3 |x - x'|, x' of a run that divides time otherwise, and what reading a signal may miss
 
-    All torques are straight pieces, so both runs are exact but for rounding. The numbers are trusted only where the
-    energy ledger closes to 1e-9.
+    All torques are straight pieces or sines, so both runs are exact but for rounding. The numbers are trusted only
+    where the energy ledgers close to 1e-9.
     """
-    played, other = play(train, window), play(train, window, _OTHERWISE)
-    own, compared = read(played), read(other)
-    found = {name: _with_bar(value, time, compared[name][0]) for name, (value, time) in own.items()}
+    (plays, own), (others, beside) = stages(1.0), stages(_OTHERWISE)
+    found = {name: _with_bar(value, time, beside[name][0]) for name, (value, time) in own.items()}
     findings: tuple[Finding, ...] = ()
-    residual = played.ledger.residual
+    residual = max(one.ledger.residual for one in plays)
     if residual > _CLOSES:
         said = (
             f"scene `{label}`: the energy ledger leaves {residual:.1e} over, more than {_CLOSES:.0e}; the numbers are"
@@ -124,7 +159,7 @@ def course(label: str, train: Train, window: float, read: Read) -> Course:
         )
         findings = (Finding("NUM101", said),)
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
-    return Course(found, findings, played, played.record.steps + other.record.steps)
+    return Course(found, findings, tuple(plays), residual, sum(one.record.steps for one in (*plays, *others)))
 
 
 def _with_bar(value: float, time: float | None, other: float) -> Found:

@@ -54,9 +54,16 @@ class RackStacker(Stacker):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Column and centre of mass stand between the wheels."""
         yield from super().conflicts(given)
-        base = given.block("base")
+        base, rail = given.block("base"), given.block("rail")
         if base is None:
             return
+        wheel = base.number("wheel_diameter")
+        if rail is not None and wheel is not None:
+            for key, most in (("step", wheel / 2), ("gap", wheel)):
+                size = rail.number(key)
+                if size is not None and size >= most:
+                    reason = f"no wheel of {units.show(wheel, units.LENGTH)} rolls over it"
+                    yield Conflict(("rail", key), reason, f"write `{key}: 1 mm`, or what the rail has")
         wheels = base.number("wheel_base")
         for key in ("column", "centre"):
             place = base.number(key)

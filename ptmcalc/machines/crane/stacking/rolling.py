@@ -1,89 +1,119 @@
 """A wheel that may leave its rail, and a column that a tilting base swings: both as one mass on a spring."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from ptmcalc.laws import rail, vibration
 from ptmcalc.machines.crane.stacking.events import Roll, Swinger
-from ptmcalc.machines.crane.stacking.marching import Played, Reading
+from ptmcalc.machines.crane.stacking.marching import Played, Reading, Stages, play
 from ptmcalc.numerics.train.parts import LINEAR, NO_PULL, Body, Drive, Spring, Train
 from ptmcalc.numerics.train.signals import Signal, Sine
 
 MASS, WHEEL, COLUMN = "machine", "wheel", "column"
+DOWN = "step down"
 _PERIODS = 3
 
 
-def _pulse(name: str, size: float, way: float, speed: float, half_turns: int, since: float = 0.0) -> Drive:
-    """A force `size` cos(O t) while a wheel passes a way: half a turn or a whole one."""
-    lasts = way / speed
-    rate = half_turns * math.pi / lasts
-    law = Signal(sines=(Sine(size, rate, math.pi / 2 - rate * since),))
-    times, values = (0.0, lasts), (1.0, 0.0)
-    if since:
-        times, values = (0.0, since, since + lasts), (0.0, 1.0, 0.0)  # type: ignore[assignment]
-    return Drive.of(name, 0, law, Signal(times, values, (0.0,) * len(times)))
+@dataclass(frozen=True, slots=True)
+class Pulse:
+    """What a wheel runs over: its path begins with a cosine of acceleration that lasts so long, a half turn of it or a
+    whole one, upward or downward."""
+
+    name: str
+    lasts: float
+    half_turns: int
+    side: float
+
+    def force(self, size: float) -> Drive:
+        """A force `size` cos(O t) on the first body."""
+        wave = Sine(self.side * size, self.half_turns * math.pi / self.lasts, math.pi / 2)
+        return Drive.of(self.name, 0, Signal(sines=(wave,)))
 
 
-def _passes(roll: Roll) -> Iterator[tuple[str, float, int, float]]:
-    """What is run over: (name, way of the wheel over it, half turns, side on which it begins)."""
+def pulses(roll: Roll) -> Iterator[Pulse]:
+    """All that is run over."""
     if roll.step:
-        climb = math.sqrt(2 * roll.step * roll.radius)
-        yield "step up", climb, 1, 1.0
-        yield "step down", climb, 1, -1.0
+        climb = math.sqrt(2 * roll.step * roll.radius) / roll.speed
+        yield Pulse("step up", climb, 1, 1.0)
+        yield Pulse(DOWN, climb, 1, -1.0)
     if roll.gap:
-        yield "gap", roll.gap, 2, -1.0
+        yield Pulse("gap", roll.gap / roll.speed, 2, -1.0)
 
 
-def machine_trains(roll: Roll, law: str = NO_PULL) -> Iterator[tuple[Train, float]]:
-    """The machine on a wheel that cannot pull, seen from the wheel's path, for each step and gap; with the time to
-    look. Its mass is 1 kg: forces are accelerations. With a linear law the wheel is held to the rail."""
-    spring = roll.frequency**2
-    for name, way, half_turns, side in _passes(roll):
-        body = Body(MASS, 1.0)
-        damper = 2 * roll.damping * roll.frequency
-        side_of = -1 if law == NO_PULL else 0
-        rest = roll.gravity / spring
-        wheel = Spring(WHEEL, 0, None, spring, damper, law=law, side=side_of, rest=rest)
-        drives = (
-            Drive.of("weight", 0, Signal.constant(-roll.gravity)),
-            _pulse(name, -side * roll.acceleration, way, roll.speed, half_turns),
+def _ends(played: Played) -> tuple[float, float]:
+    """Position and speed of the body at the end of a run."""
+    return played.last("position", 0), played.last("speed", 0)
+
+
+# -- the machine on its wheel ---------------------------------------------------------------------------------------
+
+
+def machine_stages(roll: Roll, pulse: Pulse, law: str = NO_PULL) -> Stages:
+    """The machine on a wheel that cannot pull, seen from the wheel's path, over a step or gap and for three periods
+    behind it. Its mass is 1 kg: forces are accelerations. With a linear law the wheel is held to the rail."""
+    spring, damper = roll.frequency**2, 2 * roll.damping * roll.frequency
+    side = -1 if law == NO_PULL else 0
+    weight = Drive.of("weight", 0, Signal.constant(-roll.gravity))
+    wheel = Spring(WHEEL, 0, None, spring, damper, law=law, side=side, rest=roll.gravity / spring)
+    window = _PERIODS * 2 * math.pi / roll.frequency
+    # a machine thrown up comes down as late as its speed has it
+    window += 4 * roll.acceleration / roll.gravity * min(pulse.lasts, 1 / roll.frequency)
+
+    def stages(refined: float) -> tuple[Sequence[Played], Mapping[str, Reading]]:
+        over = Train((Body(MASS, 1.0),), springs=(wheel,), drives=(weight, pulse.force(-roll.acceleration)))
+        first = play(over, pulse.lasts, refined)
+        behind = Train((Body(MASS, 1.0, *_ends(first)),), springs=(wheel,), drives=(weight,))
+        second = play(behind, window, refined)
+        top, low = (
+            max(
+                ((sign * played.largest_of(sign, WHEEL)[0], since + played.largest_of(sign, WHEEL)[1]))
+                for played, since in ((first, 0.0), (second, pulse.lasts))
+            )
+            for sign in (-1, 1)
         )
-        window = way / roll.speed + _PERIODS * 2 * math.pi / roll.frequency
-        # a machine thrown up comes down as late as its speed has it
-        window += 4 * roll.acceleration / roll.gravity * min(way / roll.speed, 1 / roll.frequency)
-        yield Train((body,), springs=(wheel,), drives=drives), window
+        return (first, second), {
+            "phi4": (top[0] / roll.gravity, top[1]),
+            "rail_contact": (-low[0] / roll.gravity, low[1]),
+        }
+
+    return stages
 
 
-def wheel_readings(played: Played, gravity: float) -> dict[str, Reading]:
-    """Largest and least load of the wheel over the static one."""
-    low, when = played.bottom("link", played.link(WHEEL))
-    high, then = played.top("link", played.link(WHEEL))
-    return {"phi4": (-low / gravity, when), "rail_contact": (-high / gravity, then)}
+# -- the column over its base ---------------------------------------------------------------------------------------
 
 
-def column_trains(roll: Roll, column: Swinger) -> Iterator[tuple[Train, float]]:
-    """The column's mode, of 1 kg, over a base whose wheels run over a step or a gap one after the other."""
-    apart = roll.base / roll.speed
-    size = column.driven * roll.acceleration / roll.base
-    for name, way, half_turns, side in _passes(roll):
-        if name == "step down":
-            continue  # the same with the other sign
-        spring = Spring(COLUMN, 0, None, column.frequency**2, law=LINEAR)
-        drives = (
-            _pulse("front wheel", side * size, way, roll.speed, half_turns),
-            _pulse("rear wheel", -side * size, way, roll.speed, half_turns, apart),
-        )
-        window = apart + way / roll.speed + 2 * math.pi / column.frequency
-        yield Train((Body(COLUMN, 1.0),), springs=(spring,), drives=drives), window
+def column_stages(roll: Roll, column: Swinger, pulse: Pulse) -> Stages:
+    """The column's mode, of 1 kg, over a base whose wheels run over a step or a gap one after the other.
 
-
-def column_readings(played: Played, column: Swinger) -> dict[str, Reading]:
-    """Swing of the head of the column from its place on the tilted base, and what the column feels of it.
-
-    The moment at the root is that of the masses that swing, with their levers.
+    In between and behind it swings freely: its amplitude is that of the state at the end of the pulse.
     """
-    force, when = played.largest("link", played.link(COLUMN))
-    return {name: (value, when) for name, value in swing_loads(force / column.frequency**2, column).items()}
+    size, w = column.driven * roll.acceleration / roll.base, column.frequency
+    spring = Spring(COLUMN, 0, None, w**2, law=LINEAR)
+    pause = max(roll.base / roll.speed - pulse.lasts, 0.0)
+
+    def stages(refined: float) -> tuple[Sequence[Played], Mapping[str, Reading]]:
+        front = play(Train((Body(COLUMN, 1.0),), springs=(spring,), drives=(pulse.force(-size),)), pulse.lasts, refined)
+        x, v = _ends(front)
+        between, turned = _free_top(x, v, w, pause), w * pause
+        start = x * math.cos(turned) + v / w * math.sin(turned), v * math.cos(turned) - x * w * math.sin(turned)
+        rear = play(
+            Train((Body(COLUMN, 1.0, *start),), springs=(spring,), drives=(pulse.force(size),)), pulse.lasts, refined
+        )
+        x, v = _ends(rear)
+        inside = max(one.largest("link", 0)[0] / w**2 for one in (front, rear))
+        swing = max(inside, between, math.hypot(x, v / w))
+        return (front, rear), {name: (value, None) for name, value in swing_loads(swing, column).items()}
+
+    return stages
+
+
+def _free_top(x: float, v: float, w: float, time: float) -> float:
+    """Largest deflection of a free swing from a state on, within a time."""
+    top = math.hypot(x, v / w)
+    phase = math.atan2(v / w, x) % math.pi  # to the next turn
+    end = abs(x * math.cos(w * time) + v / w * math.sin(w * time))
+    return top if phase <= w * time else max(abs(x), end)
 
 
 def swing_loads(swing: float, column: Swinger) -> dict[str, float]:

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ptmcalc.laws import overturning
-from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking import mast, model
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import Brake, ForkPush, StackerScene, Start
+from ptmcalc.machines.crane.stacking.scenes import Brake, ForkPush, ObstacleScene, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
@@ -51,7 +51,16 @@ def _swinging(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) ->
     moment, force = max(moment, 0.0), max(force, 0.0)  # ends of bars that no largest value reaches
     across = model.direction(spec, scene) == "across"
     hard = _deceleration(spec, scene, force)
+    force *= _whole_inertia(spec, scene)
     return Event(0.0 if across else moment, moment if across else 0.0, 0.0, force, 0.0, hard)
+
+
+def _whole_inertia(spec: Stacker, scene: StackerScene) -> float:
+    """Inertia of column and load at the root over the force that bends the far end, of a base that is accelerated."""
+    if isinstance(scene, ObstacleScene):
+        return 1.0  # the far end is held: less arrives at the root
+    _, coupling, tip = mast.swinging(spec, scene).masses
+    return (spec.column.mass + model.climbing_mass(spec, scene)) / (coupling + tip)
 
 
 def _deceleration(spec: Stacker, scene: StackerScene, force: float) -> float:
@@ -83,11 +92,19 @@ def _caught(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) -> E
 
 
 def _caught_by_the_gear(spec: Stacker, scene: StackerScene, loads: Mapping[str, float]) -> Event | None:
-    """The gear grips the column beside its axis; the ropes have gone."""
+    """The gear grips the column beside its axis and stops what leans with as many times its weight, without ropes.
+
+    Along, the larger of the two moments counts: the gear's force on its arm, or what leans with its inertia.
+    """
     force, gear = loads.get("safety_gear_force"), spec.safety_gear
     if force is None or gear is None:
         return None
-    return Event(along=abs(force * gear.arm), axial=force - model.weight(spec, scene) * _pulls(spec))
+    weight = model.weight(spec, scene)
+    along, aside = _leaning(spec, scene)
+    times = max(force / weight, 1.0)
+    return Event(
+        max(force * abs(gear.arm), times * along) - along, (times - 1) * aside, axial=force - weight * _pulls(spec)
+    )
 
 
 _OF = {
@@ -109,6 +126,12 @@ def _pulls(spec: Stacker) -> float:
     return 1 + rope.ropes / rope.falls
 
 
+def _leaning(spec: Stacker, scene: StackerScene) -> tuple[float, float]:
+    """Moments of weights beside the column's axis, along and across, without sign [N*m]."""
+    along, across = (model.eccentric_moment(spec, scene, "along"), model.eccentric_moment(spec, scene, "across"))
+    return abs(along), abs(across)
+
+
 # -- stresses -------------------------------------------------------------------------------------------------------
 
 
@@ -118,8 +141,8 @@ def column_stress(spec: Stacker, scene: StackerScene, happens: Event) -> float |
     if column.section_modulus is None:
         return None
     across = column.section_modulus_across if column.section_modulus_across is not None else column.section_modulus
-    along = abs(model.eccentric_moment(spec, scene, "along")) + happens.along
-    aside = abs(model.eccentric_moment(spec, scene, "across")) + happens.across
+    leans, leans_across = _leaning(spec, scene)
+    along, aside = leans + happens.along, leans_across + happens.across
     stress = (along / column.section_modulus + aside / across) / column.count
     if column.area is not None:
         own = column.mass * spec.gravity
@@ -139,8 +162,8 @@ def bridge_stress(spec: Stacker, scene: StackerScene, happens: Event) -> float |
         return None
     sag = x * (bridge.span - x) / bridge.span
     hung = (spec.trolley.mass + spec.column.mass) * spec.gravity + model.weight(spec, scene) + happens.hung
-    couple = abs(model.eccentric_moment(spec, scene, "along")) + happens.along
-    along_girders = abs(model.eccentric_moment(spec, scene, "across")) + happens.across
+    leans, leans_across = _leaning(spec, scene)
+    couple, along_girders = leans + happens.along, leans_across + happens.across
     own = bridge.mass / 2 * spec.gravity * sag / 2
     down = (hung / 2 + couple / spec.trolley.gauge) * sag + own + along_girders / 2 * (1 - x / bridge.span)
     aside = 0.0

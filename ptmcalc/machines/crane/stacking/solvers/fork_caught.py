@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import fork
@@ -11,7 +12,7 @@ from ptmcalc.machines.crane.stacking.catching import MOTOR, Catch
 from ptmcalc.machines.crane.stacking.derived import with_derived
 from ptmcalc.machines.crane.stacking.effects_events import CATCHING, LIMITER, RACK, SLOPE
 from ptmcalc.machines.crane.stacking.events import catch_of
-from ptmcalc.machines.crane.stacking.marching import course
+from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread
 from ptmcalc.machines.crane.stacking.scenes import ForkCaught
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -90,6 +91,17 @@ def with_factor(loads: Mapping[str, Found], case: Catch) -> dict[str, Found]:
     return {**loads, "fork_caught_factor": Found(share, rope.at)}
 
 
+def not_too_stiff(spec: Stacker, scene: ForkCaught) -> Criterion:
+    """A rack that is not much stiffer, beside what it stops, than the rope.
+
+    **Range** every caught fork.
+    **Error** a limit of what a run without damping says of a machine.
+    **Source** the fast vibration of the carriage on the rack: its losses decide then, which the file does not have.
+    """
+    value = spread(catch_of(spec, scene).train())
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
+
+
 CAUGHT_HANDBOOK: Solver[Stacker, ForkCaught] = Solver(
     name="caught_handbook",
     title="formula of a caught fork, the motor as strong as the weight",
@@ -124,5 +136,6 @@ CAUGHT_TRAIN: Solver[Stacker, ForkCaught] = Solver(
     run=run,
     cost=lambda spec, scene, carried, level: 3e-2,
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
+    valid=not_too_stiff,
     always=frozenset({CATCHING}),
 )

@@ -1,12 +1,15 @@
 """A fork that pushes against the rack: the formula, the closed form with a rigid column, the run."""
 
+import math
+
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking.derived import with_derived
 from ptmcalc.machines.crane.stacking.effects_events import PUSHING, YIELDING
 from ptmcalc.machines.crane.stacking.events import push_of
-from ptmcalc.machines.crane.stacking.marching import course
+from ptmcalc.machines.crane.stacking.marching import MOST_SPREAD, course, spread
 from ptmcalc.machines.crane.stacking.scenes import ForkPush
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -55,10 +58,22 @@ def run(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> 
     if YIELDING not in carried:
         return rigid(spec, scene, carried, level)
     case = push_of(spec, scene)
-    if case.support == float("inf"):
+    if math.isinf(case.support):
         return rigid(spec, scene, carried, level)
     one = course(scene.label, case.train(), case.window(), case.readings)
     return one.result(with_derived(spec, scene, one.found))
+
+
+def not_too_stiff(spec: Stacker, scene: ForkPush) -> Criterion:
+    """A column that is not much stiffer, beside what it carries, than the rack beside the fork, nor much softer.
+
+    **Range** every pushing fork.
+    **Error** a limit of what a run without damping says of a machine.
+    **Source** the losses of the fast vibration decide then, which the file does not have.
+    """
+    case = push_of(spec, scene)
+    value = spread(case.train()) if math.isfinite(case.support) else 1.0
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
 
 
 PUSH_HANDBOOK: Solver[Stacker, ForkPush] = Solver(
@@ -95,5 +110,6 @@ PUSH_TRAIN: Solver[Stacker, ForkPush] = Solver(
     run=run,
     cost=lambda spec, scene, carried, level: 2e-2,
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
+    valid=not_too_stiff,
     always=frozenset({PUSHING}),
 )

@@ -3,12 +3,13 @@
 import math
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result, of
+from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import mast_modes
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.mast import rest_deflection, standing, swinging
-from ptmcalc.machines.crane.stacking.scenes import Brake, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.solvers.mast_handbook import remarks
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of, travels
 
@@ -22,18 +23,21 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
     **Error** exact for that column without what weight does to its stiffness.
     **Source** `laws.mast`, `laws.mast_modes`.
     """
+    said: tuple[Finding, ...] = ()
     if isinstance(scene, Stand):
         one, stiffness = standing(spec, scene), swinging(spec, scene).stiffness
     else:
+        assert isinstance(scene, DrivenScene)
         push = push_of(spec, scene)
         moving = swinging(spec, scene, push.rotors)
+        said = remarks(moving, scene, push.kind == "ramp")
         one, stiffness = (moving.exact if push.kind == "force" else moving.held), moving.stiffness
     frequencies = [mast_modes.mast_frequency(one, k + 1) for k in range(len(MODES))]
     loads = {of("natural_frequency", mode): w for mode, w in zip(MODES, frequencies, strict=True)}
     loads |= {"column_stiffness": stiffness, "period": 2 * math.pi / frequencies[0]}
     if not isinstance(scene, Stand):
         loads["rest_deflection"] = rest_deflection(spec, scene)
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=len(MODES))
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=len(MODES), findings=said)
 
 
 MAST_BEAM: Solver[Stacker, StackerScene] = Solver(

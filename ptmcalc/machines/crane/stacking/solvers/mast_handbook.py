@@ -48,7 +48,7 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
         "period": 2 * math.pi / frequency,
     }
     found = {name: Found(Estimate.unknown(value)) for name, value in loads.items()}
-    return Result(with_derived(spec, scene, found), work=1, findings=tuple(_findings(one, scene, push.kind == "ramp")))
+    return Result(with_derived(spec, scene, found), work=1)
 
 
 def coefficient(one: Swinging) -> float:
@@ -74,19 +74,16 @@ def lumping_error(one: Swinging, moved: bool) -> tuple[float, float]:
     return notes / exact - 1, tip / (base + tip) / lag - 1
 
 
-def _findings(one: Swinging, scene: DrivenScene, moved: bool) -> list[Finding]:
+def remarks(one: Swinging, scene: DrivenScene, moved: bool) -> tuple[Finding, ...]:
+    """What the tool says of the notes' coefficients where they are far off."""
     frequency, deflection = lumping_error(one, moved)
     if max(abs(frequency), abs(deflection)) <= LARGEST_ERROR:
-        return []
-    return [
-        Finding(
-            "SPC201",
-            f"scene `{scene.label}`: the notes' share {coefficient(one):g} of the column at its tip makes the frequency"
-            f" {_percent(frequency)} and the deflection {_percent(deflection)}",
-            ("column", "mass"),
-            "go by the numbers of `mast_two_mass` or `mast_modal`",
-        )
-    ]
+        return ()
+    text = (
+        f"scene `{scene.label}`: the notes' share {coefficient(one):g} of the column at its tip makes the frequency"
+        f" {_percent(frequency)} and the deflection {_percent(deflection)}"
+    )
+    return (Finding("NUM107", text, ("column", "mass"), "go by the numbers of `mast_two_mass` or `mast_modal`"),)
 
 
 def _percent(share: float) -> str:
