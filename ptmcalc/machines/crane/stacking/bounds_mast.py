@@ -10,11 +10,12 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
+from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.two_mass import course_of, lumped
 from ptmcalc.numerics.mast.modes import Mast
-from ptmcalc.numerics.mast.run import Course, settled
+from ptmcalc.numerics.mast.run import Course
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -103,11 +104,10 @@ def _settling(spec: Stacker, scene: DrivenScene, plain: Course, right: Course, d
         return None
     if not (plain.stays and right.stays):
         return ANYTHING
-    place = spec.column.length
-    value = settled(plain, place, window).time
+    value = at_rest(spec, scene, plain, window).time
     if math.isinf(value):
         return None
-    found = settled(right, place, window, doubt=min(doubt, window))
+    found = at_rest(spec, scene, right, window, min(doubt, window))
     return Interval(min(found.low - value, 0.0), max(found.high - value, 0.0))
 
 
