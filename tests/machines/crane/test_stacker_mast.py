@@ -182,6 +182,14 @@ class TestCollision:
         assert force.formula is not None
         assert force.formula.name == "obstacle_energy"
 
+    def test_a_limit_inside_the_bar_of_the_weights_is_told_by_a_run_with_them(self) -> None:
+        plain = load_of(scene_of(report_of(HIT), ""), "collision_force").estimate
+        assert plain.bar > 5e-3 * plain.value
+        inside = f"{plain.value * 1.002:.7g} N"
+        scene = scene_of(report_of(changed(HIT, checks={"column_force": inside})), "")
+        assert next(one.verdict for one in scene.checks if one.code == "CRN255") == "pass"
+        assert load_of(scene, "collision_force").estimate.bar < 1e-3 * plain.value
+
     def test_a_limit_above_the_bound_needs_no_simulation_of_it(self) -> None:
         most = 1.0 * math.sqrt(6e5 * 7000)
         data = changed(HIT, checks={"column_force": f"{1.02 * most:.6g} N"})
