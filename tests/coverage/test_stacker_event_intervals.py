@@ -17,7 +17,7 @@ from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.solvers.fork_caught import CAUGHT_STOPPED, CAUGHT_TRAIN
 from ptmcalc.machines.crane.stacking.solvers.fork_pushed import PUSH_RIGID, PUSH_TRAIN
 
-COUNT = 40
+COUNT = 30
 EFFECT = {effect.name: effect for effect in EFFECTS_OF_EVENTS}
 
 

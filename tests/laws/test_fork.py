@@ -99,7 +99,7 @@ class TwoMasses:
             first, second = forces(y)
             return [y[2], y[3], float(self.force - first) / self.drive, float(first - weight - second) / self.carriage]
 
-        run = solve_ivp(rate, (0, self.end), [0, 0, self.speed, start], rtol=1e-8, atol=1e-10, max_step=self.end / 4000)
+        run = solve_ivp(rate, (0, self.end), [0, 0, self.speed, start], rtol=1e-8, atol=1e-10, max_step=self.end / 2000)
         first, second = forces(run.y)
         return float(first.max()), float(second.max())
 

@@ -808,6 +808,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     motor.breakdown_slip: [(ValueError, (0.04, 2.3, 9.0))],
     motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
+    contact_damping.dashpot_ratio: [(ValueError, (1.1,)), (ValueError, (-0.1,))],
     mast.bridge_travel_compliance: [
         (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "hinged", "free")),
         (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "clamped", "locked")),

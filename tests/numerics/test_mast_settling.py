@@ -36,7 +36,7 @@ def crossing(w: float, ratio: float, window: float) -> float:
             break
         low, high = top, (k + 1) * math.pi / turning
         sign = math.copysign(1.0, x(top))
-        high = low + next(s for s in np.linspace(0, high - low, 4001) if sign * x(low + s) < window)
+        high = low + next(s for s in np.linspace(0, high - low, 41) if sign * x(low + s) < window)
         for _ in range(200):
             middle = (low + high) / 2
             low, high = (middle, high) if sign * x(middle) >= window else (low, middle)
@@ -130,7 +130,7 @@ def braked(ratio: float, guide: Guide | None = None) -> Case:
 class TestMast:
     @pytest.mark.parametrize("window", [4e-3, 1e-3, 1e-4])
     def test_after_a_stop_against_dense_looks_of_another_hand(self, window: float) -> None:
-        """The witness goes on from its own elements: exp(A t) of the held mast, looked at 40 000 times."""
+        """The witness goes on from its own elements: exp(A t) of the held mast, looked at 10 000 times."""
         ratio = 0.02
         course = play(braked(ratio), 1.5)
         found = settled(course, 6.0, window)
@@ -155,9 +155,9 @@ class TestMast:
         held = np.block([[np.zeros((size, size)), np.eye(size)], [-inner @ other.k[1:, 1:], -inner @ other.c[1:, 1:]]])
         swing = state[hold]
         swing[:size:2] -= state[0]
-        step = 1.2 * found.time / 40_000
+        step = 1.2 * found.time / 10_000
         turn, last = expm(held * step), 0.0
-        for k in range(40_001):
+        for k in range(10_001):
             if abs(swing[other.tip - 1]) > window:
                 last = k * step
             swing = turn @ swing

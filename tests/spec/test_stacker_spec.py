@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 import yaml
-from support.machines import changed
+from support.machines import changed, report_of
 
-from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.base.diagnostic import Diagnostic, Verdict
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.registry import load_kind
 
@@ -180,3 +180,11 @@ def test_a_scene_of_the_other_table_is_unknown() -> None:
 def test_no_value_is_a_traceback(number: Any) -> None:
     for key in ("load", "column__length", "hoisting__rope__falls", "carriage__rollers", "scenes", "bridge"):
         assert faults(changed(template(OVERHEAD), **{key: number}))
+
+
+@pytest.mark.parametrize("word", [OVERHEAD, RACK])
+def test_what_new_prints_passes(word: str) -> None:
+    """As `ptmcalc new crane overhead_stacker` does."""
+    report = report_of(template(word))
+    assert report.verdict == "pass", [(one.code, one.reason) for _, one in report.judgements]
+    assert {judgement.verdict for _, judgement in report.judgements} == {Verdict.PASS}

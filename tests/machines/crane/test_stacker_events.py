@@ -246,6 +246,15 @@ def test_buffers_take_the_guided_load_too() -> None:
     assert load_of(pushed, "buffer_force").estimate.value == pytest.approx(expected / 2, rel=1e-12)
 
 
+def test_a_motor_that_would_not_lift_is_told() -> None:
+    report = report_of(changed(RACK, hoisting__drive__largest_force="9 kN"))
+    said = [item.message for item in report.diagnostics if item.code == "NUM110"]
+    assert len(said) == 1
+    assert "below the weight" in said[0]
+    weak = load_of(report.scenes[0], "rope_force_caught").estimate.value
+    assert weak == load(RACK, "rope_force_caught").estimate.value
+
+
 # -- both sides of a threshold ---------------------------------------------------------------------------------------
 
 

@@ -13,7 +13,7 @@ from support.stopped_mast import stop, stopped
 from ptmcalc.contract.report import SceneReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.laws.mast_modes import Mast
+from ptmcalc.laws.mast_modes import Mast, mast_frequency
 from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -48,7 +48,7 @@ class TestThresholds:
         [
             ("mast_flexibility", {"trolley_travel__braking_rise": "2.5 s"}, {"trolley_travel__braking_rise": "1.5 s"}),
             ("column_mass", {"column__mass": "80 kg"}, {"column__mass": "100 kg"}),
-            ("higher_modes", {"trolley_travel__braking_rise": "0.2 s"}, {"trolley_travel__braking_rise": "0.1 s"}),
+            ("column_modes", {"trolley_travel__braking_rise": "0.2 s"}, {"trolley_travel__braking_rise": "0.1 s"}),
             ("mast_gravity", {"column__stiffness": "110 kN/m"}, {"column__stiffness": "90 kN/m"}),
             ("brake_sticking", {"trolley__mass": "2 t"}, {"trolley__mass": "1.1 t"}),
         ],
@@ -74,10 +74,10 @@ class TestThresholds:
 class TestVerdicts:
     """Limits between a run with an effect and one without it."""
 
-    def test_higher_modes(self) -> None:
+    def test_column_modes(self) -> None:
         tight = changed(OVERHEAD, checks={"mast_deflection": "9.644 mm"}, effects={"mast_gravity": "off"})
         assert verdict(tight, "CRN251") == "fail"  # 9.6456 mm; two masses make 9.6429
-        assert verdict(changed(tight, effects__higher_modes="off"), "CRN251") == "pass"
+        assert verdict(changed(tight, effects__column_modes="off"), "CRN251") == "pass"
 
     def test_weights(self) -> None:
         with_them, without = (
@@ -194,6 +194,29 @@ class TestCollision:
         most = 1.0 * math.sqrt(6e5 * 7000)
         data = changed(HIT, checks={"column_force": f"{1.02 * most:.6g} N"})
         assert verdict(data, "CRN255") == "pass"
+
+
+class TestEdges:
+    def test_a_carriage_at_the_root_swings_with_the_base(self) -> None:
+        data = changed(RACK, scenes=[{"type": "brake", "height": "0 m"}], effects={"mast_gravity": "off"})
+        one = Mast(12.0, 210e9 * 6e-4, 1500.0, 2500.0 + 1500.0, 0.0, root_rotation=1 / 4e8)
+        found = load_of(scene_of(report_of(data), ""), "natural_frequency[1]").estimate.value
+        assert found == pytest.approx(mast_frequency(one, 1), rel=1e-9)
+        beside = changed(data, scenes=[{"type": "brake", "height": "1 mm"}])
+        near = load_of(scene_of(report_of(beside), ""), "natural_frequency[1]").estimate.value
+        assert near == pytest.approx(found, rel=1e-4)
+
+    def test_a_drive_that_stalls_bends_nothing(self) -> None:
+        travel = {"speed": "1 m/s", "driving_force": "0.5 kN", "braking_force": "9 kN", "resistance": "1 kN"}
+        data = changed(OVERHEAD, trolley_travel=travel, scenes=[{"type": "start", "mechanism": "trolley"}])
+        scene = scene_of(report_of(data), "")
+        assert not any(load.info.name.startswith("mast_") for load in scene.loads)
+        assert load_of(scene, "start_time").estimate.value == math.inf
+
+    def test_a_column_its_weights_buckle_is_undecided(self) -> None:
+        report = report_of(changed(RACK, load="3000 t", checks={"mast_deflection": "100 mm"}))
+        assert report.verdict in ("undecided", "fail")
+        assert any("buckles" in one.message for one in report.diagnostics)
 
 
 class TestNotes:

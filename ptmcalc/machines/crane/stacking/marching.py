@@ -112,7 +112,7 @@ class Course:
         """The first run."""
         return self.stages[0]
 
-    def result(self, found: Mapping[str, Found]) -> Result:
+    def result(self, found: Mapping[str, Found], findings: tuple[Finding, ...] = ()) -> Result:
         """What a solver hands back of a motion in one run."""
         record = self.played.record
         events = tuple(Event(float(one.time), one.element, one.before, one.after) for one in record.events)
@@ -121,7 +121,7 @@ class Course:
             work=self.work,
             window=(0.0, record.time),
             health={"energy_residual": self.residual, "steps": float(record.steps)},
-            findings=self.findings,
+            findings=(*self.findings, *findings),
             events=events,
         )
 

@@ -14,6 +14,9 @@ from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
+_AT_ROOT = 1e-6
+"""Share of the length of a column up to which a carriage is at its root."""
+
 
 @dataclass(frozen=True, slots=True)
 class Swinging:
@@ -66,16 +69,19 @@ def swinging(spec: Stacker, scene: StackerScene, rotor_mass: float = 0.0) -> Swi
     if gives.translation > 0:
         assert isinstance(spec, OverheadStacker)
         base, root = base - spec.trolley.mass, spec.trolley.mass
+    place, climbs = model.carriage_place(spec, scene) / length, model.climbing_mass(spec, scene)
+    if place < _AT_ROOT:  # it moves with the root
+        place, climbs, root = 1.0, 0.0, root + climbs
     exact = mast_modes.Mast(
         length=length,
         flexural_stiffness=length**3 / 3 / gives.bending,
         column_mass=spec.column.mass,
         base_mass=base,
-        tip_mass=model.climbing_mass(spec, scene),
+        tip_mass=climbs,
         root_mass=root,
         root_rotation=gives.rotation / length**2,
         root_translation=gives.translation,
-        place=model.carriage_place(spec, scene) / length,
+        place=place,
     )
     return Swinging(gives, exact, _weight(spec, scene, gives))
 

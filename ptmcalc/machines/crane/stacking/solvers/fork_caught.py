@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Finding, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import fork
 from ptmcalc.machines.crane.stacking.catching import MOTOR, Catch
@@ -47,7 +47,19 @@ def stopped(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: in
     """
     case = catch_of(spec, scene)
     loads = {"rope_force_caught": Found(Estimate.exact(case.stopped_force))} | reserve(spec, case)
-    return Result(with_derived(spec, scene, with_factor(loads, case)), work=1)
+    return Result(with_derived(spec, scene, with_factor(loads, case)), work=1, findings=too_weak(spec, scene, case))
+
+
+def too_weak(spec: Stacker, scene: ForkCaught, case: Catch) -> tuple[Finding, ...]:
+    """What has to be said of a motor that would not lift its load."""
+    drive = spec.hoisting.drive
+    if drive is None or drive.largest_force is None or drive.largest_force >= case.weight:
+        return ()
+    message = (
+        f"scene `{scene.label}`: the motor's largest force is below the weight, {units.show(case.weight, units.FORCE)}:"
+        " it is taken to pull as much"
+    )
+    return (Finding("NUM110", message, ("hoisting", "drive", "largest_force"), "correct the force, or the load"),)
 
 
 def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
@@ -70,7 +82,8 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     if tripped < one.played.record.time:
         rope, note = found["rope_force_caught"], f"the limiter trips {units.show(tripped, units.TIME)} after the catch"
         found["rope_force_caught"] = Found(rope.estimate, rope.at, note)
-    return one.result(with_derived(spec, scene, with_factor(found | reserve(spec, whole), case)))
+    said = too_weak(spec, scene, whole)
+    return one.result(with_derived(spec, scene, with_factor(found | reserve(spec, whole), case)), said)
 
 
 def reserve(spec: Stacker, case: Catch) -> dict[str, Found]:

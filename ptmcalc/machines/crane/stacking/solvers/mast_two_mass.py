@@ -15,7 +15,7 @@ from ptmcalc.machines.crane.stacking.names_mast import FLEXIBLE, GRAVITY, HOLDIN
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import travels
+from ptmcalc.machines.crane.stacking.travelling import push_of, travels
 from ptmcalc.machines.crane.stacking.two_mass import course_of
 from ptmcalc.numerics.mast.run import Course
 
@@ -37,6 +37,8 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
     higher modes.
     **Source** lecture notes Kramatorsk 2007 (two masses); consistent masses (`laws.mast`); `numerics.mast`.
     """
+    if push_of(spec, scene).size <= 0:  # the drive stalls: nothing moves
+        return Result({}, work=1)
     course = course_of(spec, scene, GRAVITY in carried)
     stiffness = swinging(spec, scene).stiffness
     value, time = course.largest("deflection")
