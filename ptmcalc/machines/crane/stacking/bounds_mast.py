@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
-from ptmcalc.machines.crane.stacking import march, model
+from ptmcalc.machines.crane.stacking import march, model, starts
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.resting import at_rest
@@ -50,7 +50,7 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
     spread = {name: offset for name, offset in told.items() if name in loads}
-    return bounds_of_derived(spec, scene, loads, spread)
+    return bounds_of_derived(spec, scene, loads, _not_before_the_standstill(spread, loads))
 
 
 def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
@@ -123,7 +123,8 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         w_k (1 - r)^(1/2) <= w_k' <= w_k (1 + r)^(1/2)
 
     where a column that hangs only gets stiffer, one that stands only softer. Of a start or stop twice the difference of
-    two runs of two masses, with weights and without; of a collision twice what the stiffness changes.
+    two runs of two masses, with weights and without, its time by `time_bound`; of a collision twice what the stiffness
+    changes.
 
     **Range** columns that their weights do not buckle.
     **Error** the first line is a bound, the factors of the others are calibrated on a seeded sample.
@@ -155,7 +156,34 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         told |= {name: offset for name, offset in _weighted(spec, scene).items() if name in loads}
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
-    return bounds_of_derived(spec, scene, loads, told)
+    told |= time_bound(spec, scene, loads)
+    return bounds_of_derived(spec, scene, loads, _not_before_the_standstill(told, loads))
+
+
+def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
+    """What the swing of the column, with its weights, may make of the time of a start or a stop.
+
+    **Range** every start and stop; without end where something holds the head.
+    **Error** a bound: `starts.time` takes the softer of the columns with weights and without.
+    **Source** momentum; `starts.time`.
+    """
+    ends, told = starts.time(spec, scene), {}
+    for name in ("start_time", "brake_time"):
+        if name in loads:
+            low, high = loads[name].low, loads[name].high
+            told[name] = Interval(
+                0.0 if low <= ends.low else ends.low - low, 0.0 if high >= ends.high else ends.high - high
+            )
+    return told
+
+
+def _not_before_the_standstill(told: Offsets, loads: Loads) -> dict[str, Interval]:
+    """Offsets of a time that is counted from the standstill leave it above 0."""
+    found = dict(told)
+    if "settling_time" in found and math.isfinite(loads["settling_time"].low):
+        one = found["settling_time"]
+        found["settling_time"] = Interval(max(one.low, min(-loads["settling_time"].low, 0.0)), one.high)
+    return found
 
 
 def _weighted(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
