@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from rich.console import Console
 from rich.text import Text
 
-from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
 from ptmcalc.contract.check import Sense
@@ -28,6 +28,7 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose:
         for report in words.printable(reports):
             _title(console, report)
             (_whole if verbose else _short)(console, report)
+            _diagnostics(console, report.diagnostics, notes=True)
             console.print()
         console.print(words.summary(count(reports)))
         if not verbose and (more := pick.left_out(reports)):
@@ -63,7 +64,7 @@ def _widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
 
 
 def _title(console: Console, report: FileReport) -> None:
-    """The line with the verdict, and everything found in the file."""
+    """The line with the verdict, and what is wrong or doubtful in the file."""
     title = Text(report.path, style="bold")
     for part in (report.kind, report.name):
         title.append(f"  {part}" if part else "", style="not bold")
@@ -71,7 +72,7 @@ def _title(console: Console, report: FileReport) -> None:
     title.append(report.verdict.upper(), style=STYLE[report.verdict])
     console.print(title)
     console.print()
-    _diagnostics(console, report)
+    _diagnostics(console, report.diagnostics, notes=False)
 
 
 def _short(console: Console, report: FileReport) -> None:
@@ -104,15 +105,20 @@ def _whole(console: Console, report: FileReport) -> None:
     details.health(console, report.scenes)
 
 
-def _diagnostics(console: Console, report: FileReport) -> None:
-    for diagnostic in report.diagnostics:
-        line = Text(f"  {words.place(diagnostic.span)}  " if diagnostic.span else "  ")
+def _diagnostics(console: Console, found: Iterable[Diagnostic], *, notes: bool) -> None:
+    """What was found in the file: the notes, which come last, or everything else, which comes first."""
+    shown = [diagnostic for diagnostic in found if (diagnostic.severity is Severity.NOTE) is notes]
+    if shown and notes:
+        console.print(Text("Notes", style="bold"))
+    for diagnostic in shown:
+        line = Text(" " if notes else "  ")
+        line.append(f"{words.place(diagnostic.span)}  " if diagnostic.span else "")
         line.append(f"{diagnostic.severity.value} {diagnostic.code}", style=STYLE[diagnostic.severity.value])
         line.append(f"  {diagnostic.message}")
         console.print(line)
         if diagnostic.hint:
             console.print(Text(f"        {diagnostic.hint}", style="italic"))
-    if report.diagnostics:
+    if shown and not notes:
         console.print()
 
 
