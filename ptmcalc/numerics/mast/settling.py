@@ -113,6 +113,9 @@ def _last(ring: Ring, window: float, lean: float) -> tuple[float, float]:
     slack = 8 * _EPS * (1 + float(np.abs(ring.rates).max()) * end) * float(np.abs(ring.amplitudes).sum())
     if slack > _TOLD * room:
         return 0.0, end  # so many swings from now the phase is rounding: all that is told is when the envelopes fit
+    slowest = ring.rates[int(np.argmax(ring.rates.real))]
+    if -2 * math.pi * slowest.real * room < 4 * slack * abs(slowest):  # rounding hides what one swing fades by
+        waiting, high = [(0.0, _inside(ring, room + 4 * slack) or end)], end
     for _ in range(_MOST):
         if not waiting:
             return low, max(low, high)

@@ -11,7 +11,7 @@ from ptmcalc.machines.crane.stacking import march, model, starts
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.resting import at_rest
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand
+from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.two_mass import course_of, lumped
 from ptmcalc.numerics.mast.modes import Mast
@@ -167,6 +167,7 @@ def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Int
     **Error** a bound: `starts.time` takes the softer of the columns with weights and without.
     **Source** momentum; `starts.time`.
     """
+    assert isinstance(scene, Start | Brake)
     ends, told = starts.time(spec, scene), {}
     for name in ("start_time", "brake_time"):
         if name in loads:
