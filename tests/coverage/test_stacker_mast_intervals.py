@@ -9,7 +9,7 @@ import pytest
 from support.machines import loaded
 from support.stacker_masts import random_stacker
 
-from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.estimate import NOTHING, Estimate, Interval
 from ptmcalc.contract.result import Result
 from ptmcalc.machines.crane.stacking.effects_mast import gravity_bound, modes_bound
 from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
@@ -19,7 +19,7 @@ from ptmcalc.machines.crane.stacking.solvers.mast_two_mass import MAST_TWO_MASS
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 SEED, MACHINES, WEIGHED, TIGHTER = 101, 60, 12, 1 / 3
-LOADS = ("mast_deflection_max", "mast_force_max", "mast_moment_max", "settling_time")
+LOADS = ("mast_deflection_max", "mast_force_max", "mast_moment_max", "settling_time", "brake_time")
 
 
 def estimates(result: Result) -> dict[str, Estimate]:
@@ -39,8 +39,9 @@ def uses(
             assert here == there
             continue
         offset = there - here
-        room = offsets[name].high if offset > 0 else -offsets[name].low
-        found[name] = abs(offset) / room if offset else 0.0
+        told = offsets.get(name, NOTHING)
+        room = told.high if offset > 0 else -told.low
+        found[name] = (abs(offset) / room if room > 0 else math.inf) if offset else 0.0
     return found
 
 

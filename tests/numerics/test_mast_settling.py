@@ -52,6 +52,20 @@ class TestOneMode:
         assert found.time == pytest.approx(crossing(10.0, ratio, window), rel=1e-9)
         assert found.high - found.low <= 1e-9 * found.time
 
+    @pytest.mark.parametrize("ratio", [1e-7, 1e-10, 1e-13])
+    def test_a_swing_that_hardly_fades_is_told_between_two_numbers(self, ratio: float) -> None:
+        """By its envelope: it leaves the window within half a swing before that for the last time."""
+        end = math.log(10) / (10 * ratio)
+        found = settling(ring(ratio=ratio), 0.1)
+        assert found.low <= end * (1 + 1e-12)
+        assert found.high >= (end - math.pi / 10) * (1 - 1e-12)
+        assert found.high == pytest.approx(end, rel=1e-6)
+
+    def test_halving_that_finds_no_end_keeps_what_it_has_not_looked_at(self) -> None:
+        """Hundreds of swings that all but touch the window from within."""
+        many = settling(ring(ratio=1e-9), math.exp(-1e-9 * 10 * 1e6), doubt=0.0)
+        assert many.low <= 1e6 <= many.high * (1 + 1e-6)
+
     def test_it_was_never_outside(self) -> None:
         assert settling(ring(), 1.5).time == 0.0
 

@@ -9,7 +9,7 @@ beside whatever is stiff, and what has no mass gives 1/w^2 = 0: it follows at on
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -36,11 +36,12 @@ class Mast:
         self._factor = _factor(built.stiffness)
         self.frequencies, self.shapes = _modes(self._factor, built.mass)
         self.participation: FloatArray = built.carried @ self.shapes
+        self._rolling: dict[float, tuple[FloatArray, FloatArray]] = {}
 
     @classmethod
     def of(cls, column: Column, count: int, marks: tuple[float, ...] = ()) -> "Mast":
         """The mast of a column in so many elements, with nodes at the marks."""
-        return cls(elements(column, count, marks))
+        return _mast(column, count, marks)
 
     @cached_property
     def flexibility(self) -> FloatArray:
@@ -69,8 +70,16 @@ class Mast:
         built = self.elements
         if not base > 0:
             raise NumericsError("NUM102", "a base that rolls has a mass above 0")
-        free = built.mass - np.outer(built.carried, built.carried) / (built.total + base)
-        return _modes(self._factor, free)
+        if base not in self._rolling:
+            free = built.mass - np.outer(built.carried, built.carried) / (built.total + base)
+            self._rolling[base] = _modes(self._factor, free)
+        return self._rolling[base]
+
+
+@lru_cache(maxsize=64)
+def _mast(column: Column, count: int, marks: tuple[float, ...]) -> Mast:
+    """Criteria, bounds, costs and runs of a scene ask for the same few masts again and again."""
+    return Mast(elements(column, count, marks))
 
 
 def _factor(stiffness: FloatArray) -> FloatArray:
@@ -94,7 +103,10 @@ def _modes(factor: FloatArray, mass: FloatArray) -> tuple[FloatArray, FloatArray
     if not count:
         raise NumericsError("NUM102", "a column without any mass does not vibrate")
     roots = np.sqrt(squares[:count])
-    return 1 / roots, (factor.T @ turned[:, :count]) / roots
+    found = 1 / roots, (factor.T @ turned[:, :count]) / roots
+    for one in found:
+        one.setflags(write=False)
+    return found
 
 
 @dataclass(frozen=True, slots=True)

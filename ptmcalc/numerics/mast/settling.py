@@ -23,9 +23,12 @@ from ptmcalc.numerics.mast.parts import FloatArray
 _EPS = float(np.finfo(float).eps)
 _FINEST = 1e-13
 """Share of the whole time below which a stretch is no longer halved."""
-_MOST = 400_000
+_MOST = 20_000
 _DOUBLINGS = 400
 _SLOW = 1.0
+_BISECTIONS = 50
+_TOLD = 0.1
+"""Share of the room beside the lean that rounding may take before swings are no longer told apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +111,11 @@ def _last(ring: Ring, window: float, lean: float) -> tuple[float, float]:
     waiting, low, high = [(0.0, end)], 0.0, 0.0
     finest = max(_FINEST * end, 1e-300)
     slack = 8 * _EPS * (1 + float(np.abs(ring.rates).max()) * end) * float(np.abs(ring.amplitudes).sum())
+    if slack > _TOLD * room:
+        return 0.0, end  # so many swings from now the phase is rounding: all that is told is when the envelopes fit
+    slowest = ring.rates[int(np.argmax(ring.rates.real))]
+    if -2 * math.pi * slowest.real * room < 4 * slack * abs(slowest):  # rounding hides what one swing fades by
+        waiting, high = [(0.0, _inside(ring, room + 4 * slack) or end)], end
     for _ in range(_MOST):
         if not waiting:
             return low, max(low, high)
@@ -128,7 +136,7 @@ def _last(ring: Ring, window: float, lean: float) -> tuple[float, float]:
             high = max(high, ends)
         else:
             waiting += [(begins, middle), (middle, ends)]
-    raise NumericsError("NUM103", "when the swing stays in its window cannot be told")
+    return low, max(high, *(ends for _, ends in waiting)) if waiting else max(low, high)  # what is not yet looked at
 
 
 def _stays_near(ring: Ring, room: float) -> bool:
@@ -151,7 +159,7 @@ def _inside(ring: Ring, room: float) -> float | None:
         low, high = high, 2 * high
     else:
         return None
-    for _ in range(20):
+    for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         low, high = (low, middle) if ring.envelope(middle) < room else (middle, high)
     return high

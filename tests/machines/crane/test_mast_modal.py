@@ -99,6 +99,30 @@ class TestStops:
         assert estimate.value == pytest.approx(last, abs=1e-3)
         assert estimate.high - estimate.low < 1e-3 * estimate.value
 
+    def test_a_leaning_column_settles_into_what_its_lean_leaves_of_the_window(self) -> None:
+        """1 t at 0.2 m makes it lean by 0.82 mm: on the side where that is worse it stays within 3 mm for good."""
+        data = changed(
+            OVERHEAD,
+            settling={"window": "3 mm", "wait": "9 s"},
+            column__log_decrement=0.3,
+            carriage__load_arm_across="0.2 m",
+        )
+        plain = trolley(count=2)
+        zeta = 0.3 / math.hypot(2 * math.pi, 0.3)
+        witness = trolley(count=2, held_ratio=zeta * float(plain.held()[0] / plain.rolling()[0]))
+        found = run(witness, 1.0, lambda t: 9000.0, 3.2)
+        lean = 1000 * 9.81 * 0.2 * 36 / 2 / BENDING
+        last = [found.times[np.abs(found.tips + side) > 0.003].max() - found.stands for side in (lean, -lean)]
+        estimate = solved(data, 1).loads["settling_time"].estimate
+        assert estimate.value == pytest.approx(max(last), abs=1e-3)
+        assert abs(last[0] - last[1]) > 1e-2
+
+    def test_a_column_that_leans_out_of_the_window_never_settles(self) -> None:
+        data = changed(OVERHEAD, settling={"window": "3 mm"}, column__log_decrement=0.3)
+        found = solved(changed(data, carriage__load_arm_across="0.9 m")).loads["settling_time"]
+        assert math.isinf(found.estimate.value)
+        assert found.note == "at rest already outside the window"
+
     def test_a_start_reaches_its_speed(self) -> None:
         data = changed(OVERHEAD, scenes=[{"type": "start", "mechanism": "trolley"}])
         found = run(trolley(), 0.0, lambda t: 6000.0, 1.4, wanted=1.0)

@@ -81,7 +81,10 @@ class TestVerdicts:
 
     def test_weights(self) -> None:
         with_them, without = (
-            load_of(scene_of(report_of(changed(RACK, effects={"mast_gravity": word})), ""), "mast_deflection_max")
+            load_of(
+                scene_of(report_of(changed(RACK, effects={"mast_gravity": word}, accuracy="0.1 %")), ""),
+                "mast_deflection_max",
+            )
             for word in ("on", "off")
         )
         assert with_them.estimate.low > without.estimate.high  # a column that stands is softer
@@ -181,6 +184,14 @@ class TestCollision:
         assert 0.5 * most < force.estimate.value < most
         assert force.formula is not None
         assert force.formula.name == "obstacle_energy"
+
+    def test_a_limit_inside_the_bar_of_the_weights_is_told_by_a_run_with_them(self) -> None:
+        plain = load_of(scene_of(report_of(HIT), ""), "collision_force").estimate
+        assert plain.bar > 5e-3 * plain.value
+        inside = f"{plain.value * 1.002:.7g} N"
+        scene = scene_of(report_of(changed(HIT, checks={"column_force": inside})), "")
+        assert next(one.verdict for one in scene.checks if one.code == "CRN255") == "pass"
+        assert load_of(scene, "collision_force").estimate.bar < 1e-3 * plain.value
 
     def test_a_limit_above_the_bound_needs_no_simulation_of_it(self) -> None:
         most = 1.0 * math.sqrt(6e5 * 7000)

@@ -7,16 +7,17 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
-from ptmcalc.machines.crane.stacking import march, model
+from ptmcalc.machines.crane.stacking import march, model, starts
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.march import Happening
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
-from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand
+from ptmcalc.machines.crane.stacking.resting import at_rest
+from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.two_mass import course_of, lumped
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import FloatArray
-from ptmcalc.numerics.mast.run import Course, play, settled
+from ptmcalc.numerics.mast.run import Course, play
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -153,11 +154,10 @@ def _settling(spec: Stacker, scene: DrivenScene, plain: Course, right: Course, d
         return None
     if not (plain.stays and right.stays):
         return ANYTHING
-    place = spec.column.length
-    value = settled(plain, place, window).time
+    value = at_rest(spec, scene, plain, window).time
     if math.isinf(value):
         return None
-    found = settled(right, place, window, doubt=min(doubt, window))
+    found = at_rest(spec, scene, right, window, min(doubt, window))
     return Interval(min(found.low - value, 0.0), max(found.high - value, 0.0))
 
 
@@ -173,7 +173,8 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         w_k (1 - r)^(1/2) <= w_k' <= w_k (1 + r)^(1/2)
 
     where a column that hangs only gets stiffer, one that stands only softer. Of a start or stop twice the difference of
-    two runs of two masses, with weights and without; of a collision twice what the stiffness changes.
+    two runs of two masses, with weights and without, its time by `time_bound`; of a collision twice what the stiffness
+    changes.
 
     **Range** columns that their weights do not buckle.
     **Error** the first line is a bound, the factors of the others are calibrated on a seeded sample.
@@ -202,10 +203,29 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         return bounds_of_derived(spec, scene, loads, told)
     assert isinstance(scene, DrivenScene)
     try:
-        told |= _above_zero({name: one for name, one in _weighted(spec, scene).items() if name in loads}, loads)
+        told |= {name: offset for name, offset in _weighted(spec, scene).items() if name in loads}
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
-    return bounds_of_derived(spec, scene, loads, told)
+    told |= time_bound(spec, scene, loads)
+    return bounds_of_derived(spec, scene, loads, _above_zero(told, loads))
+
+
+def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
+    """What the swing of the column, with its weights, may make of the time of a start or a stop.
+
+    **Range** every start and stop; without end where something holds the head.
+    **Error** a bound: `starts.time` takes the softer of the columns with weights and without.
+    **Source** momentum; `starts.time`.
+    """
+    assert isinstance(scene, Start | Brake)
+    ends, told = starts.time(spec, scene), {}
+    for name in ("start_time", "brake_time"):
+        if name in loads:
+            low, high = loads[name].low, loads[name].high
+            told[name] = Interval(
+                0.0 if low <= ends.low else ends.low - low, 0.0 if high >= ends.high else ends.high - high
+            )
+    return told
 
 
 def _weighted(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:

@@ -163,7 +163,8 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
     if turns(spec, scene):
         return {}
     if guided(spec) and not isinstance(scene, Stand):
-        return _anything(loads)
+        times = bounds_mast.time_bound(spec, scene, loads) if isinstance(scene, DrivenScene) else {}
+        return {**_anything(loads), **times}
     return bounds_mast.gravity_bound(spec, scene, loads)
 
 

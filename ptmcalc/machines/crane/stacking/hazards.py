@@ -134,7 +134,7 @@ class Settling(Fragment):
     """How still the column must be before the fork may go out."""
 
     window: PositiveLength | None = None
-    """distance to each side of the rest position within which the far end has to stay; no default: it is the racks'"""
+    """distance to each side of the place of a column without lean within which its far end has to stay; no default"""
     wait: Annotated[float, Measure(units.TIME, above=0)] | None = None
     """longest time from the standstill until then; needed to check it"""
 

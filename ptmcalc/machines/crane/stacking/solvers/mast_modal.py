@@ -14,11 +14,12 @@ from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Built, Happening
 from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS
 from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
+from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
-from ptmcalc.numerics.mast.run import Course, play, settled
+from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.spec.scene import Scene
 
 ALWAYS = frozenset({FLEXIBLE, MASS})
@@ -224,17 +225,17 @@ def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
 
 
 def _settling(spec: Stacker, scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
-    """From the standstill of the base until the far end stays in the window about its place of rest."""
+    """From the standstill of the base until the far end stays in the window."""
     window = spec.settling.window
     if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
         return {}
     if not fine.course.stays:
         return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held for good")}
     apart = abs(fine.course.largest("deflection")[0] - coarse.course.largest("deflection")[0])
-    found = settled(fine.course, fine.place, window, doubt=min(_MARGIN * apart, window))
+    found = at_rest(spec, scene, fine.course, window, min(_MARGIN * apart, window))
     late = _drift(fine, coarse, window, found.time)
     if late:
-        found = settled(fine.course, fine.place, window, doubt=min(_MARGIN * apart + late, window))
+        found = at_rest(spec, scene, fine.course, window, min(_MARGIN * apart + late, window))
     if math.isinf(found.time):
         return {"settling_time": Found(Estimate.exact(math.inf), note=found.reason)}
     bar = found.high - found.time

@@ -12,11 +12,12 @@ from ptmcalc.machines.crane.stacking import march
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.mast import swinging
 from ptmcalc.machines.crane.stacking.names_mast import FLEXIBLE, GRAVITY, HOLDING, MASS
+from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of, travels
 from ptmcalc.machines.crane.stacking.two_mass import course_of
-from ptmcalc.numerics.mast.run import Course, settled
+from ptmcalc.numerics.mast.run import Course
 
 ALWAYS = frozenset({FLEXIBLE, MASS, HOLDING})
 _ROUNDING = 1e-9
@@ -69,13 +70,13 @@ def _told(value: float) -> Estimate:
 
 
 def _settling(spec: Stacker, scene: DrivenScene, course: Course) -> dict[str, Found]:
-    """From the standstill of the base until the far end stays in the window about its place of rest."""
+    """From the standstill of the base until the far end stays in the window."""
     window = spec.settling.window
     if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
         return {}
     if not course.stays:
         return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held for good")}
-    found = settled(course, spec.column.length, window)
+    found = at_rest(spec, scene, course, window)
     if math.isinf(found.time):
         return {"settling_time": Found(Estimate.exact(math.inf), note=found.reason)}
     return {"settling_time": Found(Estimate(found.time, found.low, found.high, numerical=found.high - found.low))}

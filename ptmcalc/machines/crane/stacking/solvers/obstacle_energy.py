@@ -9,7 +9,7 @@ from ptmcalc.laws import buffer, obstacle
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
-from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, MASS
+from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, MASS
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import ObstacleScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -76,7 +76,8 @@ def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: i
         0 <= F <= P + (P^2 + c (m v^2 + 2 E_c))^(1/2),   m of all that travels
 
     **Range** a brake or a drive of constant force; a drive that keeps to a ramp has a force without end.
-    **Error** a bound: the column bends at all, and no more than so. What it reports is the bound itself.
+    **Error** a bound: the column bends at all, and no more than so. What it reports is the bound itself. Weights on a
+    column that hangs take a part of the energy, never bring any.
     **Source** derived; `laws.obstacle.column_force_bound`.
     """
     assert isinstance(spec, OverheadStacker)
@@ -86,10 +87,9 @@ def bound(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: i
         met = spec.obstacle
         give = 1.0 if met is not None and met.stiffness is not None else 0.0  # a spring: its force over a metre
         contact = met.stiffness if met is not None and met.stiffness is not None else 1.0
-        stiffness = one.stiffness + (max(one.weight, 0.0) if GRAVITY in carried else 0.0)
-        most = obstacle.column_force_bound(one.total, stiffness, v, max(push, 0.0), contact, give, 1.0)
-        loads["collision_force"] = _below(most * one.stiffness / stiffness)  # the column's own part
-        loads["collision_deflection"] = _below(most / stiffness)
+        most = obstacle.column_force_bound(one.total, one.stiffness, v, max(push, 0.0), contact, give, 1.0)
+        loads["collision_force"] = _below(most)
+        loads["collision_deflection"] = _below(most / one.stiffness)
     found = {name: Found(estimate) for name, estimate in loads.items()}
     return Result(with_derived(spec, scene, found), work=1)
 
@@ -115,7 +115,7 @@ OBSTACLE_BOUND: Solver[Stacker, ObstacleScene] = Solver(
     title="most the column can get: all energy bends it",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
-    represents=ALWAYS | {GRAVITY},
+    represents=ALWAYS,
     gives=GIVES - {"contact_force"},
     run=bound,
     cost=lambda spec, scene, carried, level: 1e-4,
