@@ -17,6 +17,8 @@ SPECS = {
     "specs/hoist.yaml": 2.0,
     "specs/crane_slewing.yaml": 2.0,
     "specs/crane_travelling.yaml": 2.0,
+    "specs/crane_overhead_stacker.yaml": 3.0,
+    "specs/crane_rack_stacker.yaml": 3.0,
     "specs/shaft.yaml": 2.0,
     "specs/drivetrain.yaml": 2.0,
 }

@@ -225,6 +225,23 @@ class TestHard:
         assert loose.loads["mast_deflection_max"].estimate.value < free.loads["mast_deflection_max"].estimate.value
         assert loose.health["energy_residual"] < 1e-9
 
+    @pytest.mark.parametrize("contact", [{"contact": "plastic"}, {"contact": "elastic", "stiffness": "30 MN/m"}])
+    def test_a_column_of_a_gram(self, contact: dict[str, Any]) -> None:
+        """Modes too faint to be seen are not followed: the work is that of the two masses it really is."""
+        hit = changed(
+            OVERHEAD,
+            column__mass="1 g",
+            obstacle=contact,
+            scenes=[{"type": "obstacle", "mechanism": "trolley", "speed_share": 0.8}],
+        )
+        fine = mast_modal.run(spec_of(hit), spec_of(hit).all_scenes[0], mast_modal.ALWAYS, 2)
+        assert fine.work < 3000
+        light = mast_modal.run(
+            spec_of(changed(hit, column__mass="1 kg")), spec_of(hit).all_scenes[0], mast_modal.ALWAYS, 0
+        )
+        value, other = (one.loads["collision_force"].estimate.value for one in (fine, light))
+        assert value == pytest.approx(other, rel=1e-3)
+
     def test_no_damping_never_settles(self) -> None:
         """Without a decrement there is no settling time to give."""
         data = changed(OVERHEAD, settling={"window": "3 mm", "wait": "5 s"})

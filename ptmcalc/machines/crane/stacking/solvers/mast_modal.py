@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
@@ -31,6 +33,8 @@ _MARGIN = 3.0
 _UNSEEN = 1e-10
 """Share of a reading that the march may miss of it."""
 _CLOSES = 1e-8
+_FAINT = 1e-9
+"""Share of the lowest mode's deflection below which a mode is not followed; what it adds is in the bar."""
 _SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""
 _BLOW = 1.5
@@ -102,11 +106,17 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
 
 
 def followed(moves: Happening, level: int) -> int:
-    """Modes that are followed at a refinement, even in number: half of them are at least those up to 5/rise in Hz."""
-    if moves.rise <= 0:
-        return MODES_FIRST << level
-    values = frequencies(moves.column.column, MODES_MOST // 2, moves.rolling, MODES_MOST).values
-    return min(max(2 * wanted(values, moves.rise), MODES_FIRST), MODES_MOST) << level
+    """Modes that are followed at a refinement, even in number: half of them are at least those up to 5/rise in Hz, and
+    no more than move anything: those of a column of a gram are so fast and so faint that nobody would see them."""
+    modes = MODES_FIRST
+    if moves.rise > 0:
+        values = frequencies(moves.column.column, MODES_MOST // 2, moves.rolling, MODES_MOST).values
+        modes = min(max(2 * wanted(values, moves.rise), MODES_FIRST), MODES_MOST)
+    modes <<= level
+    place = moves.column.column.length
+    mast = Mast.of(moves.column.column, _ELEMENTS * modes, (place,))
+    gives = np.abs(mast.at(place) * mast.participation) / mast.frequencies**2
+    return min(modes, 2 * int((gives > _FAINT * gives[0]).sum()))
 
 
 def _play(
@@ -294,12 +304,15 @@ def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int,
 
 
 def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> float:
-    """Seconds by the swings of the modes in the time that is looked at: fast ones are passed over by long panels."""
+    """Seconds by the swings of the modes in the time that is looked at: fast ones are passed over by long panels; a
+    point that stops dead is struck again by every mode."""
     if isinstance(scene, Stand):
         return 0.02
     moves = march.happening(spec, scene, gravity=False)
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     modes = followed(moves, level)
+    if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
+        return 0.04 * (modes / MODES_FIRST) ** 2.5
     return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
