@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, Generic
+from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -87,6 +87,34 @@ class Check(Generic[S, C]):
 
 
 AnyCheck = Check[Any, Any]
+K = TypeVar("K", bound=AnyCheck)
+
+
+def only(wanted: Callable[[Any, Any], bool]) -> Callable[[K], K]:
+    """Makes a check one of some machines and scenes only: of those that `wanted(spec, scene)` names."""
+
+    def of(check: K) -> K:
+        def each(spec: Any, scene: Any) -> Iterable[AnyCheck]:
+            return (check,) if wanted(spec, scene) else ()
+
+        return replace(check, each=each)
+
+    return of
+
+
+def at(*path: str | int) -> Callable[[MachineSpec, Scene], KeyPath]:
+    """A key that is the same for every machine."""
+    return lambda spec, scene: path
+
+
+def blames(*path: str | int) -> Callable[[MachineSpec, Scene, Mapping[str, Estimate]], KeyPath]:
+    """A key that governs, whatever the loads are."""
+    return lambda spec, scene, loads: path
+
+
+def needs(*paths: KeyPath) -> Callable[[MachineSpec, Scene], tuple[KeyPath, ...]]:
+    """Keys without which there is nothing to hold a load against."""
+    return lambda spec, scene: paths
 
 
 def no_needs(spec: MachineSpec, scene: Scene) -> tuple[KeyPath, ...]:

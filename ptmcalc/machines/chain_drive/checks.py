@@ -1,17 +1,16 @@
 """The checks of a chain drive in steady running."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.chain_drive.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import tail_teeth, tension_key
 from ptmcalc.machines.chain_drive.resonances import resonances
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 Loads = Mapping[str, Estimate]
 RUNNING = frozenset({Run})
@@ -22,28 +21,8 @@ _SAFETY = {ConveyorLayout: (10.0, 7.0), TwoShafts: (7.0, 5.0)}
 _TEETH = {ConveyorLayout: 6, TwoShafts: 17}
 
 
-def _only(wanted: Callable[[ChainDrive], bool]) -> Callable[[Check[ChainDrive, Run]], Check[ChainDrive, Run]]:
-    """A check that is made of some machines only."""
-
-    def of(check: Check[ChainDrive, Run]) -> Check[ChainDrive, Run]:
-        def each(spec: ChainDrive, scene: ChainScene) -> Iterable[Check[ChainDrive, Run]]:
-            return (check,) if wanted(spec) else ()
-
-        return replace(check, each=each)
-
-    return of
-
-
-def _between_shafts(spec: ChainDrive) -> bool:
+def _between_shafts(spec: ChainDrive, scene: Run) -> bool:
     return isinstance(spec.layout, TwoShafts)
-
-
-def _at(*path: str) -> Callable[[ChainDrive, Run], KeyPath]:
-    return lambda spec, scene: path
-
-
-def _blames(*path: str) -> Callable[[ChainDrive, Run, Loads], KeyPath]:
-    return lambda spec, scene, loads: path
 
 
 def _near_resonance(spec: ChainDrive, loads: Loads) -> bool:
@@ -75,7 +54,7 @@ def _resonance_limit(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(spec.checks.resonance.band)
 
 
-RESONANCE: Check[ChainDrive, Run] = _only(lambda spec: spec.effects.get(POLYGON) != "off")(
+RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(POLYGON) != "off")(
     Check(
         code="CHN101",
         title="a speed near a resonance of teeth and chain",
@@ -84,7 +63,7 @@ RESONANCE: Check[ChainDrive, Run] = _only(lambda spec: spec.effects.get(POLYGON)
         sense=Sense.AT_LEAST,
         limit=_resonance_limit,
         needs=no_needs,
-        blame=_blames(*_SPEED),
+        blame=blames(*_SPEED),
         repair=no_repair,
         what="The speed of the chain keeps away from every speed at which a harmonic of its teeth meets a natural"
         " frequency of the chain and the force in resonance would be half of m a_max or more. The loads"
@@ -134,7 +113,7 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     limit=_dynamic_limit,
     needs=no_needs,
     blame=_blame_strength,
-    repair=_unless_resonant(_at(*_BREAKING)),
+    repair=_unless_resonant(at(*_BREAKING)),
     what="The breaking load exceeds the largest tension of steady running, polygon effect and centrifugal force in it,"
     " by the safety factor.",
     why="The polygon effect loads the chain once a tooth: plates and pins tire, and a chain that breaks runs away.",
@@ -150,8 +129,8 @@ STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     sense=Sense.AT_LEAST,
     limit=_static_limit,
     needs=no_needs,
-    blame=_blames(*_BREAKING),
-    repair=_at(*_BREAKING),
+    blame=blames(*_BREAKING),
+    repair=at(*_BREAKING),
     what="The breaking load exceeds the static tension with the centrifugal one by the safety factor.",
     why="Wear, shocks and the uneven share of parallel chains use up what looks like a reserve.",
     formula="F_B/(c (S_static + m V^2)) >= n",
@@ -172,7 +151,7 @@ def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(math.inf if asked is None else asked)
 
 
-PRESSURE = _only(lambda spec: spec.checks.joint_pressure is not None)(
+PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
     Check(
         code="CHN104",
         title="too much pressure in the joints",
@@ -182,7 +161,7 @@ PRESSURE = _only(lambda spec: spec.checks.joint_pressure is not None)(
         limit=_pressure_limit,
         needs=lambda spec, scene: (("chain", "pin_diameter"), ("chain", "bush_length")),
         blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "pin_diameter"),
-        repair=_unless_resonant(_at("chain", "pin_diameter")),
+        repair=_unless_resonant(at("chain", "pin_diameter")),
         what="The largest tension of a chain spreads over pin and bush with no more than the pressure of the file.",
         why="Above it the film of oil breaks, and joints wear many times as fast.",
         formula="c S/(d b) <= p",
@@ -243,7 +222,7 @@ def _life_needs(spec: ChainDrive, scene: Run) -> tuple[KeyPath, ...]:
     return (*needs, ("chain", "bush_length")) if by_area else needs
 
 
-LIFE = _only(lambda spec: spec.checks.life is not None or spec.wear is not None)(
+LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not None)(
     Check(
         code="CHN106",
         title="too short a life of the chain by wear",
@@ -274,7 +253,7 @@ def _fatigue_limit(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(spec.checks.fatigue)
 
 
-FATIGUE = _only(lambda spec: spec.chain.fatigue_limit is not None)(
+FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
     Check(
         code="CHN107",
         title="fatigue of the plates",
@@ -317,7 +296,7 @@ def _distance_repair(spec: ChainDrive, scene: Run) -> KeyPath:
     return path if path[-1] == "centre_distance" else ()
 
 
-WRAP = _only(_between_shafts)(
+WRAP = only(_between_shafts)(
     Check(
         code="CHN108",
         title="too little wrap of a sprocket",
@@ -380,7 +359,7 @@ def _ratio_limit(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(spec.checks.ratio)
 
 
-RATIO = _only(_between_shafts)(
+RATIO = only(_between_shafts)(
     Check(
         code="CHN110",
         title="too large a ratio for one chain",
@@ -389,7 +368,7 @@ RATIO = _only(_between_shafts)(
         sense=Sense.AT_MOST,
         limit=_ratio_limit,
         needs=no_needs,
-        blame=_blames("layout", "driven", "teeth"),
+        blame=blames("layout", "driven", "teeth"),
         repair=no_repair,
         what="The teeth of both sprockets are in a ratio of no more than 6.",
         why="A large ratio takes wrap from the small sprocket, and a worn chain climbs a large one soon.",
@@ -419,7 +398,7 @@ def _most_distance(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(spec.checks.centre_distance_most)
 
 
-NEAR_SHAFTS = _only(_between_shafts)(
+NEAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN111",
         title="shafts too near for the chain",
@@ -437,7 +416,7 @@ NEAR_SHAFTS = _only(_between_shafts)(
     )
 )
 
-FAR_SHAFTS = _only(_between_shafts)(
+FAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN112",
         title="shafts too far apart for free strands",
@@ -469,7 +448,7 @@ def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
     return Estimate.exact(math.inf if rated is None else rated)
 
 
-POWER = _only(lambda spec: isinstance(spec.layout, TwoShafts) and spec.layout.rated_power is not None)(
+POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.layout.rated_power is not None)(
     Check(
         code="CHN113",
         title="too weak a chain for its power",
@@ -478,8 +457,8 @@ POWER = _only(lambda spec: isinstance(spec.layout, TwoShafts) and spec.layout.ra
         sense=Sense.AT_MOST,
         limit=_power_limit,
         needs=no_needs,
-        blame=_blames("layout", "rated_power"),
-        repair=_at("layout", "rated_power"),
+        blame=blames("layout", "rated_power"),
+        repair=at("layout", "rated_power"),
         what="The power, with the factors of service, teeth and rows, is no more than the maker's chart allows.",
         why="The chart knows what wears and tires a chain of this pitch at this speed.",
         formula="P f_1 f_2/k <= P_rated,   f_2 = (19/z_1)^1.08",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
@@ -123,13 +123,9 @@ def _slip_checks(spec: Conveyor, scene: ConveyorScene) -> Iterator[Check[Conveyo
             element=name,
             loads=(left, used),
             value=_slip_value_of(left, used),
-            needs=_needs((*path, "drum", "friction")),
+            needs=needs((*path, "drum", "friction")),
             blame=_blames_grip(path, drive),
         )
-
-
-def _needs(*paths: KeyPath) -> Callable[[Conveyor, ConveyorScene], tuple[KeyPath, ...]]:
-    return lambda spec, scene: paths
 
 
 def _slip_value_of(left: str, used: str) -> Callable[[Conveyor, ConveyorScene, Loads], Estimate]:

@@ -1,12 +1,11 @@
 """The checks of a hoist that moves evenly: its rope and sheaves, its class; and what checks of hoists share."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
@@ -18,31 +17,9 @@ RUNNING = frozenset({Run})
 _GROUP: KeyPath = ("class", "mechanism")
 
 
-def only(wanted: Callable[[Hoist, HoistScene], bool]) -> Callable[[OneCheck], OneCheck]:
-    """A check that is made of some hoists, and with some loads, only."""
-
-    def of(check: OneCheck) -> OneCheck:
-        def each(spec: Hoist, scene: Run) -> Iterable[OneCheck]:
-            return (check,) if wanted(spec, scene) else ()
-
-        return replace(check, each=each)
-
-    return of
-
-
 def loaded(spec: Hoist, scene: HoistScene) -> bool:
     """Whether the rated load hangs on the hook: what an empty hook does not ask is not asked of it."""
     return scene.load == "full"
-
-
-def at(*path: str) -> Callable[[Hoist, Run], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene: path
-
-
-def blames(*path: str) -> Callable[[Hoist, Run, Loads], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene, loads: path
 
 
 def _of_group(asked: float | None, table: Mapping[str, float], spec: Hoist) -> Estimate:

@@ -4,10 +4,10 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense
+from ptmcalc.contract.check import AnyCheck, Check, Sense, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
-from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded, only
+from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 

@@ -4,10 +4,10 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.checks import RUNNING, OneCheck, at, blames, loaded, only
+from ptmcalc.machines.hoist.checks import RUNNING, OneCheck, loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)

@@ -1,12 +1,11 @@
 """The checks of a slewing crane's drive: what starts it, what stops it, what holds it."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
@@ -14,33 +13,6 @@ from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 Loads = Mapping[str, Estimate]
 OneCheck = Check[SlewingCrane, SlewingScene]
 SLEWING = frozenset({Slew})
-
-
-def only(wanted: Callable[[SlewingCrane, SlewingScene], bool]) -> Callable[[OneCheck], OneCheck]:
-    """A check that is made of some cranes, and with some loads, only."""
-
-    def of(check: OneCheck) -> OneCheck:
-        def each(spec: SlewingCrane, scene: SlewingScene) -> Iterable[OneCheck]:
-            return (check,) if wanted(spec, scene) else ()
-
-        return replace(check, each=each)
-
-    return of
-
-
-def at(*path: str) -> Callable[[SlewingCrane, SlewingScene], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene: path
-
-
-def blames(*path: str) -> Callable[[SlewingCrane, SlewingScene, Loads], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene, loads: path
-
-
-def needs(*paths: KeyPath) -> Callable[[SlewingCrane, SlewingScene], tuple[KeyPath, ...]]:
-    """Always the same keys."""
-    return lambda spec, scene: paths
 
 
 def reaches(spec: SlewingCrane, scene: SlewingScene) -> bool:

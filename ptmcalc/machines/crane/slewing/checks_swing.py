@@ -4,9 +4,9 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_repair, only
 from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, at, blames, needs, only, torque_key, turns
+from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, torque_key, turns
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 

@@ -1,12 +1,11 @@
 """The checks of a travelling crane: start, stop, sway, grip, wheel loads; and what its checks share."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.scenes import (
     Brake,
@@ -24,28 +23,6 @@ OneCheck = Check[Travelling, TravelScene]
 STARTS: frozenset[type[Scene]] = frozenset({Start, HoistWhileTravelling})
 MOVES: frozenset[type[Scene]] = STARTS | {Brake}
 RUNNING: frozenset[type[Scene]] = frozenset({Run})
-
-
-def only(wanted: Callable[[Travelling, TravelScene], bool]) -> Callable[[OneCheck], OneCheck]:
-    """A check that is made of some cranes, and in some scenes, only."""
-
-    def of(check: OneCheck) -> OneCheck:
-        def each(spec: Travelling, scene: TravelScene) -> Iterable[OneCheck]:
-            return (check,) if wanted(spec, scene) else ()
-
-        return replace(check, each=each)
-
-    return of
-
-
-def at(*path: str) -> Callable[[Travelling, TravelScene], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene: path
-
-
-def blames(*path: str) -> Callable[[Travelling, TravelScene, Loads], KeyPath]:
-    """Always the same key."""
-    return lambda spec, scene, loads: path
 
 
 def hangs(spec: Travelling, scene: TravelScene) -> bool:

@@ -4,14 +4,11 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling.checks import (
     RUNNING,
     Loads,
     OneCheck,
-    at,
-    blames,
-    only,
     torque_key,
     torque_repair,
 )

@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
-from ptmcalc.machines.crane.travelling.checks import RUNNING, OneCheck, at, blames, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.machines.crane.travelling.checks import RUNNING, OneCheck
 from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.spec.scene import Scene
