@@ -185,6 +185,14 @@ class TestCollision:
         assert force.formula is not None
         assert force.formula.name == "obstacle_energy"
 
+    def test_both_readings_of_the_notes_stand_beside_it(self) -> None:
+        """They differ by the energy of the load and of 3/8 of the column, 9 kN of brake in both."""
+        force = load_of(scene_of(report_of(HIT), ""), "collision_force")
+        dead, whole = force.formulas
+        assert (dead.name, whole.name) == ("obstacle_tip_stopped", "obstacle_energy")
+        squares = [(one.value + 9000.0) ** 2 - 9000.0**2 for one in (dead, whole)]
+        assert squares[1] - squares[0] == pytest.approx(6e5 * 1.0**2 * (1800 + 0.375 * 1200), rel=1e-9)
+
     def test_a_limit_inside_the_bar_of_the_weights_is_told_by_a_run_with_them(self) -> None:
         plain = load_of(scene_of(report_of(HIT), ""), "collision_force").estimate
         assert plain.bar > 5e-3 * plain.value

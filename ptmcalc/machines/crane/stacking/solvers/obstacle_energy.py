@@ -41,24 +41,34 @@ def energy(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: 
 
         F = -W + (W^2 + c (m_1 + m_2) v^2)^(1/2),   x = F/c;   contact: v (k m_2)^(1/2)
 
-    The other reading of the notes, the tip stopped dead, counts m_1 alone: it stands in the remark.
-
     **Range** two masses, a rigid obstacle.
     **Error** no bound: a tip that rebounds shortens the way of the brake.
     **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; `laws.buffer.collision_force`.
     """
-    one, push, v = striking(spec, scene), pushed(spec, scene), model.speed(spec, scene)
-    loads = {"collision_speed": v, **_contact(spec, one, v)}
-    notes = {}
+    one = striking(spec, scene)
+    return _read(spec, scene, one, buffer.WHOLE, _contact(spec, one, model.speed(spec, scene)))
+
+
+def dead(spec: Stacker, scene: ObstacleScene, carried: frozenset[str], level: int) -> Result:
+    """The other reading of the notes: the tip is stopped dead, and only what is behind it bends the column.
+
+        F = -W + (W^2 + c m_1 v^2)^(1/2),   x = F/c
+
+    **Range** two masses, a rigid obstacle; the energy of m_2 is lost in the contact.
+    **Error** no bound: a tip that rebounds keeps its energy.
+    **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; `laws.buffer.collision_force`.
+    """
+    return _read(spec, scene, striking(spec, scene), buffer.TIP_STOPPED, {})
+
+
+def _read(spec: Stacker, scene: ObstacleScene, one: Swinging, reading: str, more: dict[str, float]) -> Result:
+    push, v = pushed(spec, scene), model.speed(spec, scene)
+    loads = {"collision_speed": v, **more}
     if math.isfinite(push):
         m11, m12, m22 = one.masses
-        whole, dead = (
-            buffer.collision_force(m11 + m12, m12 + m22, one.stiffness, v, -push, reading)
-            for reading in (buffer.WHOLE, buffer.TIP_STOPPED)
-        )
-        loads |= {"collision_force": whole, "collision_deflection": whole / one.stiffness}
-        notes["collision_force"] = f"with all that moves; {dead:.4g} N with the tip stopped dead"
-    found = {name: Found(Estimate.unknown(value), note=notes.get(name, "")) for name, value in loads.items()}
+        force = buffer.collision_force(m11 + m12, m12 + m22, one.stiffness, v, -push, reading)
+        loads |= {"collision_force": force, "collision_deflection": force / one.stiffness}
+    found = {name: Found(Estimate.unknown(value)) for name, value in loads.items()}
     return Result(with_derived(spec, scene, found), work=1)
 
 
@@ -106,6 +116,18 @@ OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
     represents=frozenset(),
     gives=GIVES,
     run=energy,
+    cost=lambda spec, scene, carried, level: 1e-4,
+    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",
+    decides=False,
+)
+OBSTACLE_TIP_STOPPED: Solver[Stacker, ObstacleScene] = Solver(
+    name="obstacle_tip_stopped",
+    title="energy of what is behind a tip that is stopped dead, less the work of the brake",
+    fidelity=Fidelity.FORMULA,
+    scenes=SCENES,
+    represents=frozenset(),
+    gives=GIVES - {"contact_force"},
+    run=dead,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",
     decides=False,

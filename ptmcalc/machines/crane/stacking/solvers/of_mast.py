@@ -5,10 +5,15 @@ from ptmcalc.machines.crane.stacking.solvers.mast_beam import MAST_BEAM
 from ptmcalc.machines.crane.stacking.solvers.mast_handbook import MAST_HANDBOOK
 from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL, MAST_MODAL, STANDING_MODAL
 from ptmcalc.machines.crane.stacking.solvers.mast_two_mass import MAST_TWO_MASS
-from ptmcalc.machines.crane.stacking.solvers.obstacle_energy import OBSTACLE_BOUND, OBSTACLE_ENERGY
+from ptmcalc.machines.crane.stacking.solvers.obstacle_energy import (
+    OBSTACLE_BOUND,
+    OBSTACLE_ENERGY,
+    OBSTACLE_TIP_STOPPED,
+)
 
 SOLVERS_OF_MAST: tuple[AnySolver, ...] = (
     MAST_HANDBOOK,
+    OBSTACLE_TIP_STOPPED,
     OBSTACLE_ENERGY,
     OBSTACLE_BOUND,
     MAST_BEAM,
