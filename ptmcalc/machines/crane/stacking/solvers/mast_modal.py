@@ -312,7 +312,7 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     modes = followed(moves, level)
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
-        return 0.04 * (modes / MODES_FIRST) ** 2.5
+        return 0.04 * float((modes / MODES_FIRST) ** 2.5)
     return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
