@@ -27,7 +27,7 @@ class Check(Generic[S, C]):
     `loads` are the loads it reads and `value` what it makes of them (the first one itself when left out); `limit`
     is what that is held against; `needs` are the optional keys without which it
     is not checked. `blame` names the key that governs a bad verdict, from the loads found; `repair` the key a
-    bracketing solve may move, or an empty path.
+    bracketing solve may move, or an empty path; with `repairs_blame` it is the key that `blame` names from the loads.
     A check of every part of a machine gives with `each` the checks of the parts, made by `of`; its own `loads` are then
     families.
     """
@@ -48,6 +48,7 @@ class Check(Generic[S, C]):
     value: Callable[[S, C, Mapping[str, Estimate]], Estimate] | None = None
     each: "Callable[[S, C], Iterable[Check[S, C]]] | None" = None
     element: str = ""
+    repairs_blame: bool = False
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether this type of scene is held against the check."""

@@ -340,7 +340,7 @@ class _Assembly:
 
     def _repair(self, ruling: Ruling) -> Repair | None:
         scene = self.settled.plan.scene
-        path = ruling.check.repair(self.spec, scene)
+        path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
         try:
             solution = (
                 solve(

@@ -6,9 +6,11 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import (
     BufferScene,
     ForkCaught,
@@ -117,9 +119,16 @@ FORCE: OneCheck = Check(
 
 
 def _largest_speed(spec: Stacker, scene: StackerScene) -> float | None:
-    given = model.travel(spec, scene).buffers
-    own = given.largest_speed if given is not None else None
-    return spec.checks.collision_speed if spec.checks.collision_speed is not None else own
+    limits = _speed_limits(spec, scene)
+    return min(limits.values()) if limits else None
+
+
+def _speed_limits(spec: Stacker, scene: StackerScene) -> dict[KeyPath, float]:
+    """What the file allows, and what the maker of the buffers: neither sets the other aside."""
+    buffers = model.travel(spec, scene).buffers
+    own: dict[KeyPath, float | None] = {("checks", "collision_speed"): spec.checks.collision_speed}
+    own[_of_buffers("largest_speed")(spec, scene)] = buffers.largest_speed if buffers is not None else None
+    return {key: speed for key, speed in own.items() if speed is not None}
 
 
 def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
@@ -133,9 +142,8 @@ def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 
 def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
-    if spec.checks.collision_speed is not None:
-        return ("checks", "collision_speed")
-    return _of_buffers("largest_speed")(spec, scene)
+    limits = _speed_limits(spec, scene)
+    return min(limits, key=limits.__getitem__)
 
 
 SPEED: OneCheck = _only(
@@ -171,9 +179,13 @@ def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 
 def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
-    """What lets the force of a caught fork grow: the limiter, or the motor."""
-    if spec.hoisting.limiter is not None:
-        return ("hoisting", "limiter", "force")
+    """What lets the force of a caught fork grow: the limiter, by its force or its reaction, or the motor."""
+    assert isinstance(scene, ForkCaught)
+    case = catch_of(spec, scene)
+    if case.limit is not None:
+        stiffness = 1 / (1 / case.rope + 1 / case.rack)
+        late = stiffness * case.speed * case.limit.reaction > max(case.limit.force - case.weight, 0.0)
+        return ("hoisting", "limiter", "reaction" if late else "force")
     drive = spec.hoisting.drive
     return (
         ("hoisting", "drive", "largest_force") if drive and drive.largest_force is not None else ("hoisting", "speed")
@@ -298,10 +310,13 @@ def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 
 def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
-    """What lets the force of a pushing fork grow: its clutch, or its motor."""
-    fork = spec.fork
-    slips = fork is not None and fork.clutch_force is not None and fork.clutch_force < fork.motor_force
-    return ("fork", "clutch_force" if slips else "motor_force")
+    """What lets the force of a pushing fork grow: its clutch or its motor, or its speed where that does by itself."""
+    assert isinstance(scene, ForkPush)
+    case = push_of(spec, scene)
+    blow = case.speed * math.sqrt(case.series * case.mass)
+    if spec.fork is not None and spec.fork.rating is not None and blow >= spec.fork.rating:
+        return ("fork", "speed")
+    return ("fork", "clutch_force" if case.clutch else "motor_force")
 
 
 TELESCOPE: OneCheck = _only(
@@ -459,10 +474,18 @@ def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 
 def _rail_key(spec: Stacker, scene: StackerScene) -> KeyPath:
-    """What is uneven."""
-    if isinstance(spec, RackStacker) and (spec.rail.step or spec.rail.gap):
-        return ("rail", "step" if spec.rail.step else "gap")
-    return ("rail", "waviness", "height")
+    """What takes most of the wheel's load off."""
+    assert isinstance(spec, RackStacker)
+    assert isinstance(scene, RailScene)
+    roll = roll_of(spec, scene)
+    keys: list[KeyPath] = [*([("rail", "step")] if roll.step else []), *([("rail", "gap")] if roll.gap else [])]
+    less = {
+        key: roll.acceleration / roll.gravity * down
+        for key, (_, down) in zip(keys, roll.pulses(roll.frequency), strict=True)
+    }
+    if roll.wave_length:
+        less["rail", "waviness", "height"] = wave_share(roll)
+    return max(less, key=less.__getitem__)
 
 
 CONTACT: OneCheck = Check(
@@ -503,7 +526,7 @@ RESONANCE: OneCheck = _only(
         limit=_detuning_limit,
         needs=no_needs,
         blame=_blames("rail", "waviness", "length"),
-        repair=no_repair,
+        repair=_at("travel", "speed"),
         what="The waves of the rail pass under the wheels with a frequency that is away from those of the machine on"
         " its wheels and of its column.",
         why="A rail ground in even waves shakes the column at one speed: v = f lambda.",

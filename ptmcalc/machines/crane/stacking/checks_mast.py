@@ -2,7 +2,7 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, at, blames, block, given, of_the_mechanism, only
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
@@ -257,7 +257,7 @@ FAST: OneCheck = only(_asks_speed)(
         limit=_speed_limit,
         needs=no_needs,
         blame=_speed_blame,
-        repair=no_repair,
+        repair=of_the_mechanism("speed"),
         what="The column meets an obstacle no faster than the rules of the plant allow.",
         why="The force of the column goes with the speed, the energy of the blow with its square.",
         formula="share of v <= v_max",

@@ -6,9 +6,9 @@ from typing import Any
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
-from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import OneCheck, at, blames, given, needs, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.crane.stacking import model, strength
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, at, blames, given, needs, only
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import (
@@ -24,6 +24,8 @@ from ptmcalc.machines.crane.stacking.scenes import (
 )
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
+
+Shares = Callable[[Stacker, StackerScene, strength.Event], dict[str, float]]
 
 
 def _stability_limit(spec: Stacker, scene: StackerScene) -> Estimate:
@@ -132,6 +134,17 @@ def _column_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return given(spec.checks.column_stress)
 
 
+def _governs(part: str, shares: Shares) -> Callable[[Stacker, StackerScene, Loads], KeyPath]:
+    """The key by which the largest share of a stress goes."""
+
+    def key(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
+        happens = strength.event(spec, scene, {name: one.value for name, one in loads.items()})
+        parts = shares(spec, scene, happens if happens is not None else strength.Event())
+        return (part, max(parts, key=parts.__getitem__))
+
+    return key
+
+
 COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not None and _of_travel(spec, scene))(
     Check(
         code="CRN209",
@@ -141,8 +154,9 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
         sense=Sense.AT_MOST,
         limit=_column_limit,
         needs=needs("checks", "column_stress"),
-        blame=blames("column", "section_modulus"),
-        repair=at("column", "section_modulus"),
+        blame=_governs("column", strength.column_stresses),
+        repair=no_repair,
+        repairs_blame=True,
         what="Weights and the dynamic load of each combination together stress the root of the column no more than"
         " allowed.",
         why="Which combination governs depends on the machine: none may be left out.",
@@ -177,8 +191,9 @@ BRIDGE: OneCheck = only(_has_girders)(
         sense=Sense.AT_MOST,
         limit=_bridge_limit,
         needs=needs("checks", "bridge_stress"),
-        blame=blames("bridge", "section_modulus_vertical"),
-        repair=at("bridge", "section_modulus_vertical"),
+        blame=_governs("bridge", strength.bridge_stresses),
+        repair=no_repair,
+        repairs_blame=True,
         what="Weights and the dynamic load of each combination together stress the girder that bears more of them no"
         " more than allowed.",
         why="The column pulls one girder down and pushes the other up while both bend sideways.",

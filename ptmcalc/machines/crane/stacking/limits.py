@@ -34,7 +34,7 @@ class StackerChecks(CheckSettings):
     column_force: PositiveForce | None = None
     """largest force of the column on what holds it"""
     collision_speed: PositiveSpeed | None = None
-    """largest speed at which obstacle or buffer may be met; of buffers that of their own data when left out"""
+    """largest speed at which obstacle or buffer may be met; of buffers the lower of it and that of their own data"""
     contact_force: PositiveForce | None = None
     """largest force between the column and an obstacle"""
     fork_caught_factor: PositiveRatio | None = None

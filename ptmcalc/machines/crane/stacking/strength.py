@@ -137,29 +137,46 @@ def _leaning(spec: Stacker, scene: StackerScene) -> tuple[float, float]:
 
 def column_stress(spec: Stacker, scene: StackerScene, happens: Event) -> float | None:
     """At the root: bending both ways, pull or push; None without a section modulus [Pa]."""
+    parts = column_stresses(spec, scene, happens)
+    return sum(parts.values()) if parts else None
+
+
+def column_stresses(spec: Stacker, scene: StackerScene, happens: Event) -> dict[str, float]:
+    """The same by the key of the column that each share goes by; nothing without a section modulus [Pa]."""
     column = spec.column
     if column.section_modulus is None:
-        return None
-    across = column.section_modulus_across if column.section_modulus_across is not None else column.section_modulus
+        return {}
     leans, leans_across = _leaning(spec, scene)
     along, aside = leans + happens.along, leans_across + happens.across
-    stress = (along / column.section_modulus + aside / across) / column.count
+    if column.section_modulus_across is None:
+        parts = {"section_modulus": (along + aside) / column.section_modulus / column.count}
+    else:
+        parts = {
+            "section_modulus": along / column.section_modulus / column.count,
+            "section_modulus_across": aside / column.section_modulus_across / column.count,
+        }
     if column.area is not None:
         own = column.mass * spec.gravity
         standing = 0.0 if model.hangs(spec) else model.weight(spec, scene) * _pulls(spec)
-        stress += abs(own + standing + happens.axial) / (column.area * column.count)
-    return stress
+        parts["area"] = abs(own + standing + happens.axial) / (column.area * column.count)
+    return parts
 
 
 def bridge_stress(spec: Stacker, scene: StackerScene, happens: Event) -> float | None:
     """Of the girder that bears more, under the trolley: as girders whose ends turn, which clamped ones never exceed;
     None without section moduli [Pa]."""
+    parts = bridge_stresses(spec, scene, happens)
+    return sum(parts.values()) if parts else None
+
+
+def bridge_stresses(spec: Stacker, scene: StackerScene, happens: Event) -> dict[str, float]:
+    """The same by the key of the bridge that each share goes by; nothing without section moduli [Pa]."""
     if not isinstance(spec, OverheadStacker):
-        return None
+        return {}
     bridge, x = spec.bridge, model.trolley_place(spec)
     vertical, horizontal = bridge.section_modulus_vertical, bridge.section_modulus_horizontal
     if vertical is None or horizontal is None:
-        return None
+        return {}
     sag = x * (bridge.span - x) / bridge.span
     hung = (spec.trolley.mass + spec.column.mass) * spec.gravity + model.weight(spec, scene) + happens.hung
     leans, leans_across = _leaning(spec, scene)
@@ -170,7 +187,7 @@ def bridge_stress(spec: Stacker, scene: StackerScene, happens: Event) -> float |
     if model.direction(spec, scene) == "along":
         pushed = happens.force + spec.trolley.mass * happens.deceleration
         aside = (pushed / 2 + bridge.mass / 2 * happens.deceleration / 2) * sag
-    return down / vertical + aside / horizontal
+    return {"section_modulus_vertical": down / vertical, "section_modulus_horizontal": aside / horizontal}
 
 
 # -- upright --------------------------------------------------------------------------------------------------------
