@@ -1,12 +1,11 @@
 """Checks of buffers, fork, rail and safety gear."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Callable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
 from ptmcalc.machines.crane.stacking.rack import RackStacker
@@ -23,7 +22,6 @@ from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
 from ptmcalc.spec.scene import Scene
 
 OneCheck = Check[Stacker, StackerScene]
-Wanted = Callable[[Stacker, StackerScene], bool]
 Path = Callable[[Stacker, StackerScene], KeyPath]
 
 HITS: frozenset[type[Scene]] = frozenset({BufferScene})
@@ -31,23 +29,6 @@ CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
 PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
 ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
 FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
-
-
-def _only(wanted: Wanted, check: OneCheck) -> OneCheck:
-    """A check that is made of some machines only."""
-
-    def each(spec: Stacker, scene: StackerScene) -> Iterable[OneCheck]:
-        return (check,) if wanted(spec, scene) else ()
-
-    return replace(check, each=each)
-
-
-def _at(*path: str) -> Path:
-    return lambda spec, scene: path
-
-
-def _blames(*path: str) -> Callable[[Stacker, StackerScene, Mapping[str, Estimate]], KeyPath]:
-    return lambda spec, scene, loads: path
 
 
 def _rating(value: float | None) -> Estimate:
@@ -146,8 +127,7 @@ def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
     return min(limits, key=limits.__getitem__)
 
 
-SPEED: OneCheck = _only(
-    lambda spec, scene: _largest_speed(spec, scene) is not None,
+SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not None)(
     Check(
         code="CRN283",
         title="a buffer of a stacker crane hit too fast",
@@ -192,8 +172,7 @@ def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
     )
 
 
-FACTOR: OneCheck = _only(
-    lambda spec, scene: spec.checks.fork_caught_factor is not None,
+FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is not None)(
     Check(
         code="CRN284",
         title="a caught fork that pulls harder than the hoist is built for",
@@ -233,8 +212,8 @@ ROPE: OneCheck = Check(
     sense=Sense.AT_MOST,
     limit=_rope_limit,
     needs=lambda spec, scene: (("hoisting", "rope", "breaking_force"),),
-    blame=_blames("hoisting", "rope", "breaking_force"),
-    repair=_at("hoisting", "rope", "breaking_force"),
+    blame=blames("hoisting", "rope", "breaking_force"),
+    repair=at("hoisting", "rope", "breaking_force"),
     what="The falls on which the carriage hangs bear the force of a fork that the rack catches while it is hoisted.",
     why="A rope that tears drops the carriage into its safety gear; one that nearly did is worn out without notice.",
     formula="F <= n F_b",
@@ -252,8 +231,9 @@ def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return _rating(spec.rack.rating_vertical)
 
 
-RACK: OneCheck = _only(
-    lambda spec, scene: spec.rack.rating_vertical is not None and spec.rack.stiffness_vertical is not None,
+RACK: OneCheck = only(
+    lambda spec, scene: spec.rack.rating_vertical is not None and spec.rack.stiffness_vertical is not None
+)(
     Check(
         code="CRN286",
         title="a rack that a caught fork lifts off or breaks",
@@ -262,8 +242,8 @@ RACK: OneCheck = _only(
         sense=Sense.AT_MOST,
         limit=_rack_limit,
         needs=no_needs,
-        blame=_blames("rack", "rating_vertical"),
-        repair=_at("rack", "rating_vertical"),
+        blame=blames("rack", "rating_vertical"),
+        repair=at("rack", "rating_vertical"),
         what="The force of the caught fork on the beam of the rack is within what it bears upwards.",
         why="Beams are hooked in from above: what lifts them takes the shelf, and the pallets on it, down.",
         formula="R = K_r y",
@@ -290,8 +270,8 @@ PUSH: OneCheck = Check(
     sense=Sense.AT_MOST,
     limit=_push_limit,
     needs=lambda spec, scene: (("rack", "rating_push"),),
-    blame=_blames("rack", "rating_push"),
-    repair=_at("rack", "rating_push"),
+    blame=blames("rack", "rating_push"),
+    repair=at("rack", "rating_push"),
     what="The fork that runs out against the rack pushes no harder than the rack bears across the aisle.",
     why="A pallet that sticks out stops the fork at full force and full speed.",
     formula="F = P + (P^2 + K m v^2)^(1/2),   with a slip clutch P_c + v (K m)^(1/2)",
@@ -319,8 +299,7 @@ def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
     return ("fork", "clutch_force" if case.clutch else "motor_force")
 
 
-TELESCOPE: OneCheck = _only(
-    lambda spec, scene: spec.fork is not None and spec.fork.rating is not None,
+TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fork.rating is not None)(
     Check(
         code="CRN288",
         title="a fork pushed harder than it bears",
@@ -349,8 +328,7 @@ def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return Estimate.exact(1.0)
 
 
-LIMITER: OneCheck = _only(
-    lambda spec, scene: spec.hoisting.limiter is not None,
+LIMITER: OneCheck = only(lambda spec, scene: spec.hoisting.limiter is not None)(
     Check(
         code="CRN289",
         title="a limiter that trips while the carriage is hoisted as usual",
@@ -359,8 +337,8 @@ LIMITER: OneCheck = _only(
         sense=Sense.AT_LEAST,
         limit=_limiter_limit,
         needs=no_needs,
-        blame=_blames("hoisting", "limiter", "force"),
-        repair=_at("hoisting", "limiter", "force"),
+        blame=blames("hoisting", "limiter", "force"),
+        repair=at("hoisting", "limiter", "force"),
         what="The force at which the limiter trips is above the weight of carriage and load as the hoist starts.",
         why="A limiter that trips every day is soon set out of action, and then misses the fork that is caught.",
         formula="F_l/(Q (1 + a/g)) >= 1",
@@ -395,8 +373,8 @@ GEAR_STROKE: OneCheck = Check(
     sense=Sense.AT_MOST,
     limit=_gear_stroke_limit,
     needs=no_needs,
-    blame=_blames("safety_gear", "stroke"),
-    repair=_at("safety_gear", "stroke"),
+    blame=blames("safety_gear", "stroke"),
+    repair=at("safety_gear", "stroke"),
     what="The safety gear stops the carriage within its stroke, from the speed the reaction of the governor leaves it.",
     why="At the end of its stroke a progressive gear becomes an instantaneous one, with ten times the weight.",
     formula="s = v_c^2/(2 (F_c/M - g)) <= s_max,   v_c = k v + g t_r",
@@ -441,8 +419,7 @@ def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return _rating(spec.checks.catch_deceleration)
 
 
-DECELERATION: OneCheck = _only(
-    lambda spec, scene: spec.checks.catch_deceleration is not None,
+DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
     Check(
         code="CRN292",
         title="a safety gear that stops the carriage too hard",
@@ -497,7 +474,7 @@ CONTACT: OneCheck = Check(
     limit=_contact_limit,
     needs=no_needs,
     blame=lambda spec, scene, loads: _rail_key(spec, scene),
-    repair=_at("travel", "speed"),
+    repair=at("travel", "speed"),
     what="The wheels keep their contact with the rail on its steps, gaps and waves.",
     why="A wheel that jumps comes down with a blow, and the column whips.",
     formula="1 - (pi/2)^2 v^2/(g r) max(-u) >= 0,   1 - T (h/2) (2 pi v/lambda)^2/g >= 0",
@@ -515,8 +492,7 @@ def _detuning_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     return Estimate.exact(spec.checks.rail_detuning)
 
 
-RESONANCE: OneCheck = _only(
-    lambda spec, scene: isinstance(spec, RackStacker) and spec.rail.waviness is not None,
+RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and spec.rail.waviness is not None)(
     Check(
         code="CRN294",
         title="a wavy rail that shakes the stacker in resonance",
@@ -525,8 +501,8 @@ RESONANCE: OneCheck = _only(
         sense=Sense.AT_LEAST,
         limit=_detuning_limit,
         needs=no_needs,
-        blame=_blames("rail", "waviness", "length"),
-        repair=_at("travel", "speed"),
+        blame=blames("rail", "waviness", "length"),
+        repair=at("travel", "speed"),
         what="The waves of the rail pass under the wheels with a frequency that is away from those of the machine on"
         " its wheels and of its column.",
         why="A rail ground in even waves shakes the column at one speed: v = f lambda.",

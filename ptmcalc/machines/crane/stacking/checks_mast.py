@@ -2,9 +2,9 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, at, blames, block, given, of_the_mechanism, only
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, block, given, of_the_mechanism
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import turns

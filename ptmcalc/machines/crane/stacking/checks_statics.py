@@ -2,11 +2,11 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.crane.stacking import model, starts
 from ptmcalc.machines.crane.stacking.drives import Rotation
-from ptmcalc.machines.crane.stacking.judging import OneCheck, at, blames, block, given, needs, only
+from ptmcalc.machines.crane.stacking.judging import OneCheck, block, given
 from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, HoistScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
@@ -29,7 +29,7 @@ ROLLERS: OneCheck = Check(
     loads=("roller_load",),
     sense=Sense.AT_MOST,
     limit=_roller_limit,
-    needs=needs("carriage", "rollers", "rating"),
+    needs=needs(("carriage", "rollers", "rating")),
     blame=blames("carriage", "rollers", "rating"),
     repair=at("carriage", "rollers", "distance"),
     what="The eccentric weights of load, carriage and cab, with the carriage's acceleration, press no roller against"

@@ -6,9 +6,9 @@ from typing import Any
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.stacking import model, strength
-from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, at, blames, given, needs, only
+from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, given
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import (
@@ -153,7 +153,7 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
         loads=("column_stress",),
         sense=Sense.AT_MOST,
         limit=_column_limit,
-        needs=needs("checks", "column_stress"),
+        needs=needs(("checks", "column_stress")),
         blame=_governs("column", strength.column_stresses),
         repair=no_repair,
         repairs_blame=True,
@@ -190,7 +190,7 @@ BRIDGE: OneCheck = only(_has_girders)(
         loads=("bridge_stress",),
         sense=Sense.AT_MOST,
         limit=_bridge_limit,
-        needs=needs("checks", "bridge_stress"),
+        needs=needs(("checks", "bridge_stress")),
         blame=_governs("bridge", strength.bridge_stresses),
         repair=no_repair,
         repairs_blame=True,
