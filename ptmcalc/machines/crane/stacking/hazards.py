@@ -43,13 +43,14 @@ class Fork(Fragment):
     """The telescopic fork and its drive."""
 
     mass: PositiveMass
-    """of fork and drive reduced to its way; with a slip clutch only what is behind it"""
+    """of fork and drive reduced to its way; with a slip clutch weaker than the motor only what is behind it"""
     speed: PositiveSpeed
     """of the fork"""
     motor_force: PositiveForce
     """largest of its drive that goes on pushing, at the fork"""
     clutch_force: PositiveForce | None = None
-    """at which its slip clutch slips, at the fork; none when left out"""
+    """at which its slip clutch slips, at the fork; one as strong as the motor is not reckoned with: the whole mass
+    bounds the force then"""
     torsion_stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
     """of the column against twisting, where the carriage is; rigid when left out"""
     arm: Arm = 0.0
