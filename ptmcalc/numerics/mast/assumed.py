@@ -24,10 +24,6 @@ class OneShape(Elements):
         """The deflection at a place: the shape there."""
         return np.array([self.shape(place)])
 
-    def slope(self, place: float) -> FloatArray:
-        """The shape itself is all that is known of a column that keeps to it."""
-        raise NotImplementedError("a column of one shape has no slopes")
-
 
 def one_shape(
     column: Column,

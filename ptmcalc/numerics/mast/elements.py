@@ -45,10 +45,6 @@ class Elements:
         """The deflection at a node as a functional over the unknowns."""
         return self._unit(2 * self.node(place))
 
-    def slope(self, place: float) -> FloatArray:
-        """The slope at a node."""
-        return self._unit(2 * self.node(place) + 1)
-
     def node(self, place: float) -> int:
         """The node at a place."""
         index = int(np.abs(self.places - place).argmin())

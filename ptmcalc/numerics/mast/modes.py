@@ -57,14 +57,6 @@ class Mast:
         """Deflection at a place by a force of 1 N at another [m/N]."""
         return float(self.elements.row(place) @ self.flexibility @ self.elements.row(beside))
 
-    def gives_under_couple(self, place: float, beside: float) -> float:
-        """Deflection at a place by a couple of 1 N m at another [1/N]."""
-        return float(self.elements.row(place) @ self.flexibility @ self.elements.slope(beside))
-
-    def lags(self, place: float) -> float:
-        """Deflection at a place under a base that keeps speeding up by 1 m/s^2 [s^2]."""
-        return -float(self.elements.row(place) @ self.flexibility @ self.elements.carried)
-
     def rolling(self, base: float) -> tuple[FloatArray, FloatArray]:
         """Frequencies over a base of that mass that rolls, and the shapes beside it, normalised with it."""
         built = self.elements

@@ -8,6 +8,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
+from ptmcalc.machines.crane.stacking.judging import OneCheck, given
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import (
@@ -21,7 +22,6 @@ from ptmcalc.machines.crane.stacking.scenes import (
 from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
 from ptmcalc.spec.scene import Scene
 
-OneCheck = Check[Stacker, StackerScene]
 Path = Callable[[Stacker, StackerScene], KeyPath]
 
 HITS: frozenset[type[Scene]] = frozenset({BufferScene})
@@ -29,10 +29,6 @@ CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
 PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
 ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
 FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
-
-
-def _rating(value: float | None) -> Estimate:
-    return Estimate.exact(math.inf if value is None else value)
 
 
 # -- buffers --------------------------------------------------------------------------------------------------------
@@ -50,8 +46,8 @@ def _stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the buffer.
     """
-    given = model.travel(spec, scene).buffers
-    return _rating(given.stroke if given is not None else None)
+    buffers = model.travel(spec, scene).buffers
+    return given(buffers.stroke if buffers is not None else None)
 
 
 STROKE: OneCheck = Check(
@@ -78,8 +74,8 @@ def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the buffer, the end stop's calculation.
     """
-    given = model.travel(spec, scene).buffers
-    return _rating(given.rating if given is not None else None)
+    buffers = model.travel(spec, scene).buffers
+    return given(buffers.rating if buffers is not None else None)
 
 
 FORCE: OneCheck = Check(
@@ -119,7 +115,7 @@ def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file or of the buffer's maker.
     **Source** the file.
     """
-    return _rating(_largest_speed(spec, scene))
+    return given(_largest_speed(spec, scene))
 
 
 def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -155,7 +151,7 @@ def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the file.
     """
-    return _rating(spec.checks.fork_caught_factor)
+    return given(spec.checks.fork_caught_factor)
 
 
 def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -201,7 +197,7 @@ def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Source** the maker of the rope.
     """
     rope = spec.hoisting.rope
-    return _rating(None if rope.breaking_force is None else rope.falls * rope.breaking_force)
+    return given(None if rope.breaking_force is None else rope.falls * rope.breaking_force)
 
 
 ROPE: OneCheck = Check(
@@ -228,7 +224,7 @@ def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the rack.
     """
-    return _rating(spec.rack.rating_vertical)
+    return given(spec.rack.rating_vertical)
 
 
 RACK: OneCheck = only(
@@ -259,7 +255,7 @@ def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the rack.
     """
-    return _rating(spec.rack.rating_push)
+    return given(spec.rack.rating_push)
 
 
 PUSH: OneCheck = Check(
@@ -286,7 +282,7 @@ def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the fork.
     """
-    return _rating(spec.fork.rating if spec.fork is not None else None)
+    return given(spec.fork.rating if spec.fork is not None else None)
 
 
 def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -356,7 +352,7 @@ def _gear_stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the maker of the gear.
     """
-    return _rating(spec.safety_gear.stroke if spec.safety_gear is not None else None)
+    return given(spec.safety_gear.stroke if spec.safety_gear is not None else None)
 
 
 def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
@@ -416,7 +412,7 @@ def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
     **Error** none: a limit of the file.
     **Source** the file; EN 81-20: a mean of 0.2 to 1 g for progressive gears.
     """
-    return _rating(spec.checks.catch_deceleration)
+    return given(spec.checks.catch_deceleration)
 
 
 DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
