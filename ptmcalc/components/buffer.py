@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import buffer
 from ptmcalc.spec.fields import Measure, PositiveForce, PositiveLength, PositiveSpeed
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
@@ -94,6 +95,10 @@ class Stopped:
     """speed at which they bottom out, 0 where they do not [m/s]"""
     energy_share: float
     """of their curve [1]"""
+
+    def at_least(self, value: float) -> Estimate:
+        """A force, or what comes of one: exact, or without an end above where the stop behind the buffers is hit."""
+        return Estimate(value, value, math.inf, model=math.inf) if self.left else Estimate.exact(value)
 
 
 def stopped(given: Buffer, mass: float, speed: float, push: float, stroke: float | None = None) -> Stopped:

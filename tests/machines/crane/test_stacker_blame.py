@@ -107,3 +107,12 @@ def test_what_governs_is_blamed_and_its_repair_passes(
     assert one.repair.path == tuple(key.split("__"))
     value = f"{one.repair.value!r} {one.repair.quantity.si}"
     assert _judged(changed(data, **{key: value}), code).verdict is Verdict.PASS
+
+
+def test_a_buffer_that_bottoms_out_does_not_pass_for_its_force() -> None:
+    """What the stop behind it adds is not known."""
+    short = _data(OVERHEAD, BUFFER, {"bridge_travel__buffers__stroke": "100 mm"})
+    assert _judged(short, "CRN281").verdict is Verdict.FAIL
+    assert _judged(short, "CRN282").verdict is Verdict.UNDECIDED
+    enough = _data(OVERHEAD, BUFFER, {})
+    assert _judged(enough, "CRN282").verdict is Verdict.PASS

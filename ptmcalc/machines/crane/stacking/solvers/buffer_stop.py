@@ -37,6 +37,8 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
         "phi7": buffer.buffer_factor(hit.energy_share),
     }
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    for name in ("buffer_force", "buffer_deceleration"):
+        found[name] = Found(hit.at_least(loads[name]))
     if hit.left:
         note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)

@@ -48,6 +48,8 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
         "phi7": buffer.buffer_factor(hit.energy_share, spec.classes.buffer_edition),
     }
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    for name in ("buffer_force", "buffer_deceleration"):
+        found[name] = Found(hit.at_least(loads[name]))
     if hit.left:
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=_bottoms_out(hit))
     return Result(found, work=1)
