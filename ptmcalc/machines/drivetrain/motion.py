@@ -15,8 +15,9 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.ledger import Ledger, ledger
-from ptmcalc.numerics.train.modes import frequencies
+from ptmcalc.numerics.train.modes import damped, frequencies
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth
+from ptmcalc.numerics.train.signals import FloatArray
 from ptmcalc.numerics.train.system import TrainSystem
 
 _CLOSES = 1e-9
@@ -24,6 +25,7 @@ _LONGEST, _FIRST = 4096.0, 0.25
 _CHATTER, _LAST_PART = 60, 0.05
 _PERIODS = 10
 _FADES = 25.0
+_GLIDED = 200.0
 _DUST = 1e-11
 
 
@@ -264,11 +266,13 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
     }
 
 
-def radians_to_see(case: Case, end: float) -> float:
-    """Radians of the fastest component that a run must resolve: all of them, or until its damping has made it fade."""
-    values = frequencies(case.train)
-    if not len(values):
-        return 1.0
-    damped = min((one.damping / one.stiffness for one in case.train.springs if one.stiffness), default=0.0)
-    radians = values * np.minimum(end, _FADES / (values**2 * damped / 2) if damped else end)
-    return float(radians.max())
+def radians_to_see(case: Case, end: float) -> FloatArray:
+    """Radians of each natural vibration that a run must resolve: to its end, or until its damping has made it fade.
+
+    A linear motion goes over what rings fast by long panels, so that no vibration takes more than some hundred radians
+    of it; a smooth torque curve has to follow the fastest one.
+    """
+    values, fading = damped(case.train)
+    seen = np.minimum(end, np.divide(_FADES, fading, out=np.full_like(fading, math.inf), where=fading > 0))
+    radians: FloatArray = values * seen
+    return radians if is_smooth(case) else np.minimum(radians, _GLIDED)

@@ -67,15 +67,16 @@ def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found],
 
 
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
-    """Seconds predicted: panels of the fastest component over the window, and a few events for every play.
+    """Seconds predicted: panels of the vibrations as long as they must be resolved, and a few events for every play.
 
     A component fades with its damping, so a stiff link that is damped costs no more than a soft one.
     """
     case = case_of(spec, scene, "backlash" in carried)
-    fastest = motion.radians_to_see(case, motion.window(scene, case))
+    radians = motion.radians_to_see(case, motion.window(scene, case))
     plays = 1 + sum(spring.play > 0 for spring in case.train.springs)
-    rounds = _ROUNDS if motion.is_smooth(case) else 1.0
-    return 4e-3 + 2 * rounds * (2e-5 * fastest + 5e-3 * plays) * (1 + level / 2)
+    smooth = motion.is_smooth(case)
+    ringing = 2e-5 * float(radians.max(initial=1.0)) if smooth else 5e-5 * float(radians.sum())
+    return 4e-3 + 2 * (_ROUNDS if smooth else 1.0) * (ringing + 5e-3 * plays) * (1 + level / 2)
 
 
 ELASTIC: Solver[Drivetrain, TrainScene] = Solver(
