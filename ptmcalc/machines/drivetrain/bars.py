@@ -4,12 +4,13 @@ import math
 from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found
+from ptmcalc.contract.result import Found, of
 from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import Case
 from ptmcalc.machines.drivetrain.motion import Course, Readings, part_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.numerics.flow import FADED
+from ptmcalc.numerics.train.parts import Smooth
 
 _COMPARED = (0.7, 0.85)
 """How the runs beside the one that counts divide time, over its own stretches and panels."""
@@ -36,14 +37,16 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
     own: that of a stretch goes with the ninth power of its length, so stretches 0.7 and 0.85 times as long, or such
     multiples of two of it, have errors at least 25 and 4 times as large or as small, and two runs differ by nearly the
     larger error; 3 leaves room for errors of many stretches that add and cancel. Where a load agrees by chance, others
-    of its kind do not: those of forces, or those of motion. Added is what reading a signal may miss. What is largest at
-    the start is what the file says.
+    of its kind do not: those of forces, or those of motion. Added is what reading a signal may miss; where a motor gives
+    less torque than it could, as at its synchronous speed, forces miss as much as they would beside all of it, for they
+    are read from a speed that is known no better. What is largest at the start is what the file says.
     """
     own = motion.readings(spec, course)
     compared = [motion.readings(spec, other) for other in others]
     sizes = _sizes(own)
     apart = {name: max(differences) for name in own if (differences := _differences(name, own, compared))}
     shares = {force: _share(apart, sizes, force) for force in (True, False)}
+    idle = _idle(course, sizes)
     found = {}
     for name, (value, time) in own.items():
         at = {"time": time} if time is not None else {}
@@ -54,10 +57,20 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
         size = sizes[part_of(name)]
         bar = _MARGIN * apart[name]
         if time != 0:
-            bar = max(bar, _MARGIN * shares[_is_force(name)] * size) + _UNSEEN * size
+            bar = max(bar, _MARGIN * shares[_is_force(name)] * size) + _UNSEEN * (idle if _is_force(name) else 1.0) * size
         found[name] = Found(Estimate.within(value, bar), at)
     found["energy_residual"] = Found(Estimate.exact(course.ledger.residual))
     return found
+
+
+def at_end(spec: Drivetrain, name: str, course: Course, *others: Course) -> Estimate:
+    """Torque in a link or gear at the end of a run, with a bar as in `loads`."""
+    index = course.torque(name)
+    assert index is not None
+    values = [abs(float(one.record.last[index])) for one in (course, *others)]
+    apart = max(abs(value - values[0]) for value in values)
+    idle = _idle(course, _sizes(motion.readings(spec, course))) if course.smooth else 1.0
+    return Estimate.within(values[0], _MARGIN * apart + _UNSEEN * idle * max(course.largest(index)[0], values[0]))
 
 
 def _sizes(own: Readings) -> dict[tuple[str, str], float]:
@@ -67,6 +80,18 @@ def _sizes(own: Readings) -> dict[tuple[str, str], float]:
         if math.isfinite(value):
             sizes[part_of(name)] = max(sizes.get(part_of(name), 0.0), abs(value))
     return sizes
+
+
+def _idle(course: Course, sizes: dict[tuple[str, str], float]) -> float:
+    """What the torque curves of the motors could give over what they gave at most, at least 1."""
+    could = {
+        drive.name: stage.law.size
+        for drive in course.case.train.drives
+        for stage in drive.stages
+        if isinstance(stage.law, Smooth)
+    }
+    gave = {name: sizes.get(part_of(of("motor_torque_peak", name)), 0.0) for name in could}
+    return max([1.0, *(could[name] / gave[name] for name in could if gave[name] > 0)])
 
 
 def _differences(name: str, own: Readings, others: Iterable[Readings]) -> list[float]:

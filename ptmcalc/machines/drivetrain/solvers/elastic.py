@@ -51,17 +51,18 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
 
 def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found], end: float) -> dict[str, Found]:
     """Largest torques over those of the rigid train, and its torque at the end."""
-    course = motion.run(rigid(case_of(spec, scene, False)), end, TOLERANCES[0])
+    runs = bars.played(rigid(case_of(spec, scene, False)), end, TOLERANCES[0])
+    of_rigid = bars.loads(spec, *runs)
     found = {}
     for name in (*spec.links, *spec.gears):
-        index, peak = course.torque(name), loads.get(of("torque_peak", name))
-        if index is None or peak is None:
+        peak, whole = loads.get(of("torque_peak", name)), of_rigid.get(of("torque_peak", name))
+        if peak is None or whole is None:
             continue
-        steady, largest = abs(float(course.record.last[index])), course.largest(index)[0]
-        found[of("torque_steady", name)] = Found(Estimate.exact(steady))
-        if largest > 0:
-            one = peak.estimate
-            factor = Estimate(one.value / largest, one.low / largest, one.high / largest, one.numerical / largest)
+        found[of("torque_steady", name)] = Found(bars.at_end(spec, name, *runs))
+        one, part = peak.estimate, whole.estimate
+        if part.low > 0:
+            low, high = one.low / (part.high if one.low > 0 else part.low), one.high / part.low
+            factor = Estimate(one.value / part.value, low, high, one.numerical / part.low)
             found[of("dynamic_factor", name)] = Found(factor, peak.at)
     return found
 

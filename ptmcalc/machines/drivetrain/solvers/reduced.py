@@ -35,7 +35,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     for name in (*spec.links, *spec.gears):
         index = fine.torque(name)
         if index is not None:
-            loads[of("torque_steady", name)] = Found(Estimate.exact(abs(float(fine.record.last[index]))))
+            loads[of("torque_steady", name)] = Found(bars.at_end(spec, name, *runs))
             loads[of("dynamic_factor", name)] = Found(Estimate.exact(1.0))
     broken = motion.untrusted(spec, scene, fine, TOLERANCES[1])
     if broken is not None:
