@@ -61,6 +61,8 @@ WITHOUT_LEDGER: Mapping[str, str] = {
 }
 """Transients that keep no account of energy, and why."""
 
+DUST = 1e-12
+"""Of a number that should be 0, as a share of the largest one of its quantity."""
 OF_THE_RUN = {"energy_residual"}
 """Loads that say something of a run, not of the machine."""
 
@@ -177,7 +179,7 @@ def is_wrong(text: str, name: str = "case.yaml", tried: float | None = None) -> 
     for kind, spec, settled in found.settled[: len(found.report.scenes)]:
         said = f"{settled.plan.scene.label}: "
         runs = [*settled.runs, *beside(kind, spec, settled, most)]
-        wrong += [said + one for one in contradictions(runs)]
+        wrong += [said + one for one in contradictions(runs, _dust(kind, spec, settled))]
         wrong += [said + one for run in runs[len(settled.runs) :] for one in faulty(run)]
     return wrong
 
@@ -294,8 +296,11 @@ def beside(kind: AnyKind, spec: MachineSpec, settled: Settled, most: float) -> I
         yield Run(rung, result, widen(scene, spec, rung, result))
 
 
-def contradictions(runs: Iterable[Run]) -> list[str]:
-    """Loads of which two runs claim intervals without a common value: one of them must be wrong."""
+def contradictions(runs: Iterable[Run], dust: Mapping[str, float] | None = None) -> list[str]:
+    """Loads of which two runs claim intervals without a common value: one of them must be wrong.
+
+    `dust` is what rounding leaves of a load, which no estimate tells, in its own unit.
+    """
     found = []
     for one, other in itertools.combinations(runs, 2):
         for name in one.estimates.keys() & other.estimates.keys() - OF_THE_RUN:
@@ -303,9 +308,27 @@ def contradictions(runs: Iterable[Run]) -> list[str]:
             if math.isnan(a.value + b.value) and not (math.isinf(a.value) and math.isinf(b.value)):
                 continue  # `faulty` says so
             rounding = ROUNDING * (abs(a.value) + abs(b.value)) if math.isfinite(a.value + b.value) else 0.0
+            rounding += (dust or {}).get(name, 0.0)
             if max(a.low, b.low) > min(a.high, b.high) + rounding:
                 found.append(f"{name}: {_called(one)} says {_span(a)}, {_called(other)} {_span(b)}")
     return found
+
+
+def _dust(kind: AnyKind, spec: MachineSpec, settled: Settled) -> dict[str, float]:
+    """Of each load, rounding beside the largest number of its quantity in the scene, be it a load or a limit."""
+    quantities = {info.name: info.quantity for info in kind.loads_of(spec)}
+    largest: dict[Any, float] = {}
+
+    def met(name: str, value: float) -> None:
+        if math.isfinite(value):
+            largest[quantities[name]] = max(largest.get(quantities[name], 0.0), abs(value))
+
+    for name, one in settled.estimates.items():
+        met(name, one.value)
+    for ruling in settled.rulings:
+        if ruling.limit is not None:
+            met(ruling.check.loads[0], ruling.limit.value)
+    return {name: DUST * largest.get(quantity, 0.0) for name, quantity in quantities.items()}
 
 
 def _called(run: Run) -> str:
