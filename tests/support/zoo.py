@@ -57,14 +57,16 @@ WITHOUT_LEDGER: Mapping[str, str] = {
     "step_table": "a table as by hand, shown beside, never decides",
     "chain_run_through": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_run_through_near": "a sum over tooth passes, each in closed form: nothing is integrated",
+    "chain_start_teeth": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_breakaway": "a wave front in closed form: nothing is integrated",
 }
 """Transients that keep no account of energy, and why."""
 
 DUST = 1e-12
 """Of a number that should be 0, as a share of the largest one of its quantity."""
-OF_THE_RUN = {"energy_residual"}
-"""Loads that say something of a run, not of the machine."""
+OF_THE_RUN = {"energy_residual", "tension_polygon_bound"}
+"""Loads that say something of a run, not of the machine: what its ledger leaves over, and an upper bound that is as good
+as the run."""
 
 _EXPECT = re.compile(r"^# (expect|at most|tries): *(.*?) *$")
 _VERDICT = re.compile(r"(pass|fail|undecided|invalid)")
