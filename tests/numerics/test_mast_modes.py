@@ -46,6 +46,19 @@ class TestFrequencies:
     def test_over_a_base_that_rolls_c11(self) -> None:
         assert frequencies(C11, 1, 4000.0).values[0] == pytest.approx(21.0059, rel=3e-6)
 
+    @pytest.mark.parametrize("bending", [1e6, 1e12, 1e24])
+    @pytest.mark.parametrize("count", [4, 32])
+    def test_of_a_rigid_column_on_a_root_as_soft_as_a_feather(self, bending: float, count: int) -> None:
+        """It shifts and turns as a rigid body: m w^2 - k, m l/2 w^2; m l/2 w^2, m l^2/3 w^2 - k_t have no determinant.
+
+        The stiffness against bending, a trillion times that of the root, once took all digits of it.
+        """
+        mine = column(bending=bending, mass=3.0, length=2.0, root_translation=1e-3, root_rotation=2e-3)
+        mass, spring = np.array([[3.0, 3.0], [3.0, 4.0]]), np.diag([1e-3, 2e-3])
+        exact = np.sqrt(np.linalg.eigvals(np.linalg.solve(mass, spring)).real)
+        assert Mast.of(mine, count).frequencies[:2] == pytest.approx(np.sort(exact), rel=2e-8)
+        assert Mast.of(mine, count).gives(2.0, 2.0) == pytest.approx(1 / 1e-3 + 2.0**2 / 2e-3, rel=1e-5)
+
     @pytest.mark.parametrize("base", [1e-3, 1.0, 1e3])
     @pytest.mark.parametrize("pull", [0.0, 9.81, -9.81])
     def test_against_elements_of_another_hand(self, base: float, pull: float) -> None:

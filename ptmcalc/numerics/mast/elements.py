@@ -2,8 +2,10 @@
 
     K = int E I w''^2 + N w'^2,   M = int m w^2,   N(z) = pull (mass beyond z)
 
-The unknowns are the deflection beside the base and the slope at each node. What is rigid is left out of the unknowns,
-so a root as stiff as a wall costs no digits. The elements are conforming: their frequencies are never too low.
+The unknowns are the deflection beside the base and the slope of the root, and at each further node what they are beside
+a rigid column on that root. What is rigid is left out of the unknowns, so a root as stiff as a wall costs no digits; a
+root as soft as a feather costs none either, for a rigid column does not bend. The elements are conforming: their
+frequencies are never too low.
 """
 
 import itertools
@@ -25,14 +27,15 @@ _SAME = 1e-9
 class Elements:
     """A column as matrices over its free unknowns, shape (n,) and (n, n).
 
-    `places` of the nodes [m]; `stiffness` and `mass`; `carried` M 1: the momentum each unknown shares with the base;
+    `places` of the nodes [m]; `moves` deflections and slopes of the nodes by the unknowns, shape (2 nodes, n);
+    `stiffness` and `mass`; `carried` M 1: the momentum each unknown shares with the base;
     `total` mass of column, root and lumps [kg]. Along a rigid turn t about the root: `moment` t M 1 [kg m], `turned`
     t M, `righted` t (K - K_bending), what weights and props do against it.
     """
 
     column: Column
     places: FloatArray
-    free: tuple[int, ...]
+    moves: FloatArray
     stiffness: FloatArray
     mass: FloatArray
     carried: FloatArray
@@ -43,7 +46,7 @@ class Elements:
 
     def row(self, place: float) -> FloatArray:
         """The deflection at a node as a functional over the unknowns."""
-        return self._unit(2 * self.node(place))
+        return np.asarray(self.moves[2 * self.node(place)])
 
     def node(self, place: float) -> int:
         """The node at a place."""
@@ -51,12 +54,6 @@ class Elements:
         if abs(self.places[index] - place) > _SAME * self.column.length:
             raise NumericsError("NUM102", f"no node of the column is at {place:.6g} m")
         return index
-
-    def _unit(self, unknown: int) -> FloatArray:
-        row = np.zeros(len(self.free))
-        if unknown in self.free:
-            row[self.free.index(unknown)] = 1.0
-        return row
 
 
 def elements(column: Column, count: int, marks: tuple[float, ...] = ()) -> Elements:
@@ -84,30 +81,31 @@ def elements(column: Column, count: int, marks: tuple[float, ...] = ()) -> Eleme
     for prop in column.props:
         at_node = 2 * int(np.abs(places - prop.place).argmin())
         beside[at_node, at_node] += prop.stiffness
+    stiffness[:2], stiffness[:, :2] = 0.0, 0.0  # a column that moves rigidly with its root does not bend
     fixed = set()
     for unknown, spring in ((0, column.root_translation), (1, column.root_rotation)):
         if math.isinf(spring):
             fixed.add(unknown)
         else:
             stiffness[unknown, unknown] += spring
-    free = tuple(k for k in range(size) if k not in fixed)
-    along = np.zeros(size)
+    along, turning = np.zeros(size), np.zeros(size)
     along[::2] = 1.0
-    turning = np.zeros(size)
     turning[::2], turning[1::2] = places, 1.0
-    carried, cut = mass @ along, np.ix_(free, free)
-    chosen = list(free)
+    moves = np.eye(size)
+    moves[:, 0], moves[:, 1] = along, turning
+    chosen = [k for k in range(size) if k not in fixed]
+    moves, inertia = moves[:, chosen], mass @ along
     return Elements(
         column,
         places,
-        free,
-        (stiffness + beside)[cut],
-        mass[cut],
-        carried[chosen],
-        float(along @ carried),
-        float(turning @ carried),
-        (mass @ turning)[chosen],
-        (beside @ turning)[chosen],
+        moves,
+        stiffness[np.ix_(chosen, chosen)] + moves.T @ beside @ moves,
+        moves.T @ mass @ moves,
+        inertia @ moves,
+        float(along @ inertia),
+        float(turning @ inertia),
+        (mass @ turning) @ moves,
+        (beside @ turning) @ moves,
     )
 
 

@@ -154,12 +154,34 @@ def left_out(mast: Mast, base: float, place: float, kept: int, rise: float, forc
     base F is the acceleration of the base, g_k = p_k(place) L_k/w_k^2. A mode strays from what it would follow by no
     more than its share of the jump, or of the two kinks of the rise over its frequency; damping makes it less.
     """
+    values, pushed, shapes = _set_off(mast, base)
+    gains = (mast.elements.row(place) @ shapes) * pushed / values**2
+    return _strays(gains, values, kept, rise) * abs(force)
+
+
+def moment_left_out(mast: Mast, base: float, kept: int, rise: float, force: float) -> float:
+    """Bound of what modes that are taken to follow at once could still add to the moment at the root [N m].
+
+        sum_(k > kept) |h_k| F s_k,   h_k = t^T M p_k p_k^T M 1/m   (less (t^T M 1/m) p_k^T M 1 for t^T M p_k)
+
+    for the inertia forces of a mode on their arms t, in brackets beside a base that rolls; otherwise as `left_out`.
+    """
+    values, pushed, shapes = _set_off(mast, base)
+    turned = mast.elements.turned @ shapes
+    if math.isfinite(base):
+        turned = turned - mast.elements.moment / (mast.elements.total + base) * (mast.elements.carried @ shapes)
+    return _strays(turned * pushed, values, kept, rise) * abs(force)
+
+
+def _set_off(mast: Mast, base: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Frequencies, what each mode gets of an acceleration of a held base or of a force on one that rolls, shapes."""
     if math.isinf(base):
-        values, shapes = mast.frequencies, mast.shapes
-        gains = (mast.elements.row(place) @ shapes) * (mast.elements.carried @ shapes) / values**2
-    else:
-        values, shapes = mast.rolling(base)
-        gains = (mast.elements.row(place) @ shapes) * (mast.elements.carried @ shapes) / values**2
-        gains = gains / (mast.elements.total + base)
+        return mast.frequencies, mast.participation, mast.shapes
+    values, shapes = mast.rolling(base)
+    return values, np.asarray(mast.elements.carried @ shapes / (mast.elements.total + base)), shapes
+
+
+def _strays(gains: FloatArray, values: FloatArray, kept: int, rise: float) -> float:
+    """Sum of what modes beyond those kept may stray by, by their gains and the time in which it comes up."""
     strays = np.minimum(1.0, 2 / (values * rise)) if rise > 0 else np.ones(len(values))
-    return float(np.abs(gains[kept:]) @ strays[kept:]) * abs(force)
+    return float(np.abs(gains[kept:]) @ strays[kept:])

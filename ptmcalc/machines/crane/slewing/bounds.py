@@ -111,18 +111,19 @@ def _torques(
     if spec.motor.rated is not None:
         on = (times[0].low + steady.low, times[0].high + steady.high)
         off = (times[2].low + spec.cycle.pause, times[2].high + spec.cycle.pause)
-        shares = (on[0] / (on[0] + off[1]) if math.isfinite(off[1]) else 1e-9, on[1] / (on[1] + off[0]))
-        allowed = [
-            duty.permissible_torque(
-                spec.motor.rated,
-                spec.motor.rated_duty,
-                max(share, 1e-9),
-                rest_cooling=duty.REST_COOLING["self_ventilated"],
-            )
-            for share in shares
-        ]
-        found["heating_utilisation"] = Interval(heating.low / max(allowed), heating.high / min(allowed))
+        most = _allowed(spec, on[0] / (on[0] + off[1]) if on[0] > 0 else 0.0)
+        least = _allowed(spec, on[1] / (on[1] + off[0]))
+        found["heating_utilisation"] = Interval(heating.low / most, heating.high / least)
     return found
+
+
+def _allowed(spec: SlewingCrane, share: float) -> float:
+    """Torque that a motor bears which is on for so much of the time; any where it is never on [N*m]."""
+    motor, cooling = spec.motor, duty.REST_COOLING["self_ventilated"]
+    assert motor.rated is not None
+    if share == 0:
+        return math.inf
+    return duty.permissible_torque(motor.rated, motor.rated_duty, share, rest_cooling=cooling)
 
 
 def _times(one: Interval, factor: float) -> Interval:

@@ -12,7 +12,7 @@ from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.slewing import bounds, chain, model
 from ptmcalc.machines.crane.slewing.bounds import Loads, Offsets
 from ptmcalc.machines.crane.slewing.loads import OF_THE_SWING
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.machines.crane.slewing.solvers.consistent import found_of, start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.spec.scene import Scene
 
@@ -66,11 +66,8 @@ def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Of
     start, at_column, _ = start_of(spec, scene)
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     times = chain.phases(spec, (start, spec.speed * start / 2), stop)
-    if not math.isfinite(times.whole):
-        return {}
     one, other = (
-        chain.loads(spec, scene, times, chain.torques(spec, scene, at_column, by_direction=by), rounded=False)
-        for by in (False, True)
+        found_of(spec, scene, times, chain.torques(spec, scene, at_column, by_direction=by)) for by in (False, True)
     )
     return {
         name: Interval(min(other[name] - one[name], 0.0), max(other[name] - one[name], 0.0))

@@ -24,7 +24,7 @@ class Range:
     high: float
 
     def found(self, note: str = "") -> Found:
-        spread = self.high - self.low
+        spread = self.high - self.low if self.high > self.low else 0.0  # both may be infinite
         return Found(Estimate(self.value, self.low, self.high, model=spread), note=note)
 
 

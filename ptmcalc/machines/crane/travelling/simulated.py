@@ -157,6 +157,9 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
     length = motion.length - motion.hoisting * motion.hoist_time
     window = begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity)
     legs = _lengthened(tolerance, legs, window)
+    there = None if motion.ramp is not None else _there(motion, legs[-1].swing)
+    if there is not None:  # a longer run comes there at its own time: before it the crane moves, after it it does not
+        reached = legs[-1].start + there
     return _read(motion, legs, reached, begins, window)
 
 
@@ -187,13 +190,18 @@ def _reaching(
     reach = 1.3 * guess
     for _ in range(_DOUBLINGS):
         found = swing(case, reach, tolerance=tolerance)
-        for event in found.events:
-            there = (event.element == "drive" and event.after == "keep") if motion.starts else event.after == "rest"
-            if there and (motion.starts or event.element == "axis"):
-                return Leg(start, found, event.time)
+        there = _there(motion, found)
+        if there is not None:
+            return Leg(start, found, there)
         reach *= 2
     what = f"come to {until or motion.speed:.3g} m/s" if motion.starts else "come to rest"
     raise NumericsError("NUM103", f"the crane does not {what} by {reach / 2:.3g} s")
+
+
+def _there(motion: Motion, found: Swing) -> float | None:
+    """When a swing has come to full speed or rest."""
+    element, after = ("drive", "keep") if motion.starts else ("axis", "rest")
+    return next((event.time for event in found.events if (event.element, event.after) == (element, after)), None)
 
 
 def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:

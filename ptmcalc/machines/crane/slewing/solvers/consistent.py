@@ -44,10 +44,7 @@ def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool) -> 
     stop = model.stop(spec, scene)
     times = chain.phases(spec, (start, spec.speed * start / 2), stop or chain.allowed_stop(spec))
     at = chain.torques(spec, scene, at_column, by_direction=by_direction)
-    if math.isfinite(times.whole):
-        loads = dict(chain.loads(spec, scene, times, at, rounded=False))
-    else:
-        loads = endless(spec, scene, times, at)
+    loads = found_of(spec, scene, times, at)
     loads |= drive.of_drive(spec, scene, times, at) | ring.of_ring(spec, scene) | of_use(spec)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
     known = "the start time" if derived == "torque_start" else "the motor's torque"
@@ -65,7 +62,14 @@ def start_of(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, str
     return given, chain.start_torque(spec, scene, given), "torque_start"
 
 
-def endless(spec: SlewingCrane, scene: SlewingScene, times: chain.Phases, at: chain.Torques) -> dict[str, float]:
+def found_of(spec: SlewingCrane, scene: SlewingScene, times: chain.Phases, at: chain.Torques) -> dict[str, float]:
+    """The loads of the chain, those of an endless rotation too."""
+    if math.isfinite(times.whole):
+        return dict(chain.loads(spec, scene, times, at, rounded=False))
+    return _endless(spec, scene, times, at)
+
+
+def _endless(spec: SlewingCrane, scene: SlewingScene, times: chain.Phases, at: chain.Torques) -> dict[str, float]:
     """What is left to say of a rotation whose start or stop never ends."""
     return {
         "slew_inertia": model.slew_inertia(spec, scene),

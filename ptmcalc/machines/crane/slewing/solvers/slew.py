@@ -37,7 +37,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     loads = dict(chain.loads(spec, scene, moved.phases, at, rounded=False))
     loads |= drive.of_drive(spec, scene, moved.phases, at)
     bar = 10 * moved.bar
-    found = {name: Found(Estimate.within(value, bar * abs(value))) for name, value in loads.items()}
+    found = {name: Found(_told(value, bar)) for name, value in loads.items()}
     if moved.phases.start[0] == model.ramp(spec):
         found["start_time"] = Found(Estimate.exact(moved.phases.start[0]))
     for name, signal in _SIGNALS.items():
@@ -56,6 +56,11 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
         events=tuple(event for piece in moved.pieces for event in piece.events()),
         histories=lambda: _histories(moved),
     )
+
+
+def _told(value: float, share: float) -> Estimate:
+    """A number that may be off by a share of itself; a reserve over nothing is infinite whatever the share."""
+    return Estimate.within(value, share * abs(value)) if math.isfinite(value) else Estimate.exact(value)
 
 
 def _doubts(moved: Rotation) -> list[Finding]:

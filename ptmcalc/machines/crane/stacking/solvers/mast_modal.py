@@ -20,7 +20,7 @@ from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
-from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, wanted
+from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, wanted
 from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.spec.scene import Scene
 
@@ -187,8 +187,10 @@ def _times(one: Found, factor: float) -> Found:
 
 
 def _moment(fine: Played, coarse: Played) -> Found:
-    value, time = fine.course.largest("moment")
-    return Found(_bar(value, coarse.course.largest("moment")[0]), {"time": time})
+    moves, course = fine.moves, fine.course
+    value, time = course.largest("moment")
+    rest = moment_left_out(course.case.mast, moves.rolling, course.system.count, moves.rise, moves.jump)
+    return Found(_bar(value, coarse.course.largest("moment")[0], rest), {"time": time})
 
 
 def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
