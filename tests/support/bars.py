@@ -3,10 +3,11 @@
 A coverage test draws machines by number (`numbers`), has each put on trial (`tried`): what every way to compute it
 claims, what an independent witness or a run far finer and fuller finds, and what the ladder says of a machine whose
 limit stands within three bars of a claim. Of every way it then asks `misses` (none), `misses` of a third of the bars
-(some), `wide` (the bar over the true error, at most `WIDEST` in the median) and of all of them `opposites` (none).
+(some), `wide` (the bar over the true error of what checks read,
+at most `WIDEST` in the median) and of all of them `opposites` (none).
 
 A module that holds bars so says of which solvers and effects in `ON_TRIAL`; of those that claim no bar but rounding,
-for which a third of one means nothing, in `EXACT`. `tests/house/test_bars.py` finds the ones that nobody holds.
+for which a third of one means nothing, in `WITHOUT_BARS`. `tests/house/test_bars.py` finds the ones that nobody holds.
 """
 
 import math
@@ -64,11 +65,15 @@ class Limit:
 
 @dataclass(frozen=True)
 class Trial:
-    """A machine: what each way claims, what is exact, what the ladder says, and what is right."""
+    """A machine: what each way claims, what is exact, what the ladder says, and what is right.
+
+    `judged` are the families of loads that checks read.
+    """
 
     number: int
     near: bool
     spec: MachineSpec
+    judged: frozenset[str]
     claims: Mapping[str, Loads]
     truth: Loads
     said: tuple[Ruling, ...]
@@ -128,7 +133,8 @@ def tried(
         moved = _near(spec, claims, limits, rng)
         near, spec = moved is not None, moved or spec
     said = settle(kind, spec, plan_scene(kind, spec, scene)).rulings
-    return Trial(number, near, spec, claims, truth, said, judge(kind, spec, scene, truth))
+    judged = frozenset(family(load) for check in kind.checks for load in check.loads)
+    return Trial(number, near, spec, judged, claims, truth, said, judge(kind, spec, scene, truth))
 
 
 def _near(
@@ -197,9 +203,10 @@ def ratios(trials: Iterable[Trial], way: str, ignored: Iterable[str] = ()) -> di
     return found
 
 
-def wide(trials: Iterable[Trial], way: str, ignored: Iterable[str] = ()) -> float:
-    """The median bar over the true error of all its loads; 0 where no error counts."""
-    found = [ratio for family_ in ratios(trials, way, ignored).values() for ratio in family_]
+def wide(trials: Sequence[Trial], way: str, ignored: Iterable[str] = ()) -> float:
+    """The median bar over the true error of the loads that checks read; 0 where no error counts."""
+    judged = frozenset().union(*(trial.judged for trial in trials))
+    found = [ratio for load, some in ratios(trials, way, ignored).items() if load in judged for ratio in some]
     return median(found) if found else 0.0
 
 
