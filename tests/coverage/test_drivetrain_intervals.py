@@ -67,8 +67,8 @@ MORE_THAN_ROUNDING = {
 """Ways of which one has bars that are more than rounding on a sort of machines."""
 REFERENCE = 3e-9
 """What the independent integration is good for, as a share of the largest load of a kind."""
-POSITIONS = 1e-13
-"""How well it knows a position: ten times what it asks of its steps."""
+POSITIONS = 1e-12
+"""How well it knows a position, as a share of the way a train has turned: ten times what it asks of its steps."""
 SEED = 20261122
 ALWAYS = {"linear": 60, "play": 36, "motor": 30}
 SAMPLES = [
@@ -100,7 +100,8 @@ def _truth(data: dict[str, Any]) -> dict[str, Estimate]:
     found = loads_of(data)
     assert len(found) > 5
     stiffest = max(number(link["stiffness"]) for link in data["links"].values())
-    read = REFERENCE * 1e-3 + POSITIONS * stiffest
+    way = max(abs(value) for name, value in found.items() if family(name) == "angle_end")
+    read = REFERENCE * 1e-3 + POSITIONS * stiffest * (0.1 + way)
     return {name: Estimate.within(value, REFERENCE * _size(name, found) + read) for name, value in found.items()}
 
 
