@@ -282,6 +282,7 @@ def _smooth_history(machine: hybrid.Machine, end: float) -> hybrid.History:
     offset = np.concatenate([-stiffness * rest, np.zeros(len(of))])
     light = rows / np.sqrt(inertia)
     fastest = math.sqrt(float(np.linalg.eigvalsh(light.T @ (stiffness[:, None] * light)).max()))
+    quickest = max([fastest, *(frequency for torque in machine.torques for _, frequency, _ in torque.course.sines)])
     breaks = sorted({time for torque in machine.torques for time in torque.course.breaks if time < end} | {0.0, end})
     high, low = np.full(len(watched), -math.inf), np.full(len(watched), math.inf)
     for begin, stop in itertools.pairwise(breaks):
@@ -298,7 +299,7 @@ def _smooth_history(machine: hybrid.Machine, end: float) -> hybrid.History:
         run = solve_ivp(
             rates, (begin, stop), start, method="DOP853", rtol=1e-12, atol=1e-14, dense_output=True, max_step=step
         )
-        times = np.linspace(begin, stop, int(40 * fastest * (stop - begin)) + 20)
+        times = np.linspace(begin, stop, int(40 * quickest * (stop - begin)) + 20)
         seen = watched @ run.sol(times) + offset[:, None]
         for sign, best in ((1, high), (-1, low)):
             for k, value in enumerate(_summits(sign * seen)):

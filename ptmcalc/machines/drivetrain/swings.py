@@ -6,7 +6,12 @@ leaves out. From d0 at the start on
     d = d0 cos w t - p/w^2 int cos w(t - x) ds(x)
 
 so a jump of s leaves |p| jump/w^2, and a smooth part its variation, or a corner of slope |p| corner/w^3, whichever is
-less. A link torque, a speed, an angle is a weighted sum of modes.
+less. Of a sine s = A sin(W t + f) it leaves, with r = W^2/(w^2 - W^2),
+
+    d = p A/w^2 (r sin(W t + f) - r sin f cos w t - (1 + r) (W/w) cos f sin w t)
+
+and so never more than |p A|/w^2 (|r| + ((r sin f)^2 + ((1 + r) (W/w) cos f)^2)^(1/2)); near resonance its variation in
+the window is less. A link torque, a speed, an angle is a weighted sum of modes.
 
 Damping ties the modes together, but it never adds energy. After a step of s the deviation swings freely with the
 energy E = 1/2 sum (p s/w)^2 at most; after a corner of s' it does so round the lag b v of the dampers, with
@@ -22,7 +27,7 @@ import numpy as np
 
 from ptmcalc.machines.drivetrain.model import REACHED, Case
 from ptmcalc.numerics.train.parts import LINEAR, Drive, Train
-from ptmcalc.numerics.train.signals import FloatArray, Signal
+from ptmcalc.numerics.train.signals import FloatArray, Signal, Sine
 from ptmcalc.numerics.train.tree import Groups
 
 _QUIET = 1e-9
@@ -51,6 +56,45 @@ class _Course:
     reach: float
     """most it departs from its first value"""
     steepest: float
+    sines: tuple[tuple[Sine, float], ...] = ()
+    """each with its turns in the window [rad]; not in `variation` and `corners`"""
+
+    @property
+    def every_variation(self) -> float:
+        """Variation with that of the sines."""
+        return self.variation + sum(_sine_variation(sine, turned) for sine, turned in self.sines)
+
+    @property
+    def every_corner(self) -> float:
+        """Corners with those of the sines."""
+        return self.corners + sum(_sine_corners(sine, turned) for sine, turned in self.sines)
+
+    def stray(self, frequencies: FloatArray) -> FloatArray:
+        """Most that the course leaves of a mode beside its quasi-static part, over that part of a torque of 1."""
+        found: FloatArray = self.jumps + np.minimum(self.variation, self.corners / frequencies)
+        for sine, turned in self.sines:
+            most = np.minimum(_sine_variation(sine, turned), _sine_corners(sine, turned) / frequencies)
+            found = found + np.minimum(most, _forced(sine, frequencies))
+        return found
+
+
+def _sine_variation(sine: Sine, turned: float) -> float:
+    return abs(sine.size) * (2 + 2 / math.pi * turned)
+
+
+def _sine_corners(sine: Sine, turned: float) -> float:
+    return abs(sine.size) * sine.frequency * (3 + 2 / math.pi * turned)
+
+
+def _forced(sine: Sine, frequencies: FloatArray) -> FloatArray:
+    """The largest swing under a sine, the forced and the free one together; infinite in resonance."""
+    apart = frequencies**2 - sine.frequency**2
+    in_step = np.abs(apart) <= _TIED * frequencies**2
+    share = sine.frequency**2 / np.where(in_step, 1.0, apart)
+    quick = sine.frequency / frequencies
+    free = np.hypot(share * math.sin(sine.phase), (1 + share) * quick * math.cos(sine.phase))
+    found: FloatArray = np.where(in_step, math.inf, abs(sine.size) * (np.abs(share) + free))
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +197,7 @@ def _amplitudes(
     w, shapes = modes.frequencies, np.abs(modes.shapes)
     stray, reach, rate = np.abs(start), np.abs(start), np.zeros(len(w))
     for push, course in zip(np.abs(along) / w**2, courses, strict=True):
-        stray = stray + push * (course.jumps + np.minimum(course.variation, course.corners / w))
+        stray = stray + push * course.stray(w)
         reach, rate = reach + push * course.reach, rate + push * course.steepest
     return np.abs(modes.torques) @ (w * stray), shapes.T @ (w * stray + rate), shapes.T @ (stray + reach)
 
@@ -178,7 +222,7 @@ def _energies(
         dampers = damping * (modes.torques @ (push / w)) / stiffness
         step = math.sqrt(float((push / w) @ (push / w)))
         corner = math.sqrt(float((push / w**2) @ (push / w**2) + dampers**2 @ (1 / stiffness)))
-        size += step * course.jumps + min(step * course.variation, corner * course.corners)
+        size += step * course.jumps + min(step * course.every_variation, corner * course.every_corner)
         reach, rate = reach + np.abs(push) / w**2 * course.reach, rate + np.abs(push) / w**2 * course.steepest
         lag = lag + np.abs(modes.torques.T @ (dampers / stiffness)) / w * course.steepest
     links = size * np.sqrt(stiffness + damping**2 * lightness)
@@ -218,10 +262,10 @@ def _course(signal: Signal, end: float) -> _Course:
         if k + 1 in inside:
             jumps += abs(signal.values[k + 1] - last)
             corners += abs(signal.slopes[k + 1] - signal.slopes[k])
+    sines = []
     for sine in signal.sines:
         size, turned = abs(sine.size), sine.frequency * end
         first += sine.size * math.sin(sine.phase)
-        variation += size * (2 + 2 / math.pi * turned)
-        corners += size * sine.frequency * (3 + 2 / math.pi * turned)
+        sines.append((sine, turned))
         reach, steepest = reach + 2 * size, steepest + size * sine.frequency
-    return _Course(first, jumps, variation, corners, reach, steepest)
+    return _Course(first, jumps, variation, corners, reach, steepest, tuple(sines))
