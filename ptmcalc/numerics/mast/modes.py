@@ -163,3 +163,16 @@ def left_out(mast: Mast, base: float, place: float, kept: int, rise: float, forc
         gains = gains / (mast.elements.total + base)
     strays = np.minimum(1.0, 2 / (values * rise)) if rise > 0 else np.ones(len(values))
     return float(np.abs(gains[kept:]) @ strays[kept:]) * abs(force)
+
+
+def speed_left_out(mast: Mast, base: float, kept: int, rise: float, force: float) -> float:
+    """Bound of what the same modes could still add to the speed of a base that rolls [m/s].
+
+        F/m^2 sum_(k > kept) L_k^2/w_k s_k,   s_k = min(1, 2/(w_k rise))
+
+    as m x'' = F - sum L_k q_k'' and q_k'' = -(L_k F/m) cos(w_k t) under a force F that comes at once.
+    """
+    values, shapes = mast.rolling(base)
+    strays = np.minimum(1.0, 2 / (values * rise)) if rise > 0 else np.ones(len(values))
+    shares = (mast.elements.carried @ shapes) ** 2 / values * strays
+    return float(shares[kept:].sum()) * abs(force) / (mast.elements.total + base) ** 2
