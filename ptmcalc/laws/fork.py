@@ -52,6 +52,41 @@ def push_bound(force: float, stiffness: float, support: float, mass: float, spee
     return force + math.hypot(force, force * math.sqrt(stiffness / support), speed * math.sqrt(stiffness * mass))
 
 
+def push_least(force: float, stiffness: float, support: float, mass: float, carriage: float, speed: float) -> float:
+    """Least that a fork pushes at its hardest, on a carriage that leans on the mast.
+
+        F^2 - 2 P F + 4 (K/c) F (F - P) >= K m v^2               while  m/M <= 1 - P/F,   else
+        F^2 - 2 P F + (K/c) (F (1 + m/M) - P)^2 M/m >= K m v^2
+
+    Args:
+        force: P, of the drive at the fork, constant [N].
+        stiffness: K, of the rack alone [N/m].
+        support: c, of the mast at the height of the fork; infinite for a rigid one [N/m].
+        mass: m, of drive and fork, reduced to the travel of the fork over the carriage [kg].
+        carriage: M, of all that is pushed back [kg].
+        speed: v, as it touches [m/s].
+
+    Returns:
+        a bound of the largest F from below, not under P [N].
+
+    **Range** a drive of constant force, without a clutch; a carriage at rest before.
+    **Error** a bound; exact for a rigid mast.
+    **Source** derived. Until F first falls it has only risen, so that the carriage z strays from F/c by no more than
+    that: z^2 + (z'/w)^2 <= 2 z F/c, w^2 = c/M. Where F is largest s' = z', and what the energy of the fork,
+    F^2/(2 K) = m v^2/2 + P (F/K + z) - m z'^2/2 - c (z^2 + (z'/w)^2)/2, loses to the carriage is at most
+    z (F (1 + m/M) - P) - (m/M) c z^2/2, largest at z = 2 F/c or before.
+    """
+    share, drawn = stiffness / support, speed * math.sqrt(stiffness * mass)
+    middle = (1 + 2 * share) * force
+    least = (middle + math.hypot(middle, drawn * math.sqrt(1 + 4 * share))) / (1 + 4 * share)
+    ratio = mass / carriage
+    if ratio > 1 - force / least:
+        whole = 1 + share / ratio * (1 + ratio) ** 2
+        root = math.hypot(force * math.sqrt(1 + 2 * share + share / ratio), drawn * math.sqrt(whole))
+        least = (force * (1 + share * (1 + 1 / ratio)) + root) / whole
+    return max(least, force)
+
+
 def clutch_push(force: float, stiffness: float, mass: float, speed: float) -> float:
     """Force of a fork whose clutch slips.
 

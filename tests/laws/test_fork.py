@@ -120,6 +120,8 @@ def test_bound_of_a_push(seed: int) -> None:
     bound = fork.push_bound(one.force, one.stiffness, one.behind, one.drive, one.speed)
     pushed = one.largest(caught=False)[0]
     assert bound / 3 < pushed <= bound
+    least = fork.push_least(one.force, one.stiffness, one.behind, one.drive, one.carriage, one.speed)
+    assert one.force <= least <= pushed * (1 + 1e-6)
 
 
 def test_limits_of_the_bounds() -> None:
@@ -128,6 +130,8 @@ def test_limits_of_the_bounds() -> None:
     assert fork.caught_bound(2e4, 1.5e4, 9e5, math.inf, 9e3, 0.0, 0.3) == pytest.approx(closed, rel=1e-14)
     pushed = fork.push_force(4e3, 5e5, 300.0, 0.4)
     assert fork.push_bound(4e3, 5e5, math.inf, 300.0, 0.4) == pytest.approx(pushed, rel=1e-14)
+    for carriage in (10.0, 1e4):
+        assert fork.push_least(4e3, 5e5, math.inf, 300.0, carriage, 0.4) == pytest.approx(pushed, rel=1e-14)
 
 
 def test_catching_number() -> None:

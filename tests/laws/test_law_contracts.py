@@ -685,6 +685,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     rail.resonance_speed: [(7.0, 1.2)],
     fork.push_force: [(4e3, 5e5, 300.0, 0.4)],
     fork.push_bound: [(4e3, 5e5, 8e5, 300.0, 0.4)],
+    fork.push_least: [(4e3, 5e5, 8e5, m, 1600.0, 0.4) for m in (300.0, 3e4)],
     fork.clutch_push: [(4e3, 5e5, 80.0, 0.4)],
     fork.caught_force: [(34e3, 15696.0, 9e5, 9e3, 0.3)],
     fork.soft_caught_force: [(15696.0, 9e5, 9e3, 0.3, h) for h in (0.0, 4e4, 3e5)],

@@ -555,3 +555,12 @@ class TestBars:
         times, values = found.history(("along", "tension"))
         assert np.all(np.diff(times) >= 0)
         assert values.shape == (2, len(times))
+
+
+def test_a_ramp_that_ends_at_rest_does_not_jump_by_its_rounding() -> None:
+    """(v - a t) at t = v/a is 0 but for the rounding of v; a real step, be it a millionth of v, is a jump."""
+    rng = np.random.default_rng(2011)
+    for speed, ramp in zip(rng.uniform(0.1, 5.0, 200).tolist(), rng.uniform(0.02, 3.0, 200).tolist(), strict=True):
+        assert not Pieces.through(((0.0, speed), (speed / ramp, 0.0))).jumps
+        assert not Pieces.through(((0.0, 0.0), (speed / ramp, speed))).jumps
+        assert Pieces((0.0, speed / ramp), ((speed, -ramp), (1e-6 * speed,))).jumps

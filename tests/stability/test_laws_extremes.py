@@ -1062,6 +1062,7 @@ FINITE: dict[str, tuple[Callable[..., Any], Callable[[Draw], tuple[Any, ...]]]] 
     "resonance_speed": (rail.resonance_speed, lambda d: tuple(d.positive(2))),
     "push_force": (fork.push_force, lambda d: tuple(d.positive(4))),
     "push_bound": (fork.push_bound, lambda d: tuple(d.positive(5))),
+    "push_least": (fork.push_least, lambda d: tuple(d.positive(6))),
     "clutch_push": (fork.clutch_push, lambda d: tuple(d.positive(4))),
     "caught_force": (fork.caught_force, lambda d: tuple(d.positive(5))),
     "soft_caught_force": (fork.soft_caught_force, lambda d: tuple(d.positive(5))),

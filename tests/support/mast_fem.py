@@ -275,3 +275,37 @@ def clamped_root(mass_ratio: float, mode: int = 1) -> float:
             if found == mode:
                 return float(brentq(value, low, low + step, xtol=1e-15))
         low += step
+
+
+def first_at_speed(witness: Witness, force: float, speed: float, rise: float = 0.0) -> float:
+    """When a base that rolls, pushed from rest by a force that comes at once or in a straight line, first has a speed:
+    the sum over all modes of the elements, without damping, looked at in steps of the fastest mode that matters."""
+    squares, shapes = eigh(witness.k, witness.m)
+    own = shapes[0] ** 2
+    w = np.sqrt(np.maximum(squares, 0.0))
+    w[0] = 0.0
+
+    def gained(t: Array) -> Array:
+        """Speed by a force of 1 N that comes at once, or its mean over the rise."""
+        t = np.maximum(t, 0.0)[:, None]
+        return own[0] * t[:, 0] + np.sum(own[1:] * np.sin(w[1:] * t) / w[1:], axis=1)
+
+    def summed(t: Array) -> Array:
+        """Its integral from 0 on."""
+        t = np.maximum(t, 0.0)[:, None]
+        return own[0] * t[:, 0] ** 2 / 2 + np.sum(own[1:] * 2 * np.sin(w[1:] * t / 2) ** 2 / w[1:] ** 2, axis=1)
+
+    def v(t: Array) -> Array:
+        return force * ((summed(t) - summed(t - rise)) / rise if rise else gained(t))
+
+    total = 1 / own[0]
+    step = 0.02 * min(2 * math.pi / w[min(8, len(w) - 1)], total * speed / force + rise)
+    begin = 0.0
+    for _ in range(10_000):
+        times = begin + step * np.arange(401)
+        beyond = np.flatnonzero(v(times) >= speed)
+        if len(beyond):
+            at = times[beyond[0]]
+            return float(brentq(lambda t: float(v(np.array([t]))[0]) - speed, at - step, at, xtol=1e-14, rtol=1e-13))
+        begin = times[-1]
+    raise AssertionError("the base does not come to its speed")

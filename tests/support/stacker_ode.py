@@ -117,17 +117,18 @@ class Caught:
     def _top(run: Any, of: Callable[[State], Any]) -> float:
         """Largest value of a signal in a phase: the best of many samples, again and again between its neighbours."""
         low, high = run.t[0], run.t[-1]
-        for _ in range(6):
-            times = np.linspace(low, high, 401)
+        for count in (max(401, 40 * len(run.t)), *5 * (401,)):  # of many peaks alike the tallest
+            times = np.linspace(low, high, count)
             values = of(run.sol(times))
             k = int(np.argmax(values))
-            low, high = times[max(k - 1, 0)], times[min(k + 1, 400)]
+            low, high = times[max(k - 1, 0)], times[min(k + 1, count - 1)]
         return float(values.max())
 
 
 def pushed(mass: float, carriage: float, rack: float, support: float, speed: float, force: float, end: float) -> float:
     """Largest force of a fork on the rack whose carriage leans on a spring; the fork may leave the rack."""
     y, t, touched, best = np.array([0.0, 0.0, speed, 0.0]), 0.0, True, 0.0
+    longest = 0.3 / math.sqrt(rack / mass + (rack + support) / carriage)  # its peaks are read between the steps
 
     while t < end:
 
@@ -136,7 +137,8 @@ def pushed(mass: float, carriage: float, rack: float, support: float, speed: flo
             return [y[2], y[3], (force - push) / mass, (push - support * y[1]) / carriage]
 
         leaves = _crossing(lambda y: float(y[0] - y[1]), -1 if touched else 1)
-        run = solve_ivp(rate, (t, end), y, method="DOP853", rtol=_RTOL, atol=_ATOL, events=leaves, dense_output=True)
+        run = solve_ivp(rate, (t, end), y, method="DOP853", rtol=_RTOL, atol=_ATOL, events=leaves, dense_output=True,
+                        max_step=longest)  # fmt: skip
         if touched:
             best = max(best, Caught._top(run, lambda y: rack * (y[0] - y[1])))
         t, y, touched = float(run.t[-1]), run.y[:, -1].copy(), not touched

@@ -173,6 +173,17 @@ def moment_left_out(mast: Mast, base: float, kept: int, rise: float, force: floa
     return _strays(turned * pushed, values, kept, rise) * abs(force)
 
 
+def speed_left_out(mast: Mast, base: float, kept: int, rise: float, force: float) -> float:
+    """Bound of what the same modes could still add to the speed of a base that rolls [m/s].
+
+        F/m^2 sum_(k > kept) L_k^2/w_k s_k,   s_k as in `left_out`
+
+    as m x'' = F - sum L_k q_k'' and q_k'' = -(L_k F/m) cos(w_k t) under a force F that comes at once.
+    """
+    values, pushed, _ = _set_off(mast, base)
+    return _strays(pushed**2 / values, values, kept, rise) * abs(force)
+
+
 def _set_off(mast: Mast, base: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Frequencies, what each mode gets of an acceleration of a held base or of a force on one that rolls, shapes."""
     if math.isinf(base):

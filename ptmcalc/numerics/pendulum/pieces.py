@@ -123,10 +123,12 @@ class Pieces:
 
     @property
     def jumps(self) -> bool:
-        """Whether it is not continuous (rounding apart)."""
+        """Whether it is not continuous (rounding apart: that of the terms, which may come to nothing in the end)."""
         for index, (start, end) in enumerate(pairwise(self.starts)):
-            before, after = float(_value(self.coefficients[index], end - start)), self.coefficients[index + 1][0]
-            if abs(after - before) > 1e-9 * max(abs(before), abs(after)):
+            row, lasts = self.coefficients[index], end - start
+            before, after = float(_value(row, lasts)), self.coefficients[index + 1][0]
+            size = max(abs(after), *(abs(one) * lasts**k for k, one in enumerate(row)))
+            if abs(after - before) > 1e-9 * size:
                 return True
         return False
 

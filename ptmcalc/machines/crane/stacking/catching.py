@@ -189,6 +189,13 @@ class Push:
         """Bound of the force, whatever the carriage weighs [N]."""
         return fork.push_bound(self.force, self.rack, self.support, self.mass, self.speed)
 
+    @property
+    def least(self) -> float:
+        """What the largest force reaches in any case; only that of the clutch where one slips [N]."""
+        if self.clutch:
+            return self.force
+        return fork.push_least(self.force, self.rack, self.support, self.mass, self.carriage_mass, self.speed)
+
     def train(self) -> Train:
         """Drive, rack and carriage on its column; with a slip clutch the motor keeps its speed before it."""
         bodies = [Body(DRIVE, self.mass, 0.0, self.speed), Body(CARRIAGE, self.carriage_mass)]

@@ -215,16 +215,18 @@ def yield_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
 def yield_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
     """What a column that gives way can change; nothing for a rigid one.
 
-        P <= F <= P + (P^2 (1 + K_r/c) + K_r m v^2)^(1/2)
+        F_low <= F <= P + (P^2 (1 + K_r/c) + K_r m v^2)^(1/2)
+
+    F_low is what the carriage leaves of it at most, of a clutch P: the drive does not stop before the rack brings it.
 
     **Range** the force of a pushing fork, with motor or clutch.
-    **Error** a bound for every mass of the carriage: the drive does not stop before the rack brings its force.
-    **Source** `laws.fork.push_bound`.
+    **Error** a bound; both ends meet on a rigid column.
+    **Source** `laws.fork.push_least`, `push_bound`.
     """
     case, force = push_of(spec, scene), loads.get("fork_push_force")
     if force is None or math.isinf(case.support):
         return {}
-    offset = Interval(min(case.force - force.low, 0.0), max(case.most - force.high, 0.0))
+    offset = Interval(min(case.least - force.low, 0.0), max(case.most - force.high, 0.0))
     bounds = bounds_of_derived(spec, scene, loads, {"fork_push_force": offset})
     return {name: one for name, one in bounds.items() if name in loads}
 

@@ -20,7 +20,7 @@ from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
-from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, wanted
+from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.spec.scene import Scene
 
@@ -41,6 +41,8 @@ _BLOW = 1.5
 """Periods of everything against the column in which a collision is looked at."""
 _COMPARED = 0.7
 """Panels of the run that a bar is found with, over the usual ones."""
+_SOON = 1.1
+"""Times that of a base by which one that has a little more speed to win will have it too."""
 _DOUBLINGS = 5
 _FREQUENCIES = 16
 
@@ -207,12 +209,45 @@ def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str
     word = "at speed" if isinstance(scene, Start) else "at rest"
     time, other = (one.course.first("base", word) for one in (fine, coarse))
     if math.isfinite(time) and math.isfinite(other):
-        found[name] = Found(_bar(time, other))
+        found[name] = Found(_first_time(fine, word, time, other))
     elif math.isinf(time) and math.isinf(other):
         found[name] = Found(Estimate.exact(math.inf))
     else:
         found[name] = Found(Estimate.unknown(time))
     return found
+
+
+def _first_time(fine: Played, word: str, time: float, other: float) -> Estimate:
+    """When the base first has its speed, or first stands.
+
+    What the modes left out may add to its speed is at most V (`speed_left_out`): it is there no sooner than a base that
+    has V less to go, and no later than one that has V more. Two runs more tell when those are; they count beside the
+    difference to half as many modes, which by chance may be nothing.
+    """
+    moves, course = fine.moves, fine.course
+    known = _bar(time, other)
+    jolt = speed_left_out(course.case.mast, moves.base.mass, course.system.count, moves.rise, moves.jump)
+    low, high = (_time_of(fine, word, time, more) for more in (-jolt, jolt))
+    low, high = known.low - max(time - low, 0.0), known.high + max(high - time, 0.0)
+    return Estimate(time, max(low, 0.0), high, numerical=max(time - low, high - time))
+
+
+def _time_of(fine: Played, word: str, time: float, more: float) -> float:
+    """When a base first has its speed, or first stands, that has so much more speed to win or to lose [s]."""
+    moves, course = fine.moves, fine.course
+    base, (grip,) = moves.base, moves.base.grips
+    if base.speed:
+        speed = base.speed + more
+        base = replace(base, speed=max(speed, 0.0))
+    else:
+        speed = grip.speed + more
+        base = replace(base, grips=(replace(grip, speed=max(speed, 0.0)),))
+    if speed <= 0:
+        return 0.0
+    case = replace(course.case, base=base)
+    soon = min(time * _SOON + _SOON * abs(more) * course.system.total / moves.jump, course.record.time)
+    found = play(case, soon).first("base", word)
+    return found if math.isfinite(found) else play(case, course.record.time).first("base", word)
 
 
 def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
