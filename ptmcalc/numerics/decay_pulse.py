@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.distinct import distinct
 from ptmcalc.numerics.exponentials import differences
 from ptmcalc.numerics.free_motion import free_motion
 
@@ -126,7 +127,7 @@ class DecayPulse:
         length = _CHUNK * self._stretch
         crest = self._crest
         beside = self._places(crest - length / 2, crest + length / 2) if self.duration > length else np.empty(0)
-        places = np.unique(np.concatenate([self._decades, beside, self._places(0.0, length)]))
+        places = distinct(np.concatenate([self._decades, beside, self._places(0.0, length)]))
         best, begin = self._better(Summit(0.0, 0.0, 0.0), places), 0.0
         for chunk in range(_MOST_CHUNKS):
             if chunk > 0:
