@@ -10,8 +10,8 @@ counted in tests/house/test_imports.py, which is the gate. Beside other work on 
 
 `import pydantic` alone loads next to nothing; its first model, which no design file can be read without, and the first
 option of a command, which typer reads with pydantic, cost half as much as all the imports together: the first ratio has
-a floor of 1.5. Of the other 0.4 a third is the kind (models, effects, checks), a third what every kind shares (contract,
-engine, report, 120 dataclasses), a third the rest: numerics of closed forms, YAML, laws.
+a floor of 1.5. Of the other 0.4 a third is the kind (models, effects, checks), a third what every kind shares (engine,
+report, 120 dataclasses), a third the rest: numerics of closed forms, YAML, laws.
 """
 
 import os
