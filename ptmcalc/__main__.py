@@ -1,6 +1,6 @@
 """`python -m ptmcalc` is the command line."""
 
-from ptmcalc.cli.app import main
+from ptmcalc.cli.start import main
 
 if __name__ == "__main__":
     main()

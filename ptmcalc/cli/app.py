@@ -31,8 +31,9 @@ app = typer.Typer(
     name="ptmcalc",
     help="Design check for material-handling machines: dynamic loads and pass/fail checks from a YAML description.",
     no_args_is_help=True,
+    rich_markup_mode=None,  # help as plain text: the frames would import three times as much as all of typer
     pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 120},
 )
 
 app.command()(decode)
@@ -197,7 +198,7 @@ def check(
     """
     from ptmcalc.contract.report import exit_status
     from ptmcalc.engine.check import Options, check_paths
-    from ptmcalc.report import Format, histories
+    from ptmcalc.report import Format
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
@@ -206,8 +207,11 @@ def check(
     reports = counted(check_paths(paths, options))
     for target, name in files:
         _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))
-    for name in courses:
-        _write(Path(name), histories.render(reports))
+    if courses:
+        from ptmcalc.report import histories
+
+        for name in courses:
+            _write(Path(name), histories.render(reports))
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     say(_rendered(chosen, reports, verbose, to_terminal=terminal))

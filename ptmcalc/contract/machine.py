@@ -40,7 +40,7 @@ def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
 class MachineKind(Generic[S]):
     """A kind of machine: its spec, its loads, and the effects, solvers and checks that work on it.
 
-    `template` is a commented design file that passes `check`. `inspect` notes values that disagree.
+    `starting` reads a commented design file that passes `check`. `inspect` notes values that disagree.
     """
 
     name: str
@@ -50,7 +50,7 @@ class MachineKind(Generic[S]):
     effects: tuple[AnyEffect, ...]
     solvers: tuple[AnySolver, ...]
     checks: tuple[AnyCheck, ...]
-    template: str
+    starting: Callable[[], str]
     assumptions: tuple[Assumption[S], ...] = ()
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
     tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
@@ -77,6 +77,11 @@ class MachineKind(Generic[S]):
         return self.types or (self,)
 
     @property
+    def template(self) -> str:
+        """The commented design file to start from."""
+        return self.starting()
+
+    @property
     def label(self) -> str:
         """The kind in words, with its type."""
         return f"{self.name} {self.type}".strip()
@@ -101,6 +106,17 @@ class MachineKind(Generic[S]):
 AnyKind = MachineKind[Any]
 
 
+def template_in(package: str) -> Callable[[], str]:
+    """The `template.yaml` in the folder of a kind, read when somebody asks for it: no check of a file does."""
+
+    def read() -> str:
+        from importlib import resources
+
+        return resources.files(package).joinpath("template.yaml").read_text("utf-8")
+
+    return read
+
+
 def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
     """A kind whose files choose one of several types of machine, each with a manifest of its own.
 
@@ -115,7 +131,7 @@ def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
         effects=_once(effect for one in types for effect in one.effects),
         solvers=_once(solver for one in types for solver in one.solvers),
         checks=_once(check for one in types for check in one.checks),
-        template=types[0].template,
+        starting=types[0].starting,
         types=types,
     )
 

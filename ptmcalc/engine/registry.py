@@ -6,7 +6,7 @@ A kind is a package in `ptmcalc.machines` that defines `KIND`, or an entry point
 import pkgutil
 from collections.abc import Mapping
 from functools import cache
-from importlib import import_module, metadata
+from importlib import import_module
 
 from ptmcalc import machines
 from ptmcalc.base.errors import UsageError
@@ -17,19 +17,26 @@ _GROUP = "ptmcalc.machines"
 
 def kind_names() -> tuple[str, ...]:
     """Names of all installed kinds, sorted."""
-    return tuple(sorted(_places()))
+    return tuple(sorted({*_theirs(), *_ours()}))
 
 
 @cache
-def _places() -> Mapping[str, str]:
-    """Where each kind's manifest is: `module:attribute`."""
-    ours = {
+def _ours() -> Mapping[str, str]:
+    """Where the manifest of each of our kinds is: `module:attribute`."""
+    return {
         module.name: f"{machines.__name__}.{module.name}:KIND"
         for module in pkgutil.iter_modules(machines.__path__)
         if module.ispkg
     }
-    theirs = {entry.name: entry.value for entry in metadata.entry_points(group=_GROUP)}
-    return theirs | ours
+
+
+@cache
+def _theirs() -> Mapping[str, str]:
+    """Where those of other packages are. To read what all installed packages announce takes as long as to import
+    numpy, so this is asked only where ours do not do."""
+    from importlib import metadata
+
+    return {entry.name: entry.value for entry in metadata.entry_points(group=_GROUP)}
 
 
 def load_kind(name: str) -> AnyKind:
@@ -38,7 +45,7 @@ def load_kind(name: str) -> AnyKind:
     Raises:
         UsageError: no such kind, or its package does not define a manifest of its own name.
     """
-    place = _places().get(name)
+    place = _ours().get(name) or _theirs().get(name)
     if place is None:
         raise UsageError(f"no machine kind is called `{name}`", f"kinds: {', '.join(kind_names())}")
     module, _, attribute = place.partition(":")

@@ -5,6 +5,7 @@ the motor is turned against its field (counter-current braking).
 """
 
 import math
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -255,7 +256,11 @@ def kloss_slip(
     return np.asarray(breakdown_slip * m / ((above + below) / 2 + np.sqrt(above) * np.sqrt(below)))
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+@cache
+def _gauss() -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights of a quadrature, made when they are asked for: numpy.polynomial takes a while to import."""
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    return nodes, weights
 
 
 def mean_kloss_torque(
@@ -282,9 +287,10 @@ def mean_kloss_torque(
     """
     ends = math.asinh(from_slip / breakdown_slip), math.asinh(to_slip / breakdown_slip)
     panels = max(math.ceil(2 * abs(ends[1] - ends[0])), 1)
+    nodes, node_weights = _gauss()
     edges = np.linspace(*ends, panels + 1)
-    u = ((edges[1:] + edges[:-1])[:, None] + np.diff(edges)[:, None] * _NODES) / 2
-    weights = np.cosh(u) * _WEIGHTS
+    u = ((edges[1:] + edges[:-1])[:, None] + np.diff(edges)[:, None] * nodes) / 2
+    weights = np.cosh(u) * node_weights
     torque = kloss(breakdown_slip * np.sinh(u), breakdown_torque, breakdown_slip, stator_ratio)
     return float(np.sum(torque * (weights / np.sum(weights))))
 

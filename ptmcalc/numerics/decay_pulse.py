@@ -12,12 +12,14 @@ exponents, critical damping, no spring) nor in short times.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.exponentials import differences
+from ptmcalc.numerics.distinct import distinct
+from ptmcalc.numerics.exponentials import differences, grown
 from ptmcalc.numerics.free_motion import free_motion
 
 FloatArray = NDArray[np.float64]
@@ -76,7 +78,7 @@ class DecayPulse:
         Returns:
             x [m] and x' [m/s].
 
-        **Error** rounding, eps (10 + w t) of the largest deflection.
+        **Error** rounding, eps (10 + 3 w t) of the largest deflection.
         **Source** module docstring; after the pulse the free motion from its end.
         """
         t = np.asarray(time, float)
@@ -87,9 +89,10 @@ class DecayPulse:
         if count == len(rising):
             x, v = self._during(rising)
         else:
-            before = self._during(np.append(rising[:count], self.duration))
+            there = count > 0 and rising[count - 1] == self.duration
+            before = self._during(rising[:count] if there else np.append(rising[:count], self.duration))
             after = self._after(float(before[0][-1]), float(before[1][-1]), rising[count:] - self.duration)
-            x, v = (np.concatenate([one[:-1], other]) for one, other in zip(before, after, strict=True))
+            x, v = (np.concatenate([one[:count], other]) for one, other in zip(before, after, strict=True))
         if order is not None:
             x[order], v[order] = x.copy(), v.copy()
         return x.reshape(t.shape), v.reshape(t.shape)
@@ -126,7 +129,7 @@ class DecayPulse:
         length = _CHUNK * self._stretch
         crest = self._crest
         beside = self._places(crest - length / 2, crest + length / 2) if self.duration > length else np.empty(0)
-        places = np.unique(np.concatenate([self._decades, beside, self._places(0.0, length)]))
+        places = distinct(np.concatenate([self._decades, beside, self._places(0.0, length)]))
         best, begin = self._better(Summit(0.0, 0.0, 0.0), places), 0.0
         for chunk in range(_MOST_CHUNKS):
             if chunk > 0:
@@ -189,12 +192,11 @@ class DecayPulse:
             maps = free_motion(np.array([w]), np.array([zeta]), time[:, None])[:, 0]
             return maps[:, 0, 0] * x + maps[:, 0, 1] * v, maps[:, 1, 0] * x + maps[:, 1, 1] * v
         decay, damped = zeta * w, w * math.sqrt((1 - zeta) * (1 + zeta))
-        turn = damped * time
-        cosine, sine = np.cos(turn), np.sin(turn) / damped
-        if decay > 0:
-            left = np.exp(-decay * time)
-            cosine, sine = left * cosine, left * sine
-        return x * cosine + (v + decay * x) * sine, v * cosine - (w * w * x + decay * v) * sine
+        turned = grown(complex(-decay, damped), time)
+        across = (v + decay * x) / damped
+        place = turned * complex(x, -across)
+        speed = turned * complex(v, (w * w * x + decay * v) / damped)
+        return place.real, speed.real
 
     def _better(self, best: Summit, places: FloatArray) -> Summit:
         """The best of a summit and those between places, which rise."""
@@ -234,14 +236,7 @@ class DecayPulse:
         return (f + w * math.hypot(w * y, speed) + abs(slope) / w + 2 * zeta * f) / w / w
 
     def _during(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        roots = _roots(self.natural_frequency, self.damping_ratio)
-        points = (*roots, complex(-self.slow), complex(-self.fast))
-        everything = tuple(range(4))
-        _, *apart = max((abs(points[i] - points[j]), i, j) for i in everything for j in range(i))
-        least = min(apart, key=lambda i: abs(points[i]))  # left out of the whole already
-        if abs(points[least]) > self.natural_frequency:
-            least = min(everything, key=lambda i: abs(points[i]))
-        rest = everything[:least] + everything[least + 1 :]
+        points, least, everything, rest = _exponents(self.natural_frequency, self.damping_ratio, self.slow, self.fast)
         whole, part = differences(points, (everything, rest), t)
         scale = self.acceleration * (self.fast - self.slow) * t * t
         turned = whole * t
@@ -258,6 +253,20 @@ def _first_of(best: Summit, x: FloatArray, times: FloatArray) -> Summit:
 def _spread(first: float, last: float) -> FloatArray:
     """Places 8 per decade or more."""
     return np.geomspace(first, last, max(_PLACES, 8 * math.ceil(math.log10(last / first))))
+
+
+@lru_cache(maxsize=64)
+def _exponents(
+    natural_frequency: float, damping_ratio: float, slow: float, fast: float
+) -> tuple[tuple[complex, ...], int, tuple[int, ...], tuple[int, ...]]:
+    """The exponents of system and force, the one that is left out of the speed's difference, all, and the rest."""
+    points = (*_roots(natural_frequency, damping_ratio), complex(-slow), complex(-fast))
+    everything = tuple(range(4))
+    _, *apart = max((abs(points[i] - points[j]), i, j) for i in everything for j in range(i))
+    least = min(apart, key=lambda i: abs(points[i]))  # left out of the whole already
+    if abs(points[least]) > natural_frequency:
+        least = min(everything, key=lambda i: abs(points[i]))
+    return points, least, everything, everything[:least] + everything[least + 1 :]
 
 
 def _roots(natural_frequency: float, damping_ratio: float) -> tuple[complex, complex]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.distinct import distinct
 from ptmcalc.numerics.run_through import run_through
 
 FloatArray = NDArray[np.float64]
@@ -50,7 +51,7 @@ def engagements(pitches: Callable[[FloatArray], FloatArray], window: float, lead
 def passes(window: float, *kinks: FloatArray) -> FloatArray:
     """Edges of passes: both ends of the window, and all kinks in it."""
     times = np.concatenate([[0.0, window], *kinks])
-    times = np.unique(times[(times >= 0) & (times <= window)])
+    times = distinct(times[(times >= 0) & (times <= window)])
     return np.asarray(times[np.append(True, np.diff(times) > 1e-12 * window)])
 
 

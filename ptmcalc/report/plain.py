@@ -5,7 +5,7 @@ A kind's own tables follow as `file: table ...` lines.
 
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.contract.report import FileReport, count
-from ptmcalc.report import tables, words
+from ptmcalc.report import rows, words
 from ptmcalc.report.entries import said
 
 
@@ -28,4 +28,4 @@ def _lines(report: FileReport) -> list[str]:
         about = f"{judgement.code} {words.subject(judgement)} [{scene}]"
         because = said(judgement)
         lines.append(f"{where}: {judgement.verdict.value} {about}" + (f": {because}" if because else ""))
-    return lines + [f"{report.path}: {line}" for table in report.tables for line in tables.lines(table)]
+    return lines + [f"{report.path}: {line}" for table in report.tables for line in rows.lines(table)]

@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Self
 
-from pydantic import BaseModel, ConfigDict, ModelWrapValidatorHandler, ValidationError, model_validator
+from pydantic import ConfigDict, ModelWrapValidatorHandler, ValidationError, model_validator
 from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from ptmcalc.base.span import KeyPath
+from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import problem
 from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
 
@@ -128,10 +129,10 @@ def _numbered(word: str) -> Iterator[str]:
     yield from (f"{word}_{number}" for number in itertools.count(2))
 
 
-class Fragment(BaseModel):
+class Fragment(Described):
     """A part of a description: immutable, and nothing in it is read without being known."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.base.words import quote
+from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import Day, Efficiency, Measure, PositiveAcceleration
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.scene import Scene
@@ -35,13 +36,13 @@ class Waiver(Fragment):
     """last day on which it is waived"""
 
 
-class CheckSettings(BaseModel):
+class CheckSettings(Described):
     """Limits a standard or a company sets, and checks switched off by code: `CNV104: {off: "reason"}`.
 
     Codes are open here because the kind, not the model, knows them; the loader refuses any other extra key.
     """
 
-    model_config = ConfigDict(extra="allow", frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="allow", frozen=True, defer_build=True)
     __pydantic_extra__: dict[str, CheckSwitch]
 
     def switched_off(self, code: str) -> str:

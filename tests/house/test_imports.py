@@ -4,6 +4,8 @@ Counted in fresh processes by what is in `sys.modules` at the end; no clock is a
 """
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ from support.command import ROOT, environment, python
 
 PROBE = """
 import json, sys
-from ptmcalc.cli.app import main
+from ptmcalc.cli.start import main
 result, *sys.argv[1:] = sys.argv[1:]
 status = 0
 try:
@@ -19,7 +21,7 @@ try:
 except SystemExit as stop:
     status = stop.code or 0
 with open(result, "w", encoding="utf-8") as file:
-    json.dump([status, sorted({name.partition(".")[0] for name in sys.modules})], file)
+    json.dump([status, sorted(sys.modules)], file)
 """
 
 HEAVY = {"scipy", "matplotlib", "jinja2", "dask", "distributed", "numba", "pint"}
@@ -27,13 +29,18 @@ OF_A_MACHINE = {"numpy", "pydantic", "yaml"}
 COMMANDS = ("check", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
 
 
-def packages(result: Path, *arguments: str) -> set[str]:
-    """The top-level packages a command that succeeds has imported."""
+def modules(result: Path, *arguments: str) -> set[str]:
+    """The modules a command that succeeds has imported."""
     done = python("-c", PROBE, result, *arguments, env=environment(ROOT))
     assert done.err == ""
     status, names = json.loads(result.read_text("utf-8"))
     assert status == 0
     return set(names)
+
+
+def packages(result: Path, *arguments: str) -> set[str]:
+    """The top-level packages a command that succeeds has imported."""
+    return {name.partition(".")[0] for name in modules(result, *arguments)}
 
 
 @pytest.mark.parametrize(
@@ -70,3 +77,52 @@ def test_help_of_a_command_imports_no_numerics(command: str, tmp_path: Path) -> 
 def test_the_probe_sees_what_is_imported(tmp_path: Path) -> None:
     """The deny-lists above would be worth nothing if a machine left no trace."""
     assert packages(tmp_path / "modules.json", "solvers") >= OF_A_MACHINE
+
+
+# -- how much is imported -------------------------------------------------------------------------------------------
+
+CLOSED = "specs/hoist/winding_paper/height_25_rope_17_5.yaml"
+"""A file that closed forms decide."""
+LIBRARIES = "import typer, pydantic, yaml, rich, numpy"
+READY = """
+class Model(pydantic.BaseModel):
+    size: int = 1
+Model()
+app = typer.Typer(rich_markup_mode=None)
+@app.command()
+def command(size: int = 1) -> None: ...
+try:
+    app([])
+except SystemExit:
+    pass
+"""
+COUNT = "\nimport sys; print(len(sys.modules))"
+
+
+def count_of(program: str) -> int:
+    done = subprocess.run([sys.executable, "-c", program + COUNT], capture_output=True, text=True, check=True)
+    return int(done.stdout)
+
+
+def test_a_check_that_closed_forms_decide_imports_few_modules(tmp_path: Path) -> None:
+    """Beyond the libraries as they are when one model and one command are at work, our own alone, and of these no more
+    than the kind calls for; what draws tables, masked arrays and polynomials of numpy are not among them."""
+    found = modules(tmp_path / "modules.json", "check", CLOSED, "--format", "plain")
+    ours = {name for name in found if name.partition(".")[0] == "ptmcalc"}
+    assert not [name for name in found if name.startswith(("rich.console", "rich.table", "numpy.ma."))]
+    assert len(found) - len(ours) <= count_of(LIBRARIES + "\n" + READY) + 25
+    assert len(ours) <= 150
+    assert not [name for name in ours if name.startswith("ptmcalc.machines.") and ".hoist" not in name]
+
+
+def test_help_imports_little_more_than_typer_and_rich(tmp_path: Path) -> None:
+    """No panels: they would import a parser of Markdown and a highlighter of programs."""
+    found = modules(tmp_path / "modules.json", "--help")
+    assert not {name.partition(".")[0] for name in found} & {"markdown_it", "pygments", "attr"}
+    assert len(found) <= count_of("import typer, rich") + 20
+
+
+def test_a_process_begins_before_its_first_import() -> None:
+    """What `start` sets holds for all imports: it imports the command line itself only when it is called."""
+    program = "import sys, ptmcalc.cli.start; assert not {'typer', 'numpy', 'pydantic'} & set(sys.modules)"
+    assert python("-c", program).status == 0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from ptmcalc.numerics.exponentials import differences
+from ptmcalc.numerics.exponentials import differences, grown
 
 TIMES = np.array([0.0, 1e-6, 0.01, 0.2, 0.9, 1.1, 4.0])
 POINTS = {
@@ -43,3 +43,32 @@ def test_are_real_where_their_points_are(name: str) -> None:
 
 def test_of_no_times_are_none() -> None:
     assert [len(one) for one in differences(POINTS["apart"], SETS, np.empty(0))] == [0] * len(SETS)
+
+
+@pytest.mark.parametrize("rate", [complex(0, 5.47), complex(-0.3, 11.0), complex(-9.0, 0.5)])
+@pytest.mark.parametrize("count", [255, 256, 1000, 1024, 10_001])
+@pytest.mark.parametrize("first", [0.0, 0.7, 5.002])
+def test_evenly_spaced_times_are_a_rotation(rate: complex, count: int, first: float) -> None:
+    times = np.linspace(first, first + 20.0, count)
+    expected = np.exp(np.clongdouble(rate) * times.astype(np.longdouble))
+    allowed = np.finfo(float).eps * (4 + 4 * abs(rate) * times)
+    assert np.all(np.abs(grown(rate, times) - expected) <= allowed * np.abs(expected))
+
+
+def test_uneven_times_have_exponentials_of_their_own() -> None:
+    times = np.cumsum(np.linspace(1e-3, 2e-3, 600))
+    assert np.array_equal(grown(3j, times), np.exp(3j * times))
+
+
+def test_late_times_are_one_sum_of_the_same_value() -> None:
+    """From where every pair is apart, in many times as in few."""
+    points, wanted = (
+        (complex(-0.2, 5.0), complex(-0.2, -5.0), -3 + 0j, -96 + 0j),
+        ((0, 1, 2, 3), (0, 2, 3), (1, 2), (2, 3)),
+    )
+    times = np.linspace(0.0, 6.0, 1001)
+    whole = differences(points, wanted, times)
+    for one, found in zip(wanted, whole, strict=True):
+        few = np.concatenate([differences(points, (one,), times[k : k + 100])[0] for k in range(0, 1001, 100)])
+        to_come = np.maximum.accumulate(np.abs(few)[::-1])[::-1]
+        assert np.all(np.abs(found - few) <= 3e-13 * to_come)

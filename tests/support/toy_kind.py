@@ -160,6 +160,6 @@ KIND = MachineKind(
     effects=(SWINGING,),
     solvers=(STATICS,),
     checks=(OVERLOAD,),
-    template=TEMPLATE,
+    starting=lambda: TEMPLATE,
     assumptions=(SHOCK,),
 )

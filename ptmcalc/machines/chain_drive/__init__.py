@@ -1,10 +1,9 @@
 """Chain drive: a chain conveyor, or two shafts with a chain between them."""
 
 from collections.abc import Iterator
-from importlib import resources
 
 from ptmcalc.base import units
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
@@ -84,7 +83,7 @@ KIND = MachineKind(
     effects=(*EFFECTS, *EFFECTS_OF_MOTION),
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_MOTION),
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumed=assumptions,
     parts=parts,
     inspect=inspect,

@@ -1,12 +1,11 @@
 """Belt conveyor with one drive drum at the head: steady running and start."""
 
 from collections.abc import Iterator
-from importlib import resources
 from itertools import chain
 
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.checks import CHECKS
@@ -133,7 +132,7 @@ KIND = MachineKind(
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=CHECKS,
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumed=assumptions,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,

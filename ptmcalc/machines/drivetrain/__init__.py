@@ -1,9 +1,8 @@
 """Drive train: inertias, elastic links with play, gears with losses, motors, brakes."""
 
 from collections.abc import Iterator
-from importlib import resources
 
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.drivetrain.checks import CHECKS
 from ptmcalc.machines.drivetrain.effects import EFFECTS
@@ -32,7 +31,7 @@ KIND = MachineKind(
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=CHECKS,
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     inspect=inspect,
     parts=parts,
 )

@@ -1,10 +1,9 @@
 """Hoist: a load on a tackle, a drum, a gearbox, a motor and a brake."""
 
 from collections.abc import Iterator
-from importlib import resources
 
 from ptmcalc.base import units
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
@@ -89,7 +88,7 @@ KIND = MachineKind(
     effects=(*EFFECTS_OF_MOTION, LAYER_MAP),
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRUM, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumed=assumptions,
     inspect=inspect,
     parts=parts,

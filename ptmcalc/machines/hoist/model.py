@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.laws import gearing, hoisting, lift_off_standard, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene
+from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]
 
@@ -229,7 +230,7 @@ def drum_torque(spec: Hoist, mass: float, hook_height: float | None, hauling: bo
         at_drum, radius = pulls(spec, mass, hook_height, hauling).drum, wound(spec, hook_height).radius
         return hoisting.drum_torque(at_drum, spec.reeving.ropes, radius)
     last = wound(spec, spec.height).layers
-    layers = np.asarray(np.unique(np.round(np.linspace(1, last, min(last, MOST_LAYERS)))))
+    layers = np.asarray(distinct(np.round(np.linspace(1, last, min(last, MOST_LAYERS)))))
     begins = _begins(spec, layers)
     lowest, highest = (pulls(spec, mass, height, hauling).drum for height in (0.0, spec.height))
     course = lowest + (highest - lowest) * (begins / spec.height)

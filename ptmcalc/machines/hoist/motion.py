@@ -22,6 +22,7 @@ from ptmcalc.machines.hoist.moving import (
     ROPE,
     SHAFT,
     STRUCTURE,
+    TOLERANCES,
     Case,
     Moving,
 )
@@ -33,8 +34,6 @@ from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.system import TrainSystem
 
-TOLERANCES = (1e-6, 1e-8, 1e-10)
-"""Largest tail of a motor's smooth curve at each refinement, as a share of its size."""
 _COMPARED = (0.7, 0.85)
 """How the runs beside the one that counts divide time, over its own stretches and panels."""
 _MARGIN = 3.0

@@ -49,6 +49,8 @@ from ptmcalc.numerics.train.parts import (
 )
 from ptmcalc.numerics.train.signals import ONE, Signal, Trigger
 
+TOLERANCES = (1e-6, 1e-8, 1e-10)
+"""Largest tail of a motor's smooth curve at each refinement, as a share of its size."""
 STRUCTURE, GEAR = "structure", "gear_elasticity"
 """Effects that a case carries or leaves out."""
 BACKLASH = "gear_backlash"

@@ -1,12 +1,11 @@
 """Main shaft of a machine with its tachogram: run-up, steady cycle and run-out."""
 
 from collections.abc import Iterator
-from importlib import resources
 
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import slider_crank
 from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
@@ -86,7 +85,7 @@ KIND = MachineKind(
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=CHECKS,
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumptions=ASSUMPTIONS,
     inspect=inspect,
 )

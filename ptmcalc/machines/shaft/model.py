@@ -34,6 +34,7 @@ from ptmcalc.machines.shaft.spec import (
 from ptmcalc.numerics import spline
 from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.cycle import Grid, Orbit
+from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]
 OverAngle = Callable[[FloatArray], FloatArray]
@@ -264,7 +265,7 @@ class Machine:
         scale = free or (float(knots.max()) if knots.size else 1.0)
         near = np.geomspace(1e-7, 0.99, 120)
         tried = np.concatenate([scale * (1 - near), scale * (1 + near), scale * np.geomspace(1e-15, 1e5, 280), knots])
-        return np.unique(tried[tried > 0])
+        return distinct(tried[tried > 0])
 
     def surplus(self, speed: FloatArray) -> FloatArray:
         """Mean torque left over a cycle if the speed stayed the same, long after the start [N*m]."""

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.machines.shaft.model import Machine, split
 from ptmcalc.numerics.cycle import Grid, Orbit, Rate, solve
+from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]
 
@@ -305,7 +306,7 @@ def _better_edges(machine: Machine, law: Law, orbit: Orbit) -> FloatArray | None
         if k not in cut and len(lengths) < _MOST_STRETCHES:
             new.append(float((grid.edges[k] + grid.edges[k + 1]) / 2))
             changed = True
-    return np.unique(np.append(edges, new)) if changed else None
+    return distinct(np.append(edges, new)) if changed else None
 
 
 def _crossings(machine: Machine, law: Law, orbit: Orbit) -> list[tuple[int, float]]:

@@ -16,6 +16,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import Departure
 from ptmcalc.machines.shaft.motion import ORDERS, Run, run_out
+from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]
 
@@ -57,9 +58,9 @@ class Search:
         angles = np.linspace(0.0, period, _ANGLES, endpoint=False)
         breaks = [angle for angle in (*start.cycle.machine.breaks, *start.machine.breaks) if angle < period]
         top = start.largest_energy()[1] % period
-        self.angles = np.unique(np.concatenate([angles, breaks, [top]]))
+        self.angles = distinct(np.concatenate([angles, breaks, [top]]))
         self.energies = start.energies(self.angles)
-        self.picked = np.unique(np.append(np.linspace(0.0, period, _STARTS, endpoint=False), top))
+        self.picked = distinct(np.append(np.linspace(0.0, period, _STARTS, endpoint=False), top))
         self._runs = [self.run(float(angle), _QUICK) for angle in self.picked]
 
     def run(self, angle: float, setting: tuple[int, float], brake: float | None = None) -> Run:

@@ -1,8 +1,6 @@
 """Slewing crane: a load on a jib that turns about a vertical axis."""
 
-from importlib import resources
-
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.checks import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.slewing.checks_swing import CHECKS_OF_SWING
@@ -21,7 +19,7 @@ SLEWING = MachineKind(
     effects=EFFECTS,
     solvers=SOLVERS,
     checks=(*CHECKS_OF_DRIVE, *CHECKS_OF_SWING),
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumed=assumptions,
     inspect=inspect,
 )

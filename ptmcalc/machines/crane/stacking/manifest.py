@@ -1,12 +1,11 @@
 """How both types of stacker crane are put together from what they have in common."""
 
 from collections.abc import Iterable
-from importlib import resources
 from typing import Any, TypeVar
 
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
 from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
@@ -44,7 +43,7 @@ def stacker(
         effects=of_its_scenes(EFFECTS),
         solvers=of_its_scenes(SOLVERS),
         checks=of_its_scenes(CHECKS),
-        template=resources.files(package).joinpath("template.yaml").read_text("utf-8"),
+        starting=template_in(package),
         assumed=assumptions,
         parts=parts,
         tables=tables,

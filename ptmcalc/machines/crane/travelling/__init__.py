@@ -1,10 +1,9 @@
 """Travelling crane: a bridge, a gantry or a trolley on its wheels, with a load that swings."""
 
 from collections.abc import Iterator
-from importlib import resources
 
 from ptmcalc.base import units
-from ptmcalc.contract.machine import MachineKind
+from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
@@ -53,7 +52,7 @@ TRAVELLING = MachineKind(
     effects=EFFECTS_OF_TRAVEL,
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
-    template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
+    starting=template_in(__package__),
     assumed=assumptions,
     inspect=inspect,
     parts=parts,

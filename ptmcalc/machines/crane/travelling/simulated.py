@@ -18,6 +18,7 @@ from ptmcalc.machines.crane.travelling.linear import linear_course, stalled
 from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.numerics.distinct import distinct
 from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Load, Push, Rail, Smooth, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces, braking
 from ptmcalc.numerics.pendulum.swing import Swing, swing
@@ -364,7 +365,7 @@ def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray
         looks, _ = leg.swing.history(("speed",))
         marked = [*marks, reached - leg.start]
         edges = [0.0, leg.lasts, *(mark * (1 + side) for mark in marked for side in (-_SIDE, _SIDE))]
-        looks = np.unique(np.clip(np.concatenate([looks, np.array(edges)]), 0.0, leg.lasts))
+        looks = distinct(np.clip(np.concatenate([looks, np.array(edges)]), 0.0, leg.lasts))
         looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
         times.append(leg.start + looks)
         parts.append(np.stack([leg.swing.at(name, looks) for name in SIGNALS]))

@@ -2,10 +2,9 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist import motion
 from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
 from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.moving import TOLERANCES, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist
 
 
@@ -19,7 +18,16 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     **Error** as `two_mass`.
     **Source** as `two_mass`; the bridge with mass against an independent integration.
     """
+    from ptmcalc.machines.hoist import motion  # with the numerics of trains, for the scenes that call for them
+
     return motion.result(scene, case_of(spec, scene, carried), level)
+
+
+def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from the run there will be."""
+    from ptmcalc.machines.hoist import motion
+
+    return 1e-3 + motion.cost(case_of(spec, scene, carried), level)
 
 
 TRAIN: Solver[Hoist, Moving] = Solver(
@@ -30,9 +38,9 @@ TRAIN: Solver[Hoist, Moving] = Solver(
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash"},
     gives=MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: 1e-3 + motion.cost(case_of(spec, scene, carried), level),
+    cost=cost,
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
     always=ALWAYS,
-    levels=len(motion.TOLERANCES),
+    levels=len(TOLERANCES),
     method="exact from event to event",
 )

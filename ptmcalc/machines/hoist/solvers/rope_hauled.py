@@ -1,8 +1,8 @@
 """Drive and load on a rope that gets shorter or longer as the drum turns."""
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist import rope_case, rope_motion
 from ptmcalc.machines.hoist.effects_motion import ALWAYS
 from ptmcalc.machines.hoist.loads_motion import MOVING
 from ptmcalc.machines.hoist.moving import Moving
@@ -23,7 +23,28 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     trusted only if the energy ledger, with the strain wound onto the drum, closes to 1e-9.
     **Source** derived in `numerics.rope.march`; its adiabatic limit is `laws.rope_rod.hauling_gain`.
     """
+    from ptmcalc.machines.hoist import rope_case, rope_motion  # for the scenes that call for them
+
     return rope_motion.result(spec, scene, rope_case.hauled(spec, scene), level)
+
+
+def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from the run there will be."""
+    from ptmcalc.machines.hoist import rope_case, rope_motion
+
+    return rope_motion.cost(spec, scene, rope_case.hauled(spec, scene), level)
+
+
+def valid(spec: Hoist, scene: Moving) -> Criterion | None:
+    """Whether the gear is rigid and does not lock itself, as `rope_case.has_rigid_gear` says it.
+
+    **Range** any scene of motion.
+    **Error** as there.
+    **Source** as there.
+    """
+    from ptmcalc.machines.hoist import rope_case
+
+    return rope_case.has_rigid_gear(spec, scene)
 
 
 ROPE_HAULED: Solver[Hoist, Moving] = Solver(
@@ -34,9 +55,8 @@ ROPE_HAULED: Solver[Hoist, Moving] = Solver(
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_shortening"},
     gives=MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: rope_motion.cost(spec, scene, rope_case.hauled(spec, scene), level),
+    cost=cost,
     source="strained rope taken in by the drum; derived in ptmcalc.numerics.rope",
-    valid=rope_case.has_rigid_gear,
+    valid=valid,
     always=ALWAYS | {"rope_shortening"},
-    levels=len(rope_motion.FINENESS),
 )

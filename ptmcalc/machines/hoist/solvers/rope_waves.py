@@ -1,8 +1,8 @@
 """Drive and load on a rope with mass of its own: waves along it, exact from event to event."""
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist import rope_case, rope_motion
 from ptmcalc.machines.hoist.effects_motion import ALWAYS
 from ptmcalc.machines.hoist.loads_motion import MOVING
 from ptmcalc.machines.hoist.moving import Moving
@@ -24,7 +24,28 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     divides time otherwise. The numbers are trusted only if the energy ledger, waves under way in it, closes to 1e-9.
     **Source** J. d'Alembert's solution; derived in `numerics.rope.march`.
     """
+    from ptmcalc.machines.hoist import rope_case, rope_motion  # for the scenes that call for them
+
     return rope_motion.result(spec, scene, rope_case.rod(spec, scene), level)
+
+
+def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from the run there will be."""
+    from ptmcalc.machines.hoist import rope_case, rope_motion
+
+    return rope_motion.cost(spec, scene, rope_case.rod(spec, scene), level)
+
+
+def valid(spec: Hoist, scene: Moving) -> Criterion | None:
+    """Whether the gear is rigid and the rope undamped, as `rope_case.has_rigid_gear_and_no_damping` says it.
+
+    **Range** any scene of motion.
+    **Error** as there.
+    **Source** as there.
+    """
+    from ptmcalc.machines.hoist import rope_case
+
+    return rope_case.has_rigid_gear_and_no_damping(spec, scene)
 
 
 ROPE_WAVES: Solver[Hoist, Moving] = Solver(
@@ -35,9 +56,8 @@ ROPE_WAVES: Solver[Hoist, Moving] = Solver(
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_mass"},
     gives=MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: rope_motion.cost(spec, scene, rope_case.rod(spec, scene), level),
+    cost=cost,
     source="d'Alembert's waves between drive and load; derived in ptmcalc.numerics.rope",
-    valid=rope_case.has_rigid_gear_and_no_damping,
+    valid=valid,
     always=ALWAYS | {"rope_mass"},
-    levels=len(rope_motion.FINENESS),
 )

@@ -2,10 +2,9 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist import motion
 from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
 from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.moving import TOLERANCES, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist
 
 
@@ -22,7 +21,16 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     its tolerance. The numbers are trusted only if the energy ledger closes to 1e-9.
     **Source** derived in `numerics.piecewise` and `numerics.train`; worked cases of lift-off and braking.
     """
+    from ptmcalc.machines.hoist import motion  # with the numerics of trains, for the scenes that call for them
+
     return motion.result(scene, case_of(spec, scene, carried & ALWAYS), level)
+
+
+def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from the run there will be."""
+    from ptmcalc.machines.hoist import motion
+
+    return motion.cost(case_of(spec, scene, carried & ALWAYS), level)
 
 
 TWO_MASS: Solver[Hoist, Moving] = Solver(
@@ -33,9 +41,9 @@ TWO_MASS: Solver[Hoist, Moving] = Solver(
     represents=ALWAYS,
     gives=MOVING,
     run=run,
-    cost=lambda spec, scene, carried, level: motion.cost(case_of(spec, scene, carried & ALWAYS), level),
+    cost=cost,
     source="exact propagation of piecewise-linear systems; derived in ptmcalc.numerics.piecewise",
     always=ALWAYS,
-    levels=len(motion.TOLERANCES),
+    levels=len(TOLERANCES),
     method="exact from event to event",
 )
