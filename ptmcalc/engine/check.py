@@ -176,7 +176,8 @@ def _flips(
     chosen = [scene.scene.label for scene in made.scenes]
     for value, end, changed in variants(spec, assumed):
         again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
-        for key, ruling in _by_key(again, [settle(kind, changed, scene, budget=budget) for scene in again.scenes]):
+        verdicts = [settle(kind, changed, scene, budget=budget, verdicts=True) for scene in again.scenes]
+        for key, ruling in _by_key(again, verdicts):
             if ruling.verdict is not base.get(key) and key not in found:
                 found[key] = (value, end, ruling.verdict)
     return found

@@ -619,6 +619,30 @@ def test_both_ends_of_an_assumption_are_tried() -> None:
     assert len(log.runs) == 3  # the value itself, and either end
 
 
+def test_the_ends_of_an_assumption_are_for_verdicts_not_for_digits() -> None:
+    """The accuracy asked for refines the machine as it is; either end settles its verdict at the first level."""
+    log = Log()
+    fine = solver("fine", lambda carried, level: pull(9 - 0.4 / 2**level, 9 + 0.4 / 2**level), levels=6, log=log)
+    found = report(kind_of(fine, assumptions=(SHOCK,)), accuracy="1 %")
+    assert [level for _, _, level in log.runs] == [0, 1, 2, 3, 0, 0]  # 9 ± 0.05 is the first within 0.09
+    assert judgement(found).verdict is Verdict.PASS
+
+
+def test_an_end_climbs_until_its_verdict_stands() -> None:
+    log = Log()
+    narrowing = solver("fine", lambda carried, level: pull(9.6 - 1.2 / 2**level, 9.6 + 1.2 / 2**level), levels=6)
+    ends = replace(
+        solver("top", pull(9), levels=6, log=log),
+        run=lambda spec, scene, carried, level: (
+            log.runs.append(("end", carried, level)) or narrowing.run(spec, scene, carried, level)
+            if spec.shock == 1.2
+            else Result({"pull": Found(pull(9))})
+        ),
+    )
+    assert judgement(report(kind_of(ends, assumptions=(SHOCK,)))).verdict is Verdict.PASS
+    assert [level for _, _, level in log.runs] == [0, 1, 2]
+
+
 def test_an_end_that_leaves_it_open_is_told_too() -> None:
     top = replace(
         solver("top", pull(9)),
