@@ -1,7 +1,7 @@
 """Plan -> results: climb the ladder of a scene only while something is undecided."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.diagnostic import Verdict
@@ -103,17 +103,17 @@ def settle(
     *,
     budget: float = WORK_BUDGET,
     only: AnyCheck | None = None,
-    verdicts: bool = False,
+    verdicts: Container[tuple[str, str]] | None = None,
     until: Callable[[Rung], bool] = lambda rung: True,
 ) -> Settled:
     """Run the cheapest rung, then the next that can help, until every verdict and the accuracy asked for stand.
 
-    `only` settles one check and nothing else, `verdicts` all checks but neither loads that none of them reads nor the
-    accuracy asked for; `until` limits the rungs that may run (for predictions).
+    `only` settles one check and nothing else, `verdicts` those of some checks, by code and element: neither loads that
+    none of them reads nor the accuracy asked for; `until` limits the rungs that may run (for predictions).
     """
     settled = Settled(scene)
-    whole = only is None and not verdicts
-    if verdicts:
+    whole = only is None and verdicts is None
+    if verdicts is not None:
         spec = spec.model_copy(update={"accuracy": None})
     for solver in scene.formulas if whole else ():
         rung = Rung(solver, solver.represents, 0, 0.0)
@@ -128,6 +128,8 @@ def settle(
         settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
         if only is not None:
             settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
+        if verdicts is not None:
+            settled.rulings = tuple(r for r in settled.rulings if (r.check.code, r.check.element) in verdicts)
         following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
         settled.next_rung = following
         if following is None:

@@ -628,6 +628,25 @@ def test_the_ends_of_an_assumption_are_for_verdicts_not_for_digits() -> None:
     assert judgement(found).verdict is Verdict.PASS
 
 
+def test_what_is_open_as_it_stands_is_not_settled_at_the_ends() -> None:
+    log = Log()
+    found = report(kind_of(solver("fine", lambda carried, level: pull(9, 11), levels=3, log=log), assumptions=(SHOCK,)))
+    assert judgement(found).verdict is Verdict.UNDECIDED
+    assert len(log.runs) == 3
+
+
+def test_what_one_end_has_changed_is_not_settled_at_the_other() -> None:
+    log = Log()
+    ends = solver("top", pull(9), log=log)
+    asked = replace(
+        ends, run=lambda spec, scene, *rest: (ends.run(spec, scene, *rest), STATICS.run(spec, scene, *rest))[1]
+    )
+    unrepaired = replace(OVERLOAD, repair=lambda spec, scene: ())
+    found = judgement(report(kind_of(asked, assumptions=(SHOCK,), checks=(unrepaired,)), load="9.5 kN"))
+    assert found.reason == "pass if `shock` is 1: give its value"
+    assert len(log.runs) == 2
+
+
 def test_an_end_climbs_until_its_verdict_stands() -> None:
     log = Log()
     narrowing = solver("fine", lambda carried, level: pull(9.6 - 1.2 / 2**level, 9.6 + 1.2 / 2**level), levels=6)
