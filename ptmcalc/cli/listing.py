@@ -4,12 +4,13 @@ import difflib
 import inspect
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
-from ptmcalc.base.diagnostic import CODES
+from ptmcalc.base.diagnostic import CODES, CodeText
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import dotted, key_path
 from ptmcalc.base.units import TIME, show
@@ -126,19 +127,24 @@ def explanation(name: str) -> str:
         raise UsageError(
             f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
         )
-    return texts[wanted].rstrip() + "\n"
+    return texts[wanted]().rstrip() + "\n"
 
 
-def _everything() -> Iterator[tuple[str, str]]:
+def _everything() -> Iterator[tuple[str, Callable[[], str]]]:
+    """Names and how to write what they are: only one is read."""
     for code, text in CODES.items():
-        yield code, f"{code}: is there {text.title}?\n\n{text.why}\n\nWhat to do: {text.fix}"
+        yield code, partial(_explained_finding, code, text)
     for kind in (one for name in kind_names() for one in load_kind(name).manifests):
         for check in kind.checks:
-            yield check.code, _explained_check(kind, check)
+            yield check.code, partial(_explained_check, kind, check)
         for effect in kind.effects:
-            yield effect.name, _explained_effect(kind, effect)
+            yield effect.name, partial(_explained_effect, kind, effect)
         for solver in (*kind.solvers, *kind.witnesses):
-            yield solver.name, _explained_solver(kind, solver)
+            yield solver.name, partial(_explained_solver, kind, solver)
+
+
+def _explained_finding(code: str, text: CodeText) -> str:
+    return f"{code}: is there {text.title}?\n\n{text.why}\n\nWhat to do: {text.fix}"
 
 
 def _doc(function: Any) -> str:

@@ -169,16 +169,23 @@ def _flips(
 ) -> Flips:
     """Verdicts that change when an assumed value goes to an end of its interval.
 
-    A check that fails as it stands fails whatever is assumed only if both ends say so too.
+    A check that fails as it stands fails whatever is assumed only if both ends say so too. One that is open as it
+    stands, or that an end before has changed, is not settled again.
     """
     base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
-    chosen = [scene.scene.label for scene in made.scenes]
     for value, end, changed in variants(spec, assumed):
-        again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in chosen])
-        for key, ruling in _by_key(again, [settle(kind, changed, scene, budget=budget) for scene in again.scenes]):
-            if ruling.verdict is not base.get(key) and key not in found:
-                found[key] = (value, end, ruling.verdict)
+        left: dict[str, set[tuple[str, str]]] = {}
+        for (label, *check), verdict in base.items():
+            if verdict in (Verdict.PASS, Verdict.FAIL) and (label, *check) not in found:
+                left.setdefault(label, set()).add((check[0], check[1]))
+        if not left:
+            break
+        again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in left])
+        ends = [settle(kind, changed, one, budget=budget, verdicts=left[one.scene.label]) for one in again.scenes]
+        found |= {
+            key: (value, end, ruling.verdict) for key, ruling in _by_key(again, ends) if ruling.verdict is not base[key]
+        }
     return found
 
 

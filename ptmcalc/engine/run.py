@@ -1,7 +1,7 @@
 """Plan -> results: climb the ladder of a scene only while something is undecided."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.diagnostic import Verdict
@@ -103,14 +103,19 @@ def settle(
     *,
     budget: float = WORK_BUDGET,
     only: AnyCheck | None = None,
+    verdicts: Container[tuple[str, str]] | None = None,
     until: Callable[[Rung], bool] = lambda rung: True,
 ) -> Settled:
     """Run the cheapest rung, then the next that can help, until every verdict and the accuracy asked for stand.
 
-    `only` settles one check and nothing else; `until` limits the rungs that may run (for predictions).
+    `only` settles one check and nothing else, `verdicts` those of some checks, by code and element: neither loads that
+    none of them reads nor the accuracy asked for; `until` limits the rungs that may run (for predictions).
     """
     settled = Settled(scene)
-    for solver in scene.formulas if only is None else ():
+    whole = only is None and verdicts is None
+    if verdicts is not None:
+        spec = spec.model_copy(update={"accuracy": None})
+    for solver in scene.formulas if whole else ():
         rung = Rung(solver, solver.represents, 0, 0.0)
         shown = _made(settled, spec, rung)
         if shown is not None:
@@ -123,15 +128,17 @@ def settle(
         settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
         if only is not None:
             settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
-        following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=only is None))
+        if verdicts is not None:
+            settled.rulings = tuple(r for r in settled.rulings if (r.check.code, r.check.element) in verdicts)
+        following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
         settled.next_rung = following
         if following is None:
-            settled.findings += _unreached(kind, spec, settled) if only is None else ()
+            settled.findings += _unreached(kind, spec, settled) if whole else ()
             return settled
         if not until(following):
             return settled
         if spent + following.seconds > budget:
-            settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=only is None))
+            settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=whole))
             return settled
         waiting.remove(following)
         result = _climb(settled, spec, following)

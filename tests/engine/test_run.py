@@ -619,6 +619,49 @@ def test_both_ends_of_an_assumption_are_tried() -> None:
     assert len(log.runs) == 3  # the value itself, and either end
 
 
+def test_the_ends_of_an_assumption_are_for_verdicts_not_for_digits() -> None:
+    """The accuracy asked for refines the machine as it is; either end settles its verdict at the first level."""
+    log = Log()
+    fine = solver("fine", lambda carried, level: pull(9 - 0.4 / 2**level, 9 + 0.4 / 2**level), levels=6, log=log)
+    found = report(kind_of(fine, assumptions=(SHOCK,)), accuracy="1 %")
+    assert [level for _, _, level in log.runs] == [0, 1, 2, 3, 0, 0]  # 9 ± 0.05 is the first within 0.09
+    assert judgement(found).verdict is Verdict.PASS
+
+
+def test_what_is_open_as_it_stands_is_not_settled_at_the_ends() -> None:
+    log = Log()
+    found = report(kind_of(solver("fine", lambda carried, level: pull(9, 11), levels=3, log=log), assumptions=(SHOCK,)))
+    assert judgement(found).verdict is Verdict.UNDECIDED
+    assert len(log.runs) == 3
+
+
+def test_what_one_end_has_changed_is_not_settled_at_the_other() -> None:
+    log = Log()
+    ends = solver("top", pull(9), log=log)
+    asked = replace(
+        ends, run=lambda spec, scene, *rest: (ends.run(spec, scene, *rest), STATICS.run(spec, scene, *rest))[1]
+    )
+    unrepaired = replace(OVERLOAD, repair=lambda spec, scene: ())
+    found = judgement(report(kind_of(asked, assumptions=(SHOCK,), checks=(unrepaired,)), load="9.5 kN"))
+    assert found.reason == "pass if `shock` is 1: give its value"
+    assert len(log.runs) == 2
+
+
+def test_an_end_climbs_until_its_verdict_stands() -> None:
+    log = Log()
+    narrowing = solver("fine", lambda carried, level: pull(9.6 - 1.2 / 2**level, 9.6 + 1.2 / 2**level), levels=6)
+    ends = replace(
+        solver("top", pull(9), levels=6, log=log),
+        run=lambda spec, scene, carried, level: (
+            log.runs.append(("end", carried, level)) or narrowing.run(spec, scene, carried, level)
+            if spec.shock == 1.2
+            else Result({"pull": Found(pull(9))})
+        ),
+    )
+    assert judgement(report(kind_of(ends, assumptions=(SHOCK,)))).verdict is Verdict.PASS
+    assert [level for _, _, level in log.runs] == [0, 1, 2]
+
+
 def test_an_end_that_leaves_it_open_is_told_too() -> None:
     top = replace(
         solver("top", pull(9)),
