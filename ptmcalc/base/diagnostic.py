@@ -55,8 +55,16 @@ class CodeText:
     fix: str
 
 
+BROKEN = "BUG101"
+"""What is said of a file that our own program could not cope with."""
+
 CODES: Mapping[str, CodeText] = MappingProxyType(
     {
+        BROKEN: CodeText(
+            "an error of ptmcalc itself",
+            "The program broke down on this file; the other files of the run are not touched by it.",
+            "Please report it with the file and the output of the same command under PTMCALC_TRACEBACK=1.",
+        ),
         "TXT101": CodeText(
             "a file that cannot be read",
             "The path does not exist, is not a file, or may not be opened.",

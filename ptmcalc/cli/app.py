@@ -4,7 +4,7 @@ import os
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import Annotated, NoReturn
 
 import typer
 
@@ -21,11 +21,6 @@ from ptmcalc.cli.policy import (
     WriteOption,
     what_counts,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ptmcalc.contract.report import FileReport
 
 app = typer.Typer(
     name="ptmcalc",
@@ -52,6 +47,8 @@ class CheckFormat(StrEnum):
     SARIF = "sarif"
     GITHUB = "github"
     MARKDOWN = "markdown"
+    SUMMARY = "summary"
+    CSV = "csv"
 
 
 class ListFormat(StrEnum):
@@ -83,6 +80,25 @@ BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time a sc
 EffectsOption = Annotated[
     list[str] | None,
     typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
+]
+ExcludeOption = Annotated[
+    list[str] | None,
+    typer.Option("--exclude", metavar="PATTERN", help="Leave out of folders, as .gitignore writes it; repeatable."),
+]
+GitignoreOption = Annotated[
+    bool, typer.Option("--gitignore/--no-gitignore", help="Leave out of folders what their .gitignore leaves out.")
+]
+JobsOption = Annotated[
+    str, typer.Option("--jobs", "-j", metavar="auto|N", help="Processes; auto: all cores where the work is worth it.")
+]
+ShardOption = Annotated[
+    str, typer.Option("--shard", metavar="I/N", help="Every N-th file from the I-th; `merge` unites the reports.")
+]
+StoreOption = Annotated[
+    str,
+    typer.Option(
+        "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
+    ),
 ]
 ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
 
@@ -155,7 +171,10 @@ def common(
 
 @app.command()
 def check(
-    paths: Annotated[list[str], typer.Argument(help="Design files, and folders of them.")],
+    paths: Annotated[
+        list[str],
+        typer.Argument(help="Design files, folders of them, patterns such as 'specs/**/*.yaml', and - for a list."),
+    ],
     form: Annotated[
         CheckFormat | None,
         typer.Option("--format", help="How to print; a table on a terminal, else plain lines."),
@@ -191,51 +210,48 @@ def check(
     baseline: BaselineOption = "",
     write_baseline: WriteOption = "",
     exit_zero: ExitZeroOption = False,
+    exclude: ExcludeOption = None,
+    gitignore: GitignoreOption = True,
+    jobs: JobsOption = "auto",
+    shard: ShardOption = "",
+    store: StoreOption = "",
 ) -> None:
     """Check design files: loads, verdicts, and what would make a failed check pass.
 
     Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a bug of ours.
     """
-    from ptmcalc.contract.report import exit_status
-    from ptmcalc.engine.check import Options, check_paths
+    from ptmcalc.cli.batch import Run, rendered, tallies_of, write
+    from ptmcalc.contract.report import status_of
+    from ptmcalc.engine.check import Options
     from ptmcalc.report import Format
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
     options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
-    counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene)
-    reports = counted(check_paths(paths, options))
-    for target, name in files:
-        _write(Path(name), _rendered(Format(target), reports, verbose, to_terminal=False))
-    if courses:
-        from ptmcalc.report import histories
-
-        for name in courses:
-            _write(Path(name), histories.render(reports))
+    counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
-    say(_rendered(chosen, reports, verbose, to_terminal=terminal))
-    if history and not courses and Format.JSON not in {chosen, *(form for form, _ in files)}:
-        say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
-    status = exit_status(reports)
-    if status in (0, 3) and _reaches(reports, fail_level):
+    in_json = Format.JSON in {chosen, *(target for target, _ in files)}
+    with Run(options, jobs, store, in_json) as run:
+        reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
+        for target, name in files if not run.interrupted else ():
+            write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
+        if courses and not run.interrupted:
+            from ptmcalc.report import histories
+
+            for name in courses:
+                write(Path(name), [histories.render(reports)])
+        for piece in rendered(chosen, reports, verbose, to_terminal=terminal):
+            say(piece)
+        if history and not courses and not in_json:
+            say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
+        tallies = list(tallies_of(reports))
+    status = status_of(tallies)
+    if status in (0, 3) and any(one.loudest and Severity(one.loudest).rank >= fail_level.rank for one in tallies):
         status = 1
+    if run.interrupted:
+        raise typer.Exit(130)
     raise typer.Exit(0 if exit_zero and status in (1, 3) else status)
-
-
-def _rendered(form: Any, reports: "Sequence[FileReport]", verbose: bool, *, to_terminal: bool) -> str:
-    from shutil import get_terminal_size
-
-    from ptmcalc.report import render
-
-    if not to_terminal:
-        return render(form, reports, verbose=verbose)
-    color = "NO_COLOR" not in os.environ and os.environ.get("TERM") != "dumb"
-    return render(form, reports, width=get_terminal_size((120, 40)).columns, color=color, verbose=verbose)
-
-
-def _reaches(reports: "Sequence[FileReport]", level: Severity) -> bool:
-    return any(d.severity.rank >= level.rank for report in reports for d in report.diagnostics)
 
 
 def _target(text: str) -> tuple[str, str]:
@@ -255,13 +271,6 @@ def _history_files(given: list[str] | None) -> list[str]:
 def is_csv(name: str) -> bool:
     """Whether a word names a CSV file."""
     return name.lower().endswith(".csv")
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(text, encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise UsageError(f"cannot write `{path}`: {error.strerror}") from None
 
 
 def _effects(given: list[str] | None) -> dict[str, str]:
@@ -285,6 +294,22 @@ def _budget(text: str) -> float:
     if seconds < 0:
         raise UsageError(f"--budget: `{text}` is less than no time", "e.g. --budget 2s")
     return seconds
+
+
+@app.command()
+def merge(
+    parts: Annotated[list[str], typer.Argument(help="JSON reports of the shards of a run, or their stores.")],
+    output: Annotated[
+        str, typer.Option("--output", "-o", metavar="FILE", help="Where to; a report is printed when left out.")
+    ] = "",
+) -> None:
+    """Unite the JSON reports, or the stores, of the shards of a run.
+
+    Exit status: that of the united report, as of `check`; 0 for stores.
+    """
+    from ptmcalc.cli.merge import united
+
+    raise typer.Exit(united(parts, output))
 
 
 @app.command()

@@ -9,8 +9,9 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.output import say
 from ptmcalc.contract.cost import CostReport, Held
 from ptmcalc.contract.report import FileReport, exit_status
-from ptmcalc.engine.check import Options, chosen_scenes, design_files
+from ptmcalc.engine.check import Options, chosen_scenes
 from ptmcalc.engine.cost import ACCURACIES, cost
+from ptmcalc.engine.files import design_files
 from ptmcalc.engine.load import load_file
 from ptmcalc.report import Format, render, work_precision
 from ptmcalc.report import cost as report

@@ -19,6 +19,10 @@ _OPTIONS: Mapping[str, tuple[str, type]] = {
     "ignore": ("ignore", list),
     "baseline": ("baseline", str),
     "exit-zero": ("exit_zero", bool),
+    "exclude": ("exclude", list),
+    "gitignore": ("gitignore", bool),
+    "jobs": ("jobs", str),
+    "store": ("store", str),
 }
 """Keys of the file: the parameter of `check` and the form of its value."""
 _FORMS = {str: 'text, e.g. "..."', bool: "true or false", list: 'a list of texts, e.g. ["..."]'}
@@ -63,5 +67,5 @@ def _parameters(found: Any, path: Path) -> dict[str, Any]:
         texts = isinstance(value, list) and all(isinstance(item, str) for item in value)
         if not (texts if form is list else isinstance(value, form)):
             raise UsageError(f"`{path}`: `{key}` is not of its form", f"write {_FORMS[form]}")
-        given[name] = os.path.relpath(path.parent / value) if key == "baseline" and value else value
+        given[name] = os.path.relpath(path.parent / value) if key in ("baseline", "store") and value else value
     return given

@@ -1,9 +1,9 @@
 """What is said about a file, before anyone decides how to print it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
+from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath, Span
 from ptmcalc.base.units import Quantity
@@ -229,17 +229,53 @@ class FileReport:
         return "pass"
 
 
-def count(reports: tuple[FileReport, ...]) -> dict[str, int]:
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """What a summary and an exit status need to know of one file."""
+
+    verdict: str
+    counts: Mapping[str, int]
+    loudest: str = ""
+    """the severest of what is said besides verdicts; empty where nothing is said"""
+    broken: bool = False
+    """whether it is our own program that failed"""
+
+
+def tally(report: FileReport) -> Tally:
+    """The tally of a file."""
+    counts = dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived"), 0)
+    for _, judgement in report.judgements:
+        counts[judgement.verdict.value] += 1
+    counts |= {"invalid": int(not report.valid), "ignored": report.ignored}
+    said = [diagnostic.severity for diagnostic in report.diagnostics]
+    loudest = max(said, key=lambda severity: severity.rank).value if said else ""
+    return Tally(report.verdict, counts, loudest, any(d.code == BROKEN for d in report.diagnostics))
+
+
+def total(tallies: Iterable[Tally]) -> dict[str, int]:
     """Files, verdicts, invalid files, and what was left out of a run."""
-    totals = {"files": len(reports)} | dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived"), 0)
-    for report in reports:
-        for _, judgement in report.judgements:
-            totals[judgement.verdict.value] += 1
-    invalid = sum(not report.valid for report in reports)
-    return totals | {"invalid": invalid, "ignored": sum(report.ignored for report in reports)}
+    names = ("pass", "fail", "undecided", "not_checked", "waived", "invalid", "ignored")
+    totals = {"files": 0} | dict.fromkeys(names, 0)
+    for one in tallies:
+        totals["files"] += 1
+        for name in names:
+            totals[name] += one.counts[name]
+    return totals
 
 
-def exit_status(reports: tuple[FileReport, ...]) -> int:
-    """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided; the worst wins in the order 2, 1, 3."""
-    verdicts = {report.verdict for report in reports}
-    return next((status for name, status in (("invalid", 2), ("fail", 1), ("undecided", 3)) if name in verdicts), 0)
+def count(reports: Iterable[FileReport]) -> dict[str, int]:
+    """Files, verdicts, invalid files, and what was left out of a run."""
+    return total(map(tally, reports))
+
+
+def status_of(tallies: Iterable[Tally]) -> int:
+    """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided, 4 our own bug; the worst wins in the order 4, 2,
+    1, 3."""
+    found = {"broken" if one.broken else one.verdict for one in tallies}
+    worst = (("broken", 4), ("invalid", 2), ("fail", 1), ("undecided", 3))
+    return next((status for name, status in worst if name in found), 0)
+
+
+def exit_status(reports: Iterable[FileReport]) -> int:
+    """The exit status of a run: that of its worst file."""
+    return status_of(map(tally, reports))

@@ -1,12 +1,14 @@
 """One design file from its bytes to its report."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import date
+from functools import partial
 from pathlib import Path
 
-from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
+from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import show
@@ -38,8 +40,6 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
 
-SUFFIXES = (".yaml", ".yml")
-
 
 @dataclass(frozen=True, slots=True)
 class Options:
@@ -56,34 +56,33 @@ class Options:
     """the day that waivers are held against; that of the clock when left out"""
 
 
-def check_paths(paths: Sequence[str], options: Options) -> tuple[FileReport, ...]:
-    """The reports of files and of all design files in folders, sorted by path within each folder."""
-    reports = []
-    for path in paths:
-        found = Path(path)
-        if found.is_dir():
-            files = design_files(found)
-            if not files:
-                problem = Diagnostic(
-                    "TXT102", "the folder holds no design file", hint="design files end in .yaml or .yml"
-                )
-                reports.append(FileReport(path, diagnostics=(problem,)))
-            reports += [check_file(file, options) for file in files]
-        else:
-            reports.append(check_file(found, options))
-    return tuple(reports)
+def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ...]:
+    """The reports of files, in their order; of several, one that our own program breaks down on stops no other."""
+    if len(paths) == 1:
+        return (check_file(paths[0], options),)
+    return tuple(guarded(path.as_posix(), partial(check_file, path, options)) for path in paths)
 
 
-def design_files(folder: Path) -> list[Path]:
-    """All design files in a folder and below it, sorted; hidden folders are left out. A link that leads nowhere is
-    among them: it is reported as unreadable, not passed over."""
-    return sorted(
-        file
-        for file in folder.rglob("*")
-        if file.suffix.lower() in SUFFIXES
-        and (file.is_file() or (file.is_symlink() and not file.exists()))
-        and not any(part.startswith(".") for part in file.relative_to(folder).parts)
-    )
+def guarded(name: str, make: Callable[[], FileReport]) -> FileReport:
+    """The report that is made of a file, or one that says our own program broke down on it.
+
+    Raises:
+        UsageError: the options are wrong for this file.
+    """
+    try:
+        return make()
+    except UsageError:
+        raise
+    except Exception as error:
+        if os.environ.get("PTMCALC_TRACEBACK"):
+            raise
+        return broken(name, f"{type(error).__name__}: {error}")
+
+
+def broken(name: str, reason: str) -> FileReport:
+    """The report of a file that our own program breaks down on."""
+    hint = "please report it with the file and the output of the same command under PTMCALC_TRACEBACK=1"
+    return FileReport(name, diagnostics=(Diagnostic(BROKEN, f"internal error: {reason}", hint=hint),))
 
 
 def check_file(path: Path, options: Options) -> FileReport:

@@ -20,6 +20,8 @@ class Format(StrEnum):
     SARIF = "sarif"
     GITHUB = "github"
     MARKDOWN = "markdown"
+    SUMMARY = "summary"
+    CSV = "csv"
 
 
 def render(

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ptmcalc import __version__
@@ -27,18 +27,55 @@ from ptmcalc.contract.report import (
 from ptmcalc.contract.result import History
 
 SCHEMA_VERSION = "1"
+_encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
 
 
-def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
+def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
     """The document; the same reports give the same bytes."""
-    return dump(
-        {
-            "schema_version": SCHEMA_VERSION,
-            "tool": {"name": "ptmcalc", "version": __version__},
-            "summary": count(reports),
-            "files": [_file(report) for report in reports],
-        }
-    )
+    reports = tuple(reports)
+    return "".join(pieces(count(reports), ((report.path, part_of(report)) for report in reports)))
+
+
+def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """The document bit by bit, of files as their paths and parts."""
+    yield f'{{\n "schema_version": {_encode(SCHEMA_VERSION)},\n'
+    yield f' "tool": {_encode({"name": "ptmcalc", "version": __version__})},\n'
+    yield f' "summary": {_encode(summary)},\n "files": ['
+    before = "\n"
+    for path, part in files:
+        yield f'{before}  {{"path": {_encode(path)},\n{part}'
+        before = ",\n"
+    yield "]}\n"
+
+
+def part_of(report: FileReport) -> str:
+    """What the document says of one file behind its path."""
+    return part(_file(report))
+
+
+def part(entry: Mapping[str, Any]) -> str:
+    """A line for each diagnostic, assumption, effect, solver, load, check: to be read, and compared line by line."""
+    lines = [f'   "{key}": {_encode(value)}' for key, value in entry.items() if not isinstance(value, list)]
+    for key, value in entry.items():
+        if key == "scenes":
+            lines.append(f'   "scenes": {_list([_scene_text(scene) for scene in value], 3)}')
+        elif isinstance(value, list):
+            lines.append(f'   "{key}": {_list([_encode(one) for one in value], 3)}')
+    return ",\n".join(lines) + "}"
+
+
+def _scene_text(scene: Mapping[str, Any]) -> str:
+    lines = [
+        f'"{key}": ' + (_list([_encode(one) for one in value], 5) if isinstance(value, list) else _encode(value))
+        for key, value in scene.items()
+    ]
+    return "{" + ",\n     ".join(lines) + "}"
+
+
+def _list(items: Sequence[str], indent: int) -> str:
+    """A list of which each item begins a line."""
+    space = "\n" + " " * (indent + 1)
+    return "[" + ",".join(space + item for item in items) + "]"
 
 
 def rows(found: list[dict[str, Any]]) -> str:
@@ -53,12 +90,11 @@ def dump(document: Mapping[str, Any]) -> str:
 
 def finite(value: float | None) -> float | None:
     """A float, or null where there is no finite one."""
-    return value if value is not None and math.isfinite(value) else None
+    return float(value) if value is not None and math.isfinite(value) else None
 
 
 def _file(report: FileReport) -> dict[str, Any]:
     return {
-        "path": report.path,
         "kind": report.kind,
         "name": report.name,
         "verdict": report.verdict,
@@ -66,6 +102,7 @@ def _file(report: FileReport) -> dict[str, Any]:
         "diagnostics": [_diagnostic(diagnostic) for diagnostic in report.diagnostics],
         "scenes": [_scene(scene) for scene in report.scenes],
         **({"tables": [_table(table) for table in report.tables]} if report.tables else {}),
+        **({"ignored": report.ignored} if report.ignored else {}),
     }
 
 
@@ -236,5 +273,5 @@ def _check(judgement: Judgement) -> dict[str, Any]:
     if judgement.without:
         entry["without"] = list(judgement.without)
     if repair:
-        entry["repair"] = {"path": list(repair.path), "value": repair.value, "unit": repair.quantity.si}
+        entry["repair"] = {"path": list(repair.path), "value": finite(repair.value), "unit": repair.quantity.si}
     return entry

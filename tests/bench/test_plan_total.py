@@ -50,7 +50,8 @@ from support.toys import Log, effect, kind_of, loaded, pull, solver
 from ptmcalc.base.estimate import Interval
 from ptmcalc.base.memory import forget
 from ptmcalc.contract.machine import AnyKind
-from ptmcalc.engine.check import Options, check, design_files
+from ptmcalc.engine.check import Options, check
+from ptmcalc.engine.files import design_files
 from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import Foreseen, foresee

@@ -26,7 +26,7 @@ with open(result, "w", encoding="utf-8") as file:
 
 HEAVY = {"scipy", "matplotlib", "jinja2", "dask", "distributed", "numba", "pint"}
 OF_A_MACHINE = {"numpy", "pydantic", "yaml"}
-COMMANDS = ("check", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
+COMMANDS = ("check", "merge", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
 
 
 def modules(result: Path, *arguments: str) -> set[str]:
@@ -47,6 +47,7 @@ def packages(result: Path, *arguments: str) -> set[str]:
     "arguments",
     [
         ("check", "specs/conveyor.yaml"),
+        ("check", "specs/hoist/winding_paper", "--jobs", "1", "--format", "summary"),
         ("plan", "specs/conveyor.yaml"),
         ("solve", "specs/conveyor.yaml", "--check", "CNV101", "--vary", "takeup.tension", "--scene", "run_loaded"),
         ("scale", "specs/conveyor.yaml", "--length", "1:10", "--law", "geometric", "--scene", "run_loaded"),
@@ -61,6 +62,11 @@ def test_no_command_imports_what_costs_more_than_a_check(arguments: tuple[str, .
     found = packages(tmp_path / "modules.json", *arguments)
     assert found & HEAVY == set()
     assert "ptmcalc" in found
+
+
+def test_one_file_needs_nothing_of_a_batch(tmp_path: Path) -> None:
+    found = packages(tmp_path / "modules.json", "check", "specs/hoist/winding_paper/height_25_rope_17_5.yaml")
+    assert found & {"sqlite3", "pathspec", "multiprocessing", "concurrent"} == set()
 
 
 @pytest.mark.parametrize("option", ["--version", "--help"])

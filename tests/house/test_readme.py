@@ -12,8 +12,8 @@ from support.command import ROOT, ptmcalc, unpainted
 from ptmcalc.base.units import SHARE, show
 from ptmcalc.cli.app import app
 from ptmcalc.contract.cost import Choice, CostReport
-from ptmcalc.engine.check import design_files
 from ptmcalc.engine.cost import ACCURACIES, MARGINS
+from ptmcalc.engine.files import design_files
 from ptmcalc.engine.load import load_file
 from ptmcalc.report.cost import summary
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.command import ROOT, Done, ptmcalc
 
-from ptmcalc.engine.check import design_files
+from ptmcalc.engine.files import design_files
 from ptmcalc.engine.registry import kind_names
 from ptmcalc.text.document import parse
 

@@ -8,6 +8,7 @@ Numbers may differ as far as another processor or mathematical library makes the
 their value, decimals of a text by one unit of their last digit.
 """
 
+import csv
 import itertools
 import json
 import os
@@ -25,8 +26,8 @@ GOLDEN = ROOT / "tests" / "golden"
 MACHINES = {"conveyor": "specs/conveyor.yaml", "slipping": "tests/cli/specs/slipping.yaml"}
 SIMULATED = {"crane_slewing": "specs/crane_slewing.yaml"}
 """Their verdicts alone are stored: steps of a simulation, and what its energy balance leaves over, are rounding's."""
-IN_CI = (Format.JUNIT, Format.SARIF, Format.GITHUB, Format.MARKDOWN)
-"""Formats of continuous integration, stored of the machine that fails."""
+IN_CI = (Format.JUNIT, Format.SARIF, Format.GITHUB, Format.MARKDOWN, Format.SUMMARY)
+"""Formats of continuous integration and of many files, stored of the machine that fails."""
 VIEWS = {"table": (Format.TABLE, False), "table.verbose": (Format.TABLE, True), "plain": (Format.PLAIN, False)} | {
     form.value: (form, False) for form in IN_CI
 }
@@ -95,13 +96,24 @@ def test_text(name: str, view: str) -> None:
         assert abs(Decimal(one) - Decimal(other)) <= last_digit, f"{one} where {other} is stored"
 
 
+def test_csv() -> None:
+    found = render(Format.CSV, [report_of_file(MACHINES["slipping"])])
+    lines, stored = (list(csv.reader(text.splitlines())) for text in (found, golden(GOLDEN / "slipping.csv", found)))
+    assert [len(line) for line in lines] == [len(line) for line in stored]
+    for one, other in zip(itertools.chain(*lines), itertools.chain(*stored), strict=True):
+        if DECIMAL.fullmatch(other):
+            assert float(one) == pytest.approx(float(other), rel=CLOSE, abs=1e-9)
+        else:
+            assert one == other
+
+
 def test_every_snapshot_belongs_to_a_test() -> None:
     expected = {f"{name}.json" for name in MACHINES}
     expected |= {f"{name}.{view}.txt" for name in MACHINES for view in OF_ALL}
     expected |= {f"slipping.{form.value}.txt" for form in IN_CI}
-    expected |= {f"{name}.plain.txt" for name in SIMULATED}
+    expected |= {f"{name}.plain.txt" for name in SIMULATED} | {"slipping.csv"}
     assert {path.name for path in GOLDEN.iterdir()} == expected
 
 
 def test_every_format_has_snapshots() -> None:
-    assert {form for form, _ in VIEWS.values()} | {Format.JSON} == set(Format)
+    assert {form for form, _ in VIEWS.values()} | {Format.JSON, Format.CSV} == set(Format)

@@ -1,0 +1,181 @@
+"""What `ptmcalc check` does with many files: who works on them, what is kept, and what is seen of it meanwhile."""
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from shutil import get_terminal_size
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+from ptmcalc.base.diagnostic import Diagnostic
+from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.output import say
+from ptmcalc.contract.report import FileReport, Tally, tally, total
+from ptmcalc.engine import check as engine
+from ptmcalc.engine.check import Options
+from ptmcalc.engine.files import Chosen, Excludes, chosen_files, part
+from ptmcalc.report import Format, csv, json, render
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ptmcalc.engine.batch import Batch
+
+FEW = 8
+"""Files below which they are checked one after the other without being predicted, unless somebody asks for more."""
+_WORTH_SHOWING = 2.0
+"""Predicted seconds from which progress is shown."""
+
+
+class Run:
+    """One run of `check`: its results are there until it is left."""
+
+    def __init__(self, options: Options, jobs: str, store: str, in_json: bool) -> None:
+        self.options, self.jobs, self.store, self.in_json = options, _jobs(jobs), store, in_json
+        self.interrupted = False
+        self._open = ExitStack()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._open.close()
+
+    def reports(
+        self, paths: Sequence[str], exclude: Sequence[str], shard: str, *, gitignore: bool
+    ) -> Sequence[FileReport]:
+        """The reports of what the command line names."""
+        chosen = chosen_files(paths, Excludes(tuple(exclude), gitignore), _listed() if "-" in paths else ())
+        if chosen.excluded:
+            files = "1 design file is" if chosen.excluded == 1 else f"{chosen.excluded} design files are"
+            say(f"ptmcalc: {files} left out by --exclude or .gitignore\n", err=True)
+        named, told = chosen.files, _told(chosen)
+        if shard:
+            named = part(named, shard)
+            told = told if shard.startswith("1/") else []
+        if len(named) < FEW and not self.store and self.jobs is None:
+            return (*engine.check_paths(named, self.options), *told)
+        return self._batch(named, told)
+
+    def _batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
+        from ptmcalc.cli.worker import pool, with_text, without_text
+        from ptmcalc.engine.batch import ALONE, Batch
+        from ptmcalc.engine.store import Store
+
+        kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
+        batch = Batch(files, self.options, kept, with_text if self.in_json else without_text, told=told)
+        jobs = self.jobs or (_cores() if sum(batch.seconds) >= ALONE else 1)
+        jobs = min(jobs, len(batch.missing))
+        executor = pool(jobs, batch.kinds) if jobs > 1 else None
+        try:
+            follow(batch, batch.run(executor, jobs))
+        except KeyboardInterrupt:
+            self.interrupted = True
+        results = batch.results(whole=not self.interrupted)
+        if self.interrupted:
+            rest = "the same command goes on from there" if self.store else "with --store the next run would go on"
+            say(f"ptmcalc: interrupted after {len(results)} of {len(files)} files; {rest}\n", err=True)
+        elif self.store:
+            say(f"ptmcalc: {batch.reused} of {len(files)} files known from `{self.store}`\n", err=True)
+        return results
+
+
+def follow(batch: "Batch", steps: Iterable[tuple[int, float]], console: "Console | None" = None) -> None:
+    """Go through the steps of a batch; on a terminal with what is done, in predicted seconds, where that is long."""
+    expected = sum(batch.seconds)
+    if console is None and not (sys.stderr.isatty() and expected > _WORTH_SHOWING):
+        for _ in steps:
+            pass
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.fields[files]} files"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console or Console(stderr=True), transient=True) as progress:
+        done, task = batch.reused, progress.add_task("", total=expected, files="")
+        for files, seconds in steps:
+            done += files
+            progress.update(task, advance=seconds, files=f"{done} of {len(batch.files)}")
+
+
+def rendered(form: Format, reports: Sequence[FileReport], verbose: bool, *, to_terminal: bool) -> Iterator[str]:
+    """The reports in one format, bit by bit where the format allows it."""
+    if form is Format.JSON:
+        return json.pieces(total(tallies_of(reports)), _parts(reports))
+    if form is Format.CSV:
+        return csv.pieces(reports)
+    if not to_terminal:
+        return iter([render(form, reports, verbose=verbose)])
+    color = "NO_COLOR" not in os.environ and os.environ.get("TERM") != "dumb"
+    width = get_terminal_size((120, 40)).columns
+    return iter([render(form, reports, width=width, color=color, verbose=verbose)])
+
+
+def tallies_of(reports: Sequence[FileReport]) -> Iterator[Tally]:
+    """What a summary needs of each file; of a batch without taking every report from the store."""
+    if isinstance(reports, tuple):
+        return map(tally, reports)
+    from ptmcalc.engine.batch import Results
+
+    return reports.tallies() if isinstance(reports, Results) else map(tally, reports)
+
+
+def _parts(reports: Sequence[FileReport]) -> Iterator[tuple[str, str]]:
+    if isinstance(reports, tuple):
+        yield from ((report.path, json.part_of(report)) for report in reports)
+        return
+    from ptmcalc.engine.batch import Results
+
+    if isinstance(reports, Results):
+        for index, (name, text) in enumerate(reports.texts()):
+            yield name, text.decode() if text else json.part_of(reports[index])
+
+
+def write(path: Path, pieces: Iterable[str]) -> None:
+    """Write a file bit by bit.
+
+    Raises:
+        UsageError: it cannot be written.
+    """
+    try:
+        with path.open("w", encoding="utf-8", errors="replace") as file:
+            file.writelines(pieces)
+    except OSError as error:
+        raise UsageError(f"cannot write `{path}`: {error.strerror}") from None
+
+
+def _told(chosen: Chosen) -> list[FileReport]:
+    """Reports of folders and patterns that hold no design file."""
+    told = []
+    for word in chosen.empty:
+        what = "the folder holds no design file" if Path(word).is_dir() else "no design file is called so"
+        left_out = f"; {chosen.excluded} are left out" * bool(chosen.excluded)
+        problem = Diagnostic("TXT102", what + left_out, hint="design files end in .yaml or .yml")
+        told.append(FileReport(word, diagnostics=(problem,)))
+    return told
+
+
+def _listed() -> list[str]:
+    """Names from standard input: one a line, or with a NUL behind each."""
+    text = sys.stdin.read()
+    names = text.split("\0") if "\0" in text else text.splitlines()
+    return [name for name in names if name.strip()]
+
+
+def _jobs(text: str) -> int | None:
+    """A number of processes; None where it is left to us."""
+    if text == "auto":
+        return None
+    if not text.isdecimal() or not 1 <= int(text) <= 1024:
+        raise UsageError(f"`--jobs {text}` is no number of processes", "write auto, or a number from 1 up")
+    return int(text)
+
+
+def _cores() -> int:
+    """Cores this process may use."""
+    allowed = getattr(os, "sched_getaffinity", None)
+    return len(allowed(0)) if allowed else os.cpu_count() or 1

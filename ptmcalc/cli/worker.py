@@ -1,0 +1,75 @@
+"""What a process of a batch does: texts in, records out. Importing this module imports all that a check needs."""
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
+from datetime import date
+from functools import partial
+from types import TracebackType
+
+from ptmcalc import machines
+from ptmcalc.engine.batch import fresh, record_of
+from ptmcalc.engine.check import Options
+from ptmcalc.engine.registry import kind_names
+from ptmcalc.engine.store import Record
+from ptmcalc.report import json
+
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def with_text(texts: Sequence[bytes], options: Options) -> list[Record]:
+    """Records of some design files with their JSON."""
+    today = options.today or date.today()
+    reports = [(raw, fresh(raw, options)) for raw in texts]
+    return [record_of(report, raw, today, json.part_of(report).encode()) for raw, report in reports]
+
+
+def without_text(texts: Sequence[bytes], options: Options) -> list[Record]:
+    """Records of some design files."""
+    today = options.today or date.today()
+    return [record_of(fresh(raw, options), raw, today) for raw in texts]
+
+
+def pool(jobs: int, kinds: Iterable[str]) -> Callable[[], Executor]:
+    """What makes executors of so many processes, which begin with the kinds of machines imported.
+
+    A process works in one thread, leaves an interrupt to the command, and ends with it, however that ends.
+    """
+    for name in _THREADS:
+        os.environ.setdefault(name, "1")
+    start = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
+    context = multiprocessing.get_context(start)
+    if start == "forkserver":
+        known = kind_names()
+        ours = [f"{machines.__name__}.{kind}" for kind in kinds if kind in known]
+        context.set_forkserver_preload(["ptmcalc.cli.app", __name__, *ours])
+    return partial(_Pool, jobs, mp_context=context, initializer=_begin)
+
+
+class _Pool(ProcessPoolExecutor):
+    """Processes that end at once where the command breaks off."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> bool | None:
+        if kind is not None:
+            self.shutdown(wait=False, cancel_futures=True)
+            for process in list((getattr(self, "_processes", None) or {}).values()):
+                process.kill()
+        return super().__exit__(kind, error, trace)
+
+
+def _begin() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.join,), daemon=True).start()
+
+
+def _end_with(ended: Callable[[], None]) -> None:
+    """A process whose command was killed would wait for work forever."""
+    ended()
+    os._exit(1)

@@ -1,0 +1,190 @@
+"""What was found out about design files, kept by their content: a batch goes on where it was stopped.
+
+A store is a SQLite file. Results are added in transactions, so that a process killed at any moment leaves every result
+that was added before it whole; several processes may use one store. A record carries a checksum and counts as absent
+where that does not hold. The file holds data only: reading one constructs nothing but reports.
+"""
+
+import json
+import os
+import sqlite3
+import tempfile
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from pydantic import TypeAdapter
+from pydantic_core import to_json
+
+from ptmcalc.base.errors import UsageError
+from ptmcalc.contract.report import FileReport, Tally
+
+_OURS = 0x70746D63
+"""`ptmc`: what marks a SQLite file as a store."""
+_FORM = 1
+_TABLE = """
+create table if not exists result (
+    key blob primary key, day text not null, tally text not null, checksum integer not null, report blob not null,
+    text_checksum integer not null, text blob not null
+)
+"""
+_WAIT = 60.0
+"""Seconds that another process may hold the store."""
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What is kept of one file: its tally, its report without the path, and its part of the JSON document, which is
+    empty where nobody asked for it. `day` is the day a report holds for that depends on it, as waivers do."""
+
+    tally: Tally
+    packed: bytes
+    text: bytes = b""
+    day: str = ""
+
+    @property
+    def report(self) -> FileReport:
+        """The report, without the path of its file."""
+        return _adapter().validate_json(self.packed)
+
+
+def packed(report: FileReport) -> bytes:
+    """A report as it is kept: all but its path."""
+    return to_json(replace(report, path=""), inf_nan_mode="constants")
+
+
+@cache
+def _adapter() -> TypeAdapter[FileReport]:
+    return TypeAdapter(FileReport)
+
+
+class Store:
+    """A file of results; without a path one that is gone with the process."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path
+        self._passing = None if path else tempfile.TemporaryDirectory(prefix="ptmcalc-")
+        place = path or Path(self._passing.name) / "results"  # type: ignore[union-attr]
+        try:
+            self._base = sqlite3.connect(place, timeout=_WAIT, isolation_level=None)
+            self._prepare(lasting=path is not None)
+        except sqlite3.Error as error:
+            raise _unusable(place, error) from None
+
+    def _prepare(self, *, lasting: bool) -> None:
+        base = self._base
+        base.execute(f"pragma synchronous = {'normal' if lasting else 'off'}")
+        (mark,), (form,) = base.execute("pragma application_id"), base.execute("pragma user_version")
+        (tables,) = base.execute("select count(*) from sqlite_master")
+        if tables[0] and (mark[0], form[0]) != (_OURS, _FORM):
+            raise sqlite3.DatabaseError("it holds something else")
+        base.execute("begin immediate")
+        base.execute(_TABLE)
+        base.execute(f"pragma application_id = {_OURS}")
+        base.execute(f"pragma user_version = {_FORM}")
+        base.execute("commit")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._base.close()
+        if self._passing:
+            self._passing.cleanup()
+
+    def add(self, records: Iterable[tuple[bytes, Record]]) -> None:
+        """Keep results under their keys, all of them or none."""
+        rows = [(key, *_row(record)) for key, record in records]
+        try:
+            self._base.execute("begin immediate")
+            self._base.executemany("insert or replace into result values (?, ?, ?, ?, ?, ?, ?)", rows)
+            self._base.execute("commit")
+        except sqlite3.Error as error:
+            raise _unusable(self.path, error) from None
+
+    def get(self, key: bytes) -> Record | None:
+        """The result under a key, without its text; None where there is none, or a damaged one."""
+        row = self._one("select day, tally, checksum, report from result where key = ?", key)
+        return _record(row) if row else None
+
+    def tally(self, key: bytes, day: str) -> Tally | None:
+        """The tally of the result under a key that holds on a day."""
+        row = self._one("select day, tally from result where key = ?", key)
+        try:
+            return _tally(row[1]) if row and row[0] in ("", day) else None
+        except (ValueError, TypeError):
+            return None
+
+    def text(self, key: bytes) -> bytes:
+        """The JSON of a result; empty where there is none, or a damaged one."""
+        row = self._one("select text, text_checksum from result where key = ?", key)
+        return bytes(row[0]) if row and zlib.crc32(row[0]) == row[1] else b""
+
+    def __len__(self) -> int:
+        row = self._one("select count(*) from result")
+        assert row is not None
+        return int(row[0])
+
+    def items(self) -> Iterator[tuple[bytes, Record]]:
+        """All results that are whole, with their keys and texts."""
+        try:
+            for key, *row in self._base.execute("select key, day, tally, checksum, report from result order by key"):
+                record = _record(row)
+                if record is not None:
+                    yield bytes(key), replace(record, text=self.text(key))
+        except sqlite3.Error as error:
+            raise _unusable(self.path, error) from None
+
+    def _one(self, question: str, *values: Any) -> Sequence[Any] | None:
+        try:
+            found: Sequence[Any] | None = self._base.execute(question, values).fetchone()
+        except sqlite3.Error as error:
+            raise _unusable(self.path, error) from None
+        return found
+
+
+def is_store(path: Path) -> bool:
+    """Whether a file is a SQLite file, which a report never is."""
+    try:
+        with path.open("rb") as file:
+            return file.read(16) == b"SQLite format 3\0"
+    except OSError:
+        return False
+
+
+def _unusable(path: Path | None, error: sqlite3.Error) -> UsageError:
+    name = os.fspath(path) if path else "the temporary folder"
+    return UsageError(f"`{name}` cannot be used as a store of results: {error}", "name another, or delete the file")
+
+
+def _row(record: Record) -> tuple[Any, ...]:
+    tally, report = json.dumps(asdict(record.tally)), zlib.compress(record.packed, 1)
+    checksum = _checksum(record.day, tally, report)
+    return record.day, tally, checksum, report, zlib.crc32(record.text), record.text
+
+
+def _checksum(day: str, tally: str, report: bytes) -> int:
+    return zlib.crc32(report, zlib.crc32(f"{day}\n{tally}\n".encode()))
+
+
+def _record(row: Sequence[Any]) -> Record | None:
+    day, tally, checksum, report = row
+    try:
+        whole = _checksum(day, tally, report) == checksum
+        return Record(_tally(tally), zlib.decompress(report), day=day) if whole else None
+    except (ValueError, TypeError, zlib.error):
+        return None
+
+
+def _tally(text: str) -> Tally:
+    return Tally(**json.loads(text))

@@ -1,0 +1,403 @@
+"""Many files: the same report whoever works on them, nothing lost where a run is killed, and nothing done twice."""
+
+import csv
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+from collections.abc import Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future
+from io import StringIO
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import pytest
+from rich.console import Console
+from support.command import ROOT, Done, environment, ptmcalc
+
+from ptmcalc.cli import worker
+from ptmcalc.cli.batch import follow
+from ptmcalc.engine import batch as engine
+from ptmcalc.engine.batch import Batch, Keys
+from ptmcalc.engine.check import Options
+from ptmcalc.engine.store import Record, Store
+
+SPECS = Path(__file__).parent / "specs"
+PASSING, SLIPPING = (SPECS / "passing.yaml").read_bytes(), (SPECS / "slipping.yaml").read_bytes()
+BROKEN, INVALID = b"kind: [", b"kind: conveyor\nname: nothing else\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Twelve files of every verdict, two of them equal; commands are run beside it."""
+    specs = tmp_path / "specs"
+    (specs / "inner").mkdir(parents=True)
+    for index in range(6):
+        (specs / f"{index}.yaml").write_bytes(PASSING + b"# %d\n" % index)
+        (specs / "inner" / f"{index}.yaml").write_bytes((SLIPPING, BROKEN, INVALID)[index % 3] + b"# %d\n" % index)
+    (specs / "inner" / "3.yaml").write_bytes(SLIPPING + b"# 0\n")
+    monkeypatch.chdir(tmp_path)
+    return specs
+
+
+def checked(*arguments: str | Path, form: str = "json") -> Done:
+    return ptmcalc("check", "specs", "--no-repairs", "--format", form, *arguments)
+
+
+def document(done: Done) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(done.out)
+    return found
+
+
+# -- the same report ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("form", ["json", "plain", "table", "junit", "sarif", "github", "markdown", "summary", "csv"])
+def test_every_format_is_the_same_one_by_one_in_a_batch_and_from_the_store(folder: Path, form: str) -> None:
+    with mock.patch("ptmcalc.cli.batch.FEW", 100):
+        alone = checked(form=form)
+    batch = checked(form=form)
+    first, again = (checked("--store", "results", form=form) for _ in range(2))
+    assert alone.status == batch.status == first.status == again.status == 2
+    assert alone.out == batch.out == first.out == again.out
+    assert (alone.err, batch.err) == ("", "")
+    assert first.err == "ptmcalc: 1 of 12 files known from `results`\n"
+    assert again.err == "ptmcalc: 12 of 12 files known from `results`\n"
+
+
+def test_policies_count_in_a_batch_as_they_do_one_by_one(folder: Path) -> None:
+    options = ("--ignore", "CNV101", "--exclude", "inner/1.yaml", "--exit-zero")
+    with mock.patch("ptmcalc.cli.batch.FEW", 100):
+        alone = checked(*options)
+    assert checked(*options) == checked(*options, "--jobs", "1") == alone
+    assert document(alone)["summary"]["ignored"] > 0
+    assert "1 design file is left out" in alone.err
+
+
+def test_a_store_is_of_use_to_every_format_and_policy(folder: Path) -> None:
+    """A first run that asks for no JSON leaves a second one that does nothing to compute."""
+    checked("--store", "results", form="plain")
+    with mock.patch("ptmcalc.cli.worker.fresh", side_effect=AssertionError("it is known")):
+        found = checked("--store", "results", "--ignore", "CNV101")
+    assert found.out == checked("--ignore", "CNV101").out
+
+
+# -- what is known --------------------------------------------------------------------------------------------------
+
+
+def test_only_what_changed_is_done_again(folder: Path) -> None:
+    first = document(checked("--store", "results"))
+    (folder / "0.yaml").write_bytes(SLIPPING)
+    (folder / "new.yaml").write_bytes(PASSING + b"# 1\n")
+    os.utime(folder / "1.yaml", (0, 0))
+    done = checked("--store", "results")
+    assert done.err == "ptmcalc: 12 of 13 files known from `results`\n"
+    found = {entry.pop("path"): entry for entry in document(done)["files"]}
+    for entry in first["files"]:
+        path = entry.pop("path")
+        assert (found[path] == entry) is (path != "specs/0.yaml")
+    assert found["specs/new.yaml"] == found["specs/1.yaml"], "by its content, wherever it lies"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        Options(("run",)),
+        Options(accuracy="1 %"),
+        Options(effects={"sag": "off"}),
+        Options(budget=1.0),
+        Options(histories=True),
+        Options(repairs=False),
+    ],
+    ids=str,
+)
+def test_a_key_depends_on_every_option_and_on_the_program(options: Options) -> None:
+    plain = Keys(Options()).of(PASSING)
+    assert Keys(options).of(PASSING) != plain
+    assert Keys(Options()).of(PASSING + b" ") != plain
+    assert Keys(Options()).of(PASSING) == plain
+    with mock.patch.object(engine, "edition", return_value=b"another program"):
+        assert Keys(Options()).of(PASSING) != plain
+
+
+def test_a_waiver_is_held_against_the_day_it_is_read(folder: Path) -> None:
+    waiver = b"waive: [{check: CNV101, reason: being mended, until: 2026-06-30}]\n"
+    (folder / "0.yaml").write_bytes(SLIPPING + waiver)
+    day = "ptmcalc.engine.batch.Batch.today"
+    from datetime import date
+
+    verdicts = []
+    for today in (date(2026, 6, 30), date(2026, 7, 1), date(2026, 7, 1)):
+        with Store(folder.parent / "results") as store:
+            options = Options(repairs=False, today=today)
+            batch = Batch([folder / "0.yaml", folder / "1.yaml"], options, store, worker.with_text)
+            missing = len(batch.missing)
+            list(batch.run(None))
+            verdicts.append((batch.results()[0].verdict, missing))
+    assert verdicts == [("pass", 2), ("fail", 1), ("fail", 0)], day
+
+
+def test_a_damaged_record_is_made_again(folder: Path) -> None:
+    sound = checked("--store", "results")
+    with sqlite3.connect("results") as base:
+        base.execute("update result set report = zeroblob(10), text = zeroblob(10)")
+    base.close()
+    again = checked("--store", "results")
+    assert (again.status, again.out) == (sound.status, sound.out)
+
+
+def test_a_store_that_is_none_is_wrong_usage(folder: Path) -> None:
+    Path("results").write_text("notes of mine", encoding="utf-8")
+    done = checked("--store", "results")
+    assert (done.status, done.out) == (2, "")
+    assert "`results` cannot be used as a store" in done.err
+    assert Path("results").read_text("utf-8") == "notes of mine"
+
+
+# -- shards ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [1, 3])
+def test_the_reports_of_the_shards_make_the_report_of_the_whole(folder: Path, number: int) -> None:
+    whole = checked("--ignore", "CNV103")
+    for index in range(1, number + 1):
+        checked("--ignore", "CNV103", "--shard", f"{index}/{number}", "-o", f"json={index}.json")
+    parts = [f"{index}.json" for index in range(1, number + 1)]
+    done = ptmcalc("merge", *reversed(parts), parts[0])
+    assert (done.status, done.err) == (2, "")
+    assert done.out == whole.out
+    assert ptmcalc("merge", *parts, "-o", "all.json") == Done(2, "", "")
+    assert Path("all.json").read_text("utf-8") == whole.out
+
+
+def test_the_stores_of_the_shards_make_the_store_of_the_whole(folder: Path) -> None:
+    for index in (1, 2):
+        checked("--shard", f"{index}/2", "--store", f"{index}.store")
+    assert ptmcalc("merge", "1.store", "2.store", "-o", "all.store") == Done(0, "", "")
+    done = checked("--store", "all.store")
+    assert done.err == "ptmcalc: 12 of 12 files known from `all.store`\n"
+    assert done.out == checked().out
+
+
+def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
+    checked("--store", "a.store", "-o", "json=a.json")
+    text = Path("a.json").read_text("utf-8")
+    Path("b.json").write_text(text.replace("Yard conveyor", "Another one"), encoding="utf-8")
+    Path("c.json").write_text('{"files": []}', encoding="utf-8")
+    for parts, reason in (
+        (("a.json", "b.json"), "has different reports in `a.json` and `b.json`"),
+        (("a.json", "c.json"), "`c.json` is no JSON report of ptmcalc"),
+        (("a.json", "nowhere.json"), "the report `nowhere.json` cannot be read"),
+        (("a.json", "a.store"), "stores and reports do not mix"),
+        (("a.store",), "a store is not printed"),
+    ):
+        done = ptmcalc("merge", *parts)
+        assert (done.status, done.out) == (2, "")
+        assert reason in done.err
+
+
+# -- what goes wrong ------------------------------------------------------------------------------------------------
+
+
+def work_with_accidents(texts: Sequence[bytes], options: Options) -> list[Record]:
+    """The work of a process that a certain text kills."""
+    if any(b"deadly" in text for text in texts):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return worker.with_text(texts, options)
+
+
+def test_a_file_that_kills_its_worker_is_told_and_stops_no_other(folder: Path) -> None:
+    (folder / "2.yaml").write_bytes(PASSING + b"# deadly\n")
+    files = sorted(folder.rglob("*.yaml"))
+    with Store() as store, mock.patch.object(engine, "_MOST_IN_CHUNK", 4):
+        batch = Batch(files, Options(repairs=False), store, work_with_accidents)
+        steps = list(batch.run(worker.pool(2, batch.kinds), 2))
+        found = {report.path: report for report in batch.results()}
+    assert sum(count for count, _ in steps) == 11, "one of two equal files is done"
+    broken = [path for path, report in found.items() if any(d.code == "BUG101" for d in report.diagnostics)]
+    assert broken == [(folder / "2.yaml").as_posix()]
+    assert list(found) == [path.as_posix() for path in files]
+    assert all(found[path.as_posix()].verdict == "pass" for path in sorted(folder.glob("[013-5].yaml")))
+
+
+def test_where_no_process_can_be_started_the_work_is_done_here(folder: Path) -> None:
+    files = sorted(folder.glob("*.yaml"))
+    with Store() as store:
+        batch = Batch(files, Options(repairs=False), store, worker.with_text)
+        list(batch.run(lambda: Slow(-1), 2))
+        assert [report.verdict for report in batch.results()] == ["pass"] * 6
+
+
+@pytest.mark.parametrize("options", [(), ("--jobs", "1", "--store", "results")], ids=["one by one", "batch"])
+def test_a_bug_on_one_file_stops_no_other_and_is_not_kept(
+    folder: Path, options: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("PTMCALC_TRACEBACK", raising=False)
+    good = checked(*options)
+
+    def settled(*arguments: Any, **more: Any) -> Any:
+        raise ZeroDivisionError("division by zero")
+
+    with mock.patch("ptmcalc.engine.check.settle", settled), mock.patch("ptmcalc.cli.batch.FEW", 100):
+        done = checked(*options, "--budget", "50 s")
+        assert done.status == 4
+        said = [(entry["verdict"], [one["code"] for one in entry["diagnostics"]]) for entry in document(done)["files"]]
+        assert said.count(("invalid", ["BUG101"])) == 8
+        assert len(said) == 12
+    assert checked(*options).out == good.out
+    assert checked(*options, "--budget", "50 s").status == 2, "what was broken is tried again"
+
+
+class Slow(Executor):
+    """An executor that is interrupted when a certain number of chunks is done."""
+
+    def __init__(self, most: int) -> None:
+        self.left = most
+
+    def submit(self, work: Any, /, *arguments: Any, **more: Any) -> Future[Any]:  # type: ignore[override]
+        future: Future[Any] = Future()
+        if self.left < 0:
+            future.set_exception(BrokenExecutor("gone"))
+        elif self.left == 0:
+            raise KeyboardInterrupt
+        else:
+            future.set_result(work(*arguments, **more))
+        self.left -= 1
+        return future
+
+
+def test_an_interrupt_keeps_and_prints_what_is_done(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(engine, "CHUNK", 0.0)
+    monkeypatch.setattr(worker, "pool", lambda jobs, kinds: lambda: Slow(5))
+    done = checked("--jobs", "2", "--store", "results", "-o", "json=report.json")
+    assert done.status == 130
+    assert "ptmcalc: interrupted after " in done.err
+    assert not Path("report.json").exists(), "a report that is not whole replaces none"
+    printed = document(done)["files"]
+    with Store(Path("results")) as store:
+        kept = len(store)
+    assert 1 < kept <= len(printed) < 12
+    whole = checked()
+    assert all(entry in document(whole)["files"] for entry in printed)
+    monkeypatch.undo()
+    os.chdir(folder.parent)
+    assert checked("--store", "results").out == whole.out
+
+
+@pytest.mark.parametrize("text", ["0", "-1", "many", "", "1.5", "9999"])
+def test_what_is_no_number_of_processes_is_refused(folder: Path, text: str) -> None:
+    done = checked(f"--jobs={text}")
+    assert (done.status, done.out) == (2, "")
+    assert "is no number of processes" in done.err
+
+
+def test_names_come_from_standard_input(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for text in ("specs/1.yaml\nspecs/0.yaml\n", "specs/1.yaml\0specs/0.yaml\0"):
+        monkeypatch.setattr(sys, "stdin", StringIO(text))
+        found = document(ptmcalc("check", "-", "--format", "json"))
+        assert [entry["path"] for entry in found["files"]] == ["specs/1.yaml", "specs/0.yaml"]
+
+
+# -- what is seen ---------------------------------------------------------------------------------------------------
+
+
+def test_progress_counts_predicted_seconds(folder: Path) -> None:
+    with Store() as store:
+        batch = Batch(sorted(folder.rglob("*.yaml")), Options(repairs=False), store, worker.without_text)
+        assert len(batch.seconds) == 11
+        assert all(seconds > 0 for seconds in batch.seconds)
+        out = StringIO()
+        steps = list(batch.run(None))
+        follow(batch, iter(steps), Console(file=out, force_terminal=True, width=100))
+        assert sum(seconds for _, seconds in steps) == pytest.approx(sum(batch.seconds))
+    assert "12 of 12 files" in out.getvalue()
+
+
+def test_the_csv_has_a_line_for_every_verdict_and_every_fault(folder: Path) -> None:
+    found = document(checked())
+    rows = list(csv.DictReader(StringIO(checked(form="csv").out)))
+    verdicts = [
+        (entry["path"], check["code"], scene["name"], check["verdict"], check["value"])
+        for entry in found["files"]
+        for scene in entry["scenes"]
+        for check in scene["checks"]
+    ]
+    told = [row for row in rows if row["verdict"] != "invalid"]
+    assert sorted((r["file"], r["code"], r["scene"], r["verdict"], float(r["value"])) for r in told) == sorted(verdicts)
+    faults = [(e["path"], d["code"]) for e in found["files"] if e["verdict"] == "invalid" for d in e["diagnostics"]]
+    assert [(row["file"], row["code"]) for row in rows if row["verdict"] == "invalid"] == faults
+    governing = [row["file"] for row in rows if row["governs"]]
+    assert governing == [entry["path"] for entry in found["files"] if entry["scenes"]]
+
+
+# -- kill -9 --------------------------------------------------------------------------------------------------------
+
+DRIVER = """
+import os, signal, sys
+from ptmcalc.engine import batch
+from ptmcalc.engine.store import Store
+from ptmcalc.cli.app import main
+
+add = Store.add
+batch.CHUNK = 0.0
+
+def kill(statement):
+    if statement == "commit":
+        os.kill(os.getpid(), signal.SIGKILL)
+
+def counted(self, records):
+    global left
+    left -= 1
+    if left == 0:
+        self._base.set_trace_callback(kill)
+    add(self, records)
+
+if __name__ == "__main__":
+    left = int(sys.argv.pop(1))
+    Store.add = counted
+    main()
+"""
+"""The command, which dies between the writing of a record and its commit, the so-and-so-manieth; 0 never."""
+MANY = 12
+
+
+@pytest.fixture
+def many(tmp_path: Path) -> Path:
+    specs = tmp_path / "specs"
+    specs.mkdir()
+    for index in range(MANY):
+        (specs / f"{index:02}.yaml").write_bytes(
+            PASSING.replace(b"18 m", b"%d m" % (10 + index % 9)) + b"# %d\n" % index
+        )
+    (tmp_path / "driver.py").write_text(DRIVER, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_run_that_is_killed_twice_and_finished_has_every_result_once(many: Path, jobs: str) -> None:
+    """kill -9 amid the writing of a record, again, then to the end. A run comes back only when its workers let go of
+    its streams: none outlives it."""
+
+    def run(kill: int, *options: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "driver.py", str(kill), "check", "specs", "--format", "json", *options]
+        return subprocess.run(command, cwd=many, env=environment(ROOT), capture_output=True, text=True, check=False)
+
+    options, before = ("--jobs", jobs, "--store", "results"), 0
+    for kill in (3, 5):
+        assert run(kill, *options).returncode == -signal.SIGKILL
+        with Store(many / "results") as store:
+            assert len(store) == before + kill - 1
+            before = len(store)
+            assert all(record.report.kind == "conveyor" for _, record in store.items())
+    done, fresh = run(0, *options), run(0, "--jobs", "1")
+    assert (done.returncode, fresh.returncode) == (0, 0)
+    assert done.stderr == f"ptmcalc: {before} of {MANY} files known from `results`\n", "it is not done again"
+    assert done.stdout == fresh.stdout
+    assert [file["path"] for file in json.loads(done.stdout)["files"]] == [f"specs/{i:02}.yaml" for i in range(MANY)]
+    base = sqlite3.connect(many / "results")
+    assert base.execute("pragma integrity_check").fetchall() == [("ok",)]
+    assert base.execute("select count(*), count(distinct key) from result").fetchone() == (MANY, MANY)
+    base.close()
