@@ -65,8 +65,8 @@ WITHOUT_LEDGER: Mapping[str, str] = {
 DUST = 1e-12
 """Of a number that should be 0, as a share of the largest one of its quantity."""
 OF_THE_RUN = {"energy_residual", "tension_polygon_bound"}
-"""Loads that say something of a run, not of the machine: what its ledger leaves over, and an upper bound that is as good
-as the run."""
+"""Loads that say something of a run, not of the machine: what its ledger leaves over, and an upper bound that is as
+good as the run."""
 
 _EXPECT = re.compile(r"^# (expect|at most|tries): *(.*?) *$")
 _VERDICT = re.compile(r"(pass|fail|undecided|invalid)")
