@@ -32,7 +32,9 @@ def said(name: str, word: str) -> dict[str, Any]:
 
 def held(kind: str) -> set[str]:
     """Solvers and effects of a kind that some module holds."""
-    return {one for name in modules() for word in ("ON_TRIAL", "WITHOUT_BARS") for one in said(name, word).get(kind, ())}
+    return {
+        one for name in modules() for word in ("ON_TRIAL", "WITHOUT_BARS") for one in said(name, word).get(kind, ())
+    }
 
 
 def asked(name: str) -> set[str]:
