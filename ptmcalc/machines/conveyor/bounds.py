@@ -419,14 +419,24 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
 
 
 def moved(
-    line: BeltLine, loads: Mapping[str, Estimate], change: float, slowing: float, off: bool = False, asked: int = 0
+    line: BeltLine,
+    loads: Mapping[str, Estimate],
+    change: float,
+    slowing: float,
+    grips: Mapping[str, float],
+    off: bool = False,
+    asked: int = 0,
 ) -> dict[str, Interval]:
     """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
 
-    The run-off tension of a constant take-up does not move unless `off` says so. Grip is a ratio: its tight side grows
-    and its slack side shrinks; where it then still holds, nothing slips. The mean of all that moves follows Newton's
-    law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by
-    what a wave of that size makes of its speed:
+    The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from
+
+        U' = (U x + change e)/(x - change),   e = exp(-mu alpha) of the drum's `grips`
+
+    with x the least tension at a drum less the centrifugal one; its reserve, without that one, from the ratio of
+    tensions that it stands for. Where a drum then still holds, nothing slips. The mean of all that moves follows
+    Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
+    rest by what a wave of that size makes of its speed:
 
     An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
 
@@ -439,13 +449,14 @@ def moved(
     delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
     slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
-    share = change / slack if slack > change else np.inf
-    grown = (1 + share) / (1 - share) if share < 1 else np.inf
+    lowest = min((one.low for name, one in loads.items() if family(name) == "tension_min"), default=np.inf)
+    slack = min(slack, lowest)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
-        used = loads.get(name.replace(family(name), "slip_utilisation_max", 1))
-        return used is not None and used.high * grown < 1
+        grip = name.replace(family(name), "slip_utilisation_max", 1)
+        used = loads.get(grip)
+        return used is not None and used.high + _moved_grip(line, grip, used, change, slack, grips).high < 1
 
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
@@ -460,7 +471,7 @@ def moved(
             weakest = line.breaking_force / (tension - change) if tension > change else np.inf
             found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
         elif kind in GRIP:
-            found[name] = _around(value, [value * grown, value / grown]) if np.isfinite(grown) else ANYTHING
+            found[name] = _moved_grip(line, name, estimate, change, slack, grips)
         elif kind == "sag_relative_max":
             found[name] = _moved_sag(line, loads, change)
         elif kind in DRIVE and asked:
@@ -472,6 +483,28 @@ def moved(
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
             found[name] = anything(name, estimate)
     return found
+
+
+def _moved_grip(
+    line: BeltLine, name: str, load: Estimate, change: float, slack: float, grips: Mapping[str, float]
+) -> Interval:
+    """How far the grip of a drum, or the least of several, may be off."""
+    reserve = family(name) == "slip_reserve_min"
+    grip = slack if reserve else slack - line.centrifugal_at_speed
+    _, _, drum = name.partition("[")
+    exponents = [grips[drum[:-1]]] if drum and drum[:-1] in grips else list(grips.values())
+    if not exponents or not grip > change or not np.isfinite(load.value):
+        return ANYTHING
+    ends = []
+    for exponent in exponents:
+        squeeze = float(np.exp(-exponent))
+        ratio = capstan.slip_ratio(load.value, exponent) if reserve else load.value
+        ratios = (
+            (ratio * grip + change * squeeze) / (grip - change),
+            max(ratio * grip - change * squeeze, 0.0) / (grip + change),
+        )
+        ends += [capstan.slip_reserve_ratio(one, exponent) if reserve else one for one in ratios]
+    return _around(load.value, ends)
 
 
 def _moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:

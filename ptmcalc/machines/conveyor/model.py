@@ -249,6 +249,12 @@ _SHARP = 0.75
 """Rise of an imposed speed over the longest period of the belt's waves from which on none of the belt turns back."""
 
 
+def grips(spec: Conveyor) -> dict[str, float]:
+    """mu alpha of every drum whose friction is given [1]."""
+    drums = {name: drive.drum for name, drive in spec.all_drives.items()}
+    return {name: drum.friction * drum.wrap for name, drum in drums.items() if drum.friction is not None}
+
+
 def thrown_back(spec: Conveyor, scene: Start) -> bool:
     """Whether an imposed speed rises so sharply that waves may turn some of the belt back.
 

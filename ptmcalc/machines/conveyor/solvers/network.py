@@ -31,6 +31,7 @@ from ptmcalc.machines.conveyor.model import (
     belt_line,
     belt_travel,
     delay_lines_do,
+    grips,
     start_case,
     starting_force,
 )
@@ -380,7 +381,7 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     asked = len({drive.at for drive in case.spec.all_drives.values()}) if case.imposed is not None else 0
     off = case.spec.takeup.mass is not None
-    for name, offsets in bounds.moved(line, values, change, slowing, off, asked).items():
+    for name, offsets in bounds.moved(line, values, change, slowing, grips(case.spec), off, asked).items():
         slid = family(name) in SLIPS and fine[name][0] > 0
         if not slid:
             bars[name] = max(bars[name], abs(offsets.low), abs(offsets.high))
