@@ -1,80 +1,109 @@
 """Bars of the rigid slewing crane, and of a simulation without gust or curve, against the whole simulation."""
 
-import math
-from collections.abc import Mapping
-from functools import cache
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.bars import (
+    THIRD,
+    WIDEST,
+    Limit,
+    Trial,
+    bounded,
+    claim_of,
+    misses,
+    near,
+    numbers,
+    opposites,
+    tried,
+    verdicts,
+    wide,
+)
 from support.machines import loaded
 from support.slewing_samples import random_crane
 
+from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import plan_scene
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.registry import load_kind
+from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
+from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
 
-TIGHTER = 1 / 3
-_COUNT = 36
+ON_TRIAL = {
+    "crane": (
+        "efficiency_direction", "slewing_motor_curve", "wind_gust", "load_swing", "centrifugal_offset", "consistent",
+        "geared", "slew",
+    )
+}  # fmt: skip
+KIND = next(one for one in load_kind("crane").types if one.type == "slewing")
+SEED, ALWAYS = 20261122, 20
+DIRECTION = "efficiency_direction"
+WHATEVER_SWINGS = (
+    "brake_time", "brake_angle", "start_angle", "steady_angle", "steady_time", "cycle_time", "rotation_used",
+    "share_brake", "share_steady", "ring_force_axial", "ring_utilisation",
+)  # fmt: skip
+"""Loads of the stop, and of what is left of the rotation: their bars hold for any swing with which the stop begins, and
+are forty times the true error in the median, which this sample does not come near."""
+WAYS = {"rigid": (CONSISTENT, ()), "losses": (GEARED, (DIRECTION,)), "even": (SLEW, SLEW.always)}
+LIMITS = (
+    Limit("start_time", ("checks", "start_time"), 1e-3),
+    Limit("start_time", ("checks", "least_start_time"), 1e-3),
+    Limit("brake_time", ("checks", "brake_time"), 1e-3),
+    Limit("brake_angle", ("cycle", "brake_angle"), 1e-3, 6.0),
+)
 
 
-@cache
-def cheap_and_true(seed: int) -> list[tuple[Mapping[str, Estimate], Mapping[str, Estimate]]]:
-    """What every cheaper run says with its bars, beside the richest run's values."""
-    read = loaded(random_crane(np.random.default_rng(seed)))
-    assert read.kind is not None
-    assert read.spec is not None
-    planned = plan_scene(read.kind, read.spec, read.spec.all_scenes[0])
-    *cheaper, richest = planned.rungs
-    assert richest.solver.name == "slew"
+def trial_of(index: int) -> Trial | None:
+    """A crane on trial; None where the richest run says that it does not move."""
+    rng = np.random.default_rng((SEED, index))
+    spec = loaded(random_crane(rng)).spec
+    assert spec is not None
+    (scene,) = spec.all_scenes
+    plan = plan_scene(KIND, spec, scene)
+    richest = plan.rungs[-1]
+    assert richest.solver is SLEW
     try:
-        truth = richest.solver.run(read.spec, planned.scene, richest.carried, richest.level)
+        truth = claim_of(plan, spec, SLEW, richest.carried)
     except NumericsError:
-        return []
-    values = {name: found.estimate for name, found in truth.loads.items()}
-    seen = []
-    for rung in cheaper:
-        result = rung.solver.run(read.spec, planned.scene, rung.carried, rung.level)
-        seen.append((widen(planned, read.spec, rung, result), values))
-    return seen
+        return None
+    claims = {name: claim_of(plan, spec, *way) for name, way in WAYS.items() if name != "even" or not index % 4}
+    cheap = {name: one for name, one in claims.items() if name != "even"}
+    return replace(tried(index, rng, KIND, spec, scene, cheap, truth, LIMITS), claims=claims)
 
 
-def outside(said: Estimate, truth: Estimate, share: float) -> bool:
-    """Whether the truth lies outside so much of a bar, rounding aside."""
-    slack = 1e-9 * (1 + abs(truth.value))
-    low = said.value - share * (said.value - said.low)
-    high = said.value + share * (said.high - said.value)
-    return truth.high < low - slack or truth.low > high + slack
+@pytest.fixture(scope="module", params=numbers(ALWAYS))
+def trials(request: pytest.FixtureRequest) -> list[Trial]:
+    found = [trial for index in request.param if (trial := trial_of(index)) is not None]
+    assert len(found) > 0.8 * len(request.param)
+    return found
 
 
-def sample() -> list[tuple[Mapping[str, Estimate], Mapping[str, Estimate]]]:
-    """All of them. Made by the tests: what a module computes when it is read, every process of a run computes."""
-    return [pair for seed in range(_COUNT) for pair in cheap_and_true(seed)]
+@pytest.mark.parametrize("way", WAYS)
+def test_every_bar_holds_the_simulation(trials: list[Trial], way: str) -> None:
+    assert misses(trials, way) == []
 
 
-def test_most_cranes_of_the_sample_move() -> None:
-    assert sum(bool(cheap_and_true(seed)) for seed in range(_COUNT)) > 0.8 * _COUNT
-
-
-@pytest.mark.parametrize("seed", range(_COUNT))
-def test_every_bar_holds_the_simulation(seed: int) -> None:
-    missed = {
-        name: (said[name], truth[name])
-        for said, truth in cheap_and_true(seed)
-        for name in said.keys() & truth.keys()
-        if outside(said[name], truth[name], 1.0)
-    }
-    assert missed == {}
-
-
-@pytest.mark.parametrize("load", ["start_time", "start_angle", "brake_angle", "torque_worm", "brake_time"])
-def test_a_third_of_the_bar_would_not_hold(load: str) -> None:
+def test_a_third_of_the_bars_would_not_hold(trials: list[Trial]) -> None:
     """Start, stop and what the gear carries; the bars of the ring's axial force and moment are wider than that."""
-    bounded = [(said[load], truth[load]) for said, truth in sample() if load in said and said[load].bounded]
-    assert len(bounded) > 10
-    assert any(outside(said, truth, TIGHTER) for said, truth in bounded)
+    tight = {miss.load for miss in misses(trials, "losses", THIRD)}
+    assert {"start_time", "brake_angle", "torque_worm"} <= tight
 
 
-def test_bars_are_finite_for_most_cranes() -> None:
-    said = [pair[0]["brake_angle"] for pair in sample()]
-    assert sum(math.isfinite(one.high) for one in said) > 0.5 * len(said)
+def test_they_are_not_much_wider_than_the_error(trials: list[Trial]) -> None:
+    for way in ("rigid", "losses"):
+        assert wide(trials, way, WHATEVER_SWINGS) <= WIDEST
+        assert bounded(trials, way, "brake_angle") > 0.5
+
+
+def test_a_start_that_is_another_leaves_nothing_known_of_a_simulated_stop(trials: list[Trial]) -> None:
+    """A swing that a gust changes is there when the stop begins."""
+    windy = [trial for trial in trials if "even" in trial.claims and trial.spec.value_at(("wind", "gust"))]
+    assert windy
+    assert not any(trial.claims["even"]["brake_angle"].bounded for trial in windy)
+
+
+def test_the_ladder_never_says_the_opposite(trials: list[Trial]) -> None:
+    assert opposites(trials) == []
+    assert near(trials) >= 0.35
+    said = verdicts(trials, "CRN102", "CRN103", "CRN104", "CRN105")
+    assert min(said.count(Verdict.PASS), said.count(Verdict.FAIL)) > 0.1 * len(trials)

@@ -19,9 +19,9 @@ _OF_TIMES = (
 )  # fmt: skip
 
 
-def swing_unknown(loads: Loads, names: Iterable[str]) -> dict[str, Interval]:
-    """Nothing is known of the swing of a load."""
-    return {name: ANYTHING for name in names if name in loads}
+def unknown(loads: Loads, names: Iterable[str] = ()) -> dict[str, Interval]:
+    """Nothing is known of start, stop and ring, nor of some loads more."""
+    return {name: ANYTHING for name in (*_OF_TIMES, *_RING, *names) if name in loads}
 
 
 def _beyond(known: Estimate, low: float, high: float) -> Interval:
@@ -185,7 +185,7 @@ def _unmoved(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
         proved.add("start_time")
     if math.isinf((model.stop(spec, scene) or chain.allowed_stop(spec))[0]):
         proved |= {"brake_time", "brake_angle"}
-    return {name: ANYTHING for name in (*_OF_TIMES, *_RING) if name in loads and name not in proved}
+    return {name: offset for name, offset in unknown(loads).items() if name not in proved}
 
 
 def _stop(

@@ -98,8 +98,8 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
 
         J w/(M_max - M_r) <= t_s <= J w/(M_min - M_r)
 
-    **Range** a start time of the rigid crane; anything where the smallest torque does not turn the crane, and for the
-    load's swing.
+    **Range** a start time of the rigid crane; anything where the smallest torque does not turn the crane, and of a run
+    in which the load swings: another start leaves it another swing, with which the stop begins.
     **Error** a bound: the momentum given grows faster than with M_min, slower than with M_max.
     **Source** change of angular momentum.
     """
@@ -110,7 +110,9 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
     least, most = (model.at_column(spec, torque) - steady for torque in spread[:2])
     momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
     wide = Interval(momentum / most if most > 0 else math.inf, momentum / least if least > 0 else math.inf)
-    return bounds.swing_unknown(loads, SWINGING) | bounds.of_times(spec, scene, loads, wide, None)
+    if not SWINGING.isdisjoint(loads):
+        return bounds.unknown(loads, SWINGING)
+    return bounds.of_times(spec, scene, loads, wide, None)
 
 
 # -- wind -----------------------------------------------------------------------------------------------------------
@@ -136,7 +138,8 @@ def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets
 
         t_s <= J w/(M_start - M_steady - M_gust)
 
-    **Range** a start time of the rigid crane; anything where the gust stops it, and for the load's swing.
+    **Range** a start time of the rigid crane; anything where the gust stops it, and of a run in which the load swings:
+    another start leaves it another swing, with which the stop begins.
     **Error** a bound: the gust is never stronger than that, and never helps.
     **Source** change of angular momentum.
     """
@@ -147,7 +150,9 @@ def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets
     known = loads["start_time"]
     left = momentum / known.high - gust if known.high > 0 else -1.0
     wide = Interval(known.low, momentum / left if left > 0 else math.inf)
-    return bounds.swing_unknown(loads, SWINGING) | bounds.of_times(spec, scene, loads, wide, None)
+    if not SWINGING.isdisjoint(loads):
+        return bounds.unknown(loads, SWINGING)
+    return bounds.of_times(spec, scene, loads, wide, None)
 
 
 # -- load -----------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """How far a column of two masses may be from one with all its modes, and one without weights from one with them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ptmcalc.machines.crane.stacking import march, model, starts
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.march import Happening
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
+from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -41,12 +42,13 @@ _GRAZES = 0.1
 def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
     """What the shapes left out may change of the loads of two masses.
 
-    Deflection and moment at rest are exact; of what swings the first mode has the share g_1/g_s, all others together
-    no more than sum |g_k|:
+    Deflection and moment at rest are exact, but for what the shape of a force at the far end misses of the weights; of
+    what swings the first mode has the share g_1/g_s, all others together no more than sum |g_k|:
 
         |dx| <= P (s_1 |g_s - g_1| + sum_(k > 1) s_k |g_k|)   beside a base that rolls, P the force that comes
               + a (|h_s - h_1| + sum_(k > 1) |h_k|)           as it stops, a its deceleration; 2 a s_k along a ramp
               + 2 |x(w) - x(w_1)|                             two masses with the frequency of the exact column
+              + 2 x |d/d_1 - 1|                               d static deflection of two masses, d_1 of the column
               + sum |p_k L_k| min(2 V w_k, 2 a)/w_k^2         held-base modes, kicked by the speed V, a the step
                                                               of acceleration that comes so much earlier or later
 
@@ -56,7 +58,8 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
         V = P/m^2 ( sum_(k > 1) s_k L_k^2/w_k + s_1 |L_1^2/w_1 - L^2/w| )
 
     with the momentum L_k^2/(m w_k) P that a mode swings with against the base, m all that rolls; L and w of two masses.
-    The time in which the swing settles is that of a window so much narrower or wider.
+    The time in which the swing settles is that of a window so much narrower or wider. All of it with the weights on the
+    column and without, as the run may have been either; a file that leaves weights out, or insists on them, tells.
 
     **Range** every start and stop of two masses; nothing is known where the base comes to rest so softly that the time
     of it is open: with less than a tenth of the deceleration P/m.
@@ -64,20 +67,36 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
     **Source** modal analysis: a mode strays from rest under its force by no more than its share of each jump.
     """
     try:
-        told = _offsets(spec, scene)
+        told = _either(_offsets(spec, scene, gravity=gravity) for gravity in _weights(spec))
     except NumericsError:
         return dict.fromkeys(loads, ANYTHING)
     spread = {name: offset for name, offset in told.items() if name in loads}
     return bounds_of_derived(spec, scene, loads, _above_zero(spread, loads))
 
 
-def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
-    moves = march.happening(spec, scene, gravity=False)
+def _weights(spec: Stacker) -> tuple[bool, ...]:
+    """Whether a run has the weights on the column, or may have them or not."""
+    return {"off": (False,), "on": (True,)}.get(spec.effects.get(GRAVITY, "auto"), (False, True))
+
+
+def _either(found: Iterable[dict[str, Interval]]) -> dict[str, Interval]:
+    """Offsets that hold those of each."""
+    told: dict[str, Interval] = {}
+    for one in found:
+        for name, offset in one.items():
+            known = told.get(name, offset)
+            told[name] = Interval(min(known.low, offset.low), max(known.high, offset.high))
+    return told
+
+
+def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, Interval]:
+    moves = march.happening(spec, scene, gravity=gravity)
     length, stiffness = spec.column.length, swinging(spec, scene).stiffness
     exact = Mast.of(moves.column.column, _ELEMENTS, (length,))
-    own = lumped(spec, scene, moves, gravity=False)
+    own = lumped(spec, scene, moves, gravity=gravity)
+    stiffer = abs(own.gives(length, length) / exact.gives(length, length) - 1)
     heavier = float((own.frequencies[0] / exact.frequencies[0]) ** 2)
-    plain, right = (course_of(spec, scene, gravity=False, heavier=factor) for factor in (1.0, heavier))
+    plain, right = (course_of(spec, scene, gravity=gravity, heavier=factor) for factor in (1.0, heavier))
     if moves.follows:
         sums = [_strays(exact, length, math.inf, moves.rise, 2 * moves.jump)]
     else:
@@ -89,8 +108,10 @@ def _offsets(spec: Stacker, scene: DrivenScene) -> dict[str, Interval]:
             raise NumericsError("NUM103", "the base comes to rest too softly to tell when")
         sums.append(_kicked(exact, own, length, moves, max(paces)))
     shift, turn = (sum(one[k] for one in sums) for k in (0, 1))
-    shift += _FREQUENCY * abs(plain.largest("deflection")[0] - right.largest("deflection")[0])
-    turn += _FREQUENCY * abs(plain.largest("moment")[0] - right.largest("moment")[0])
+    shift, turn = (
+        one + _FREQUENCY * (abs(plain.largest(what)[0] - right.largest(what)[0]) + stiffer * plain.largest(what)[0])
+        for one, what in ((shift, "deflection"), (turn, "moment"))
+    )
     told = {
         "mast_deflection_max": Interval(-shift, shift),
         "mast_force_max": Interval(-stiffness * shift, stiffness * shift),
