@@ -52,18 +52,26 @@ def iterates(matrix: FloatArray, offset: FloatArray, start: FloatArray, count: i
         states, shape (count, n).
 
     **Error** rounding, count times that of M: the error of an angle per pass adds up.
-    **Source** doubling: M_2m = M_m^2, g_2m = M_m g_m + g_m.
+    **Source** doubling: M_2m = M_m^2, g_2m = M_m g_m + g_m, both in one matrix.
     """
-    states = np.empty((count, len(start)))
-    states[0] = start
-    filled, power, shift = 1, np.asarray(matrix, float), np.asarray(offset, float)
-    while filled < count:
+    return _with_one(matrix, offset, start, count)[:, :-1]
+
+
+def _with_one(matrix: FloatArray, offset: FloatArray, start: FloatArray, count: int) -> FloatArray:
+    """The same with a 1 behind each state, so that map and shift are one product; shape (count, n + 1)."""
+    n = len(start)
+    states = np.empty((count, n + 1))
+    states[0, :n], states[0, n] = start, 1.0
+    whole = np.zeros((n + 1, n + 1))
+    whole[:n, :n], whole[:n, n], whole[n, n] = matrix, offset, 1.0
+    filled = 1
+    while True:
         more = min(filled, count - filled)
-        np.matmul(states[:more], power.T, out=states[filled : filled + more])
-        states[filled : filled + more] += shift
+        np.matmul(states[:more], whole.T, out=states[filled : filled + more])
         filled += more
-        if filled < count:
-            shift, power = power @ shift + shift, power @ power
+        if filled >= count:
+            break
+        whole = whole @ whole
     return states
 
 
@@ -82,7 +90,8 @@ class Passes:
         self._powers = Powers(whole * self._scale / self._scale[:, None])
         self._driven = np.array([np.sin(wave.phase), np.cos(wave.phase)])
         step = self._step(np.array([wave.period]))[0]
-        self.starts = iterates(step[:, :n], step[:, n], np.zeros(n) + np.asarray(start, float), passes)
+        self._states = _with_one(step[:, :n], step[:, n], np.zeros(n) + np.asarray(start, float), passes)
+        self.starts = self._states[:, :n]
 
     def _step(self, times: FloatArray) -> FloatArray:
         """Maps (M, g) from the beginning of a pass, shape (times, n, n + 1)."""
@@ -94,9 +103,7 @@ class Passes:
         """Rows of `watch`, shape (m, n), times the state at places in [0, 1] of every pass: (passes, places, m)."""
         maps = self._step(np.atleast_1d(np.asarray(places, float)) * self.wave.period)
         seen = np.matmul(watch, maps).reshape(-1, self._n + 1)
-        values = self.starts @ seen[:, : self._n].T
-        values += seen[:, self._n]
-        return np.asarray(values.reshape(self.passes, len(maps), len(watch)))
+        return np.asarray((self._states @ seen.T).reshape(self.passes, len(maps), len(watch)))
 
     def largest(self, row: FloatArray, samples: int = 41) -> tuple[float, int, float]:
         """Largest value of one row of the state, its pass and place: the root of its slope beside the largest sample.

@@ -8,6 +8,7 @@ such solvers need. A gravity take-up holds the run-off at a constant tension.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -98,10 +99,14 @@ class Mesh:
         return found
 
     def run_on(self, method: str, when: np.ndarray, rtol: float) -> Answer:
-        """By one of scipy's solvers, from rest; the Jacobian of lumped masses is sparse for Radau, a band for LSODA."""
-        options = {}
+        """By one of scipy's solvers, from rest; the Jacobian of lumped masses is sparse for Radau and BDF, for LSODA a
+        band."""
+        options: dict[str, Any] = {}
         if self.lumped:
-            options = {"Radau": {"jac_sparsity": self.band()}, "LSODA": {"lband": 3, "uband": 1}}.get(method, {})
+            if method in ("Radau", "BDF"):
+                options = {"jac_sparsity": self.band()}
+            elif method == "LSODA":
+                options = {"lband": 3, "uband": 1}
         self.evaluations = 0
         span = (0.0, float(when[-1]))
         found = solve_ivp(
