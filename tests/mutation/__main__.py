@@ -16,8 +16,8 @@ import json
 import math
 import os
 import random
+import resource
 import shutil
-import signal
 import sys
 import tempfile
 import time
@@ -38,8 +38,8 @@ PARTS = ("ptmcalc", "tests", "specs", ".ci", "pyproject.toml", "README.md", "CHA
 ROOMS = ("laws", "numerics", "reference", "order", "stability", "coverage", "machines", "engine")
 FIRST, MOST = 15.0, 240.0
 """Processor seconds of tests: in the first batch of a fault (each further one is twice as long), and for all of it."""
-LIMIT = 5
-"""Seconds on the clock over those of the processor, and those of a first batch: longer is endless."""
+LIMIT, START = 3, 5.0
+"""Tests that take so many times their seconds of the processor, and those of a start, have no end."""
 LIBRARIES = (
     "numpy",
     "pydantic",
@@ -78,14 +78,15 @@ def copy_project(place: Path) -> None:
 
 
 def run_tests(place: Path, *arguments: str, limit: float = 0, **more: str) -> tuple[int | None, list[str]]:
-    """Tests of the copy, in a fork that has the libraries already: (exit status or None if it was endless, output)."""
+    """Tests of the copy, in a fork that has the libraries already: (exit status, None without an end, output)."""
     out = place / "out.txt"
     child = os.fork()
     if not child:
         with out.open("w") as file:
             os.dup2(file.fileno(), 1)
             os.dup2(file.fileno(), 2)
-        signal.alarm(math.ceil(limit))  # 0 is none; the signal ends a process that does not handle it
+        if limit:
+            resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), math.ceil(limit) + 1))  # ends the process
         os.chdir(place)
         os.environ.update(more, PYTHONPATH=os.pathsep.join(map(str, (place, place / "tests"))))
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -157,7 +158,7 @@ def attempt(mutant: Mutant, tests: list[list[str]], place: Path, reach: Reach, t
             predicted = sum(reach[test][0] for test in batch)
             (place / "chosen.json").write_text(json.dumps(batch), "utf-8")
             files = list(dict.fromkeys(test.partition("::")[0] for test in batch))
-            limit = LIMIT * (predicted + FIRST)
+            limit = LIMIT * (predicted + START)
             status, said = run_tests(place, "-x", *files, limit=limit, **{CHOSEN: str(place / "chosen.json")})
             if status is None:
                 return Outcome(mutant, "endless", f"in {len(batch)} tests from {files[0]}")
