@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
+from scipy.special import zeta
 
 from ptmcalc.laws import equalising, polygon, sprocket
 
@@ -158,7 +159,8 @@ class TestHarmonics:
     def test_the_tail_is_a_bound_and_not_a_loose_one(self, z: int, last: int, falloff: float) -> None:
         n = np.arange(last + 1.0, last + 40001.0)
         terms = float(np.abs(polygon.acceleration_harmonics(n, SPEED, PITCH, z)) @ n**-falloff)
-        further = polygon.harmonic_tail(last + 40000, falloff, SPEED, PITCH, z)
+        beyond = float(zeta(1 + falloff, last + 40001.0))  # of n^-(1 + s), exactly; 1 - (n z)^-2 is 1 there
+        further = float(polygon.peak_acceleration(SPEED, PITCH, z)) * 2 / math.pi * beyond
         bound = polygon.harmonic_tail(last, falloff, SPEED, PITCH, z)
         assert terms <= bound <= (terms + further) * (1 + 2 * (1 + falloff) / last) ** (1 + falloff)
 

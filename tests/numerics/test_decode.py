@@ -1,0 +1,146 @@
+"""Speed records: against polynomials, against numpy's own least squares and against the scatter of seeded noise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ptmcalc.numerics import decode
+
+CUBIC = np.polynomial.Polynomial([40.0, 6.0, -1.5, 0.25])
+TIME = np.sort(np.random.default_rng(3).uniform(0.0, 8.0, 400))
+"""At any times, as a counter of teeth tells them."""
+
+
+def corner(noise: float, seed: int = 5) -> tuple[np.ndarray, np.ndarray]:
+    """A run-up at 12 rad/s^2 that ends at once at 48 rad/s."""
+    time = np.linspace(0.0, 8.0, 1601)
+    return time, np.minimum(12.0 * time, 48.0) + noise * np.random.default_rng(seed).standard_normal(len(time))
+
+
+@pytest.mark.parametrize("window", [None, 9, 57])
+def test_a_cubic_is_read_off_as_it_is(window: int | None) -> None:
+    found = decode.fit(TIME, CUBIC(TIME), window)
+    np.testing.assert_allclose(found.speed, CUBIC(TIME), rtol=1e-9)
+    np.testing.assert_allclose(found.acceleration, CUBIC.deriv()(TIME), rtol=1e-6, atol=1e-6)
+    whole = CUBIC.integ()
+    np.testing.assert_allclose(found.angle, whole(TIME) - whole(TIME[0]), rtol=1e-12)
+    assert found.noise < 1e-12 * 40
+
+
+def test_the_deviations_are_those_of_least_squares_on_the_same_samples() -> None:
+    rough = CUBIC(TIME) + 0.3 * np.random.default_rng(1).standard_normal(len(TIME))
+    found = decode.fit(TIME, rough, 39)
+    for k in (0, 5, 120, 233, 399):
+        first, last = found.first[k], found.last[k]
+        assert last - first == 38
+        assert first <= k <= last
+        x = TIME[first : last + 1] - TIME[k]
+        fitted, covariance = np.polyfit(x, rough[first : last + 1], 3, cov="unscaled")
+        assert found.speed[k] == pytest.approx(fitted[-1], rel=1e-9)
+        assert found.acceleration[k] == pytest.approx(fitted[-2], rel=1e-7, abs=1e-7)
+        squared = found.noise**2
+        assert found.speed_variance[k] == pytest.approx(squared * covariance[-1, -1], rel=1e-7)
+        assert found.acceleration_variance[k] == pytest.approx(squared * covariance[-2, -2], rel=1e-7)
+        assert found.covariance[k] == pytest.approx(squared * covariance[-1, -2], rel=1e-6, abs=1e-9 * squared)
+
+
+def test_the_noise_is_that_of_the_samples() -> None:
+    """Five standard deviations of the median of 4000 residuals over strongly overlapping stretches are 6 %."""
+    time = np.linspace(0.0, 8.0, 4000)
+    found = decode.fit(time, CUBIC(time) + 0.3 * np.random.default_rng(2).standard_normal(len(time)))
+    assert found.noise == pytest.approx(0.3, rel=0.06)
+
+
+def test_units_of_time_and_speed_change_no_choice() -> None:
+    time, speed = corner(0.2)
+    one, other = decode.fit(time, speed), decode.fit(time * 60.0, speed * 9.5)
+    np.testing.assert_array_equal(one.first, other.first)
+    np.testing.assert_array_equal(one.last, other.last)
+    np.testing.assert_allclose(other.acceleration, one.acceleration * 9.5 / 60.0, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(other.acceleration_variance, one.acceleration_variance * (9.5 / 60.0) ** 2, rtol=1e-6)
+    np.testing.assert_allclose(other.covariance, one.covariance * 9.5**2 / 60.0, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(other.angle, one.angle * 9.5 * 60.0, rtol=1e-9)
+
+
+def test_stretches_are_as_long_as_the_motion_and_the_noise_let_them_be() -> None:
+    """Two samples a hundredth of a second: far from the corner the longest stretch there is, beside it a short one, the
+    longer the more noise there is."""
+    beside = []
+    for noise in (0.02, 0.2, 2.0):
+        time, speed = corner(noise)
+        found = decode.fit(time, speed)
+        sizes, at = found.last - found.first + 1, np.abs(time - 4.0)
+        assert np.median(sizes[at > 2.0]) == 555
+        beside.append(np.median(sizes[at < 0.3]))
+    assert beside[0] < beside[1] <= 121 < beside[2]
+
+
+def test_the_acceleration_lies_within_its_deviation_beside_a_corner_too() -> None:
+    """Three standard deviations hold at 97 % of the samples of every record, the corner with them."""
+    for seed in range(4):
+        time, speed = corner(0.2, seed)
+        found = decode.fit(time, speed)
+        true = np.where(time < 4.0, 12.0, 0.0)
+        apart = np.abs(found.acceleration - true) / np.sqrt(found.acceleration_variance)
+        assert np.mean(apart[time != 4.0] < 3.0) > 0.97
+
+
+def test_fits_that_are_apart_share_no_sample() -> None:
+    found = decode.fit(*corner(0.2))
+    chosen = found.apart(100, 1500)
+    assert len(chosen) >= 4
+    assert found.first[chosen[0]] >= 100
+    assert found.last[chosen[-1]] <= 1500
+    assert (found.first[chosen[1:]] > found.last[chosen[:-1]]).all()
+
+
+def test_the_torque_and_its_deviation_follow_from_its_derivatives() -> None:
+    """M = J eps + w^2 J'/2; the deviation by central differences in w and eps and the covariance of both."""
+    found = decode.fit(*corner(0.2))
+    n = len(found.time)
+    inertia, slope = 2.0 + np.sin(np.arange(n) / 50.0), 0.04 * np.cos(np.arange(n) / 50.0)
+    value, deviation = decode.torque(found, inertia, slope)
+    np.testing.assert_allclose(value, inertia * found.acceleration + found.speed**2 * slope / 2, rtol=1e-12)
+
+    def change(name: str) -> np.ndarray:
+        up, down = (
+            decode.torque(replace(found, **{name: getattr(found, name) + step}), inertia, slope)[0]
+            for step in (1e-3, -1e-3)
+        )
+        return (up - down) / 2e-3
+
+    by_speed, by_rate = change("speed"), change("acceleration")
+    squared = (
+        by_speed**2 * found.speed_variance
+        + by_rate**2 * found.acceleration_variance
+        + 2 * by_speed * by_rate * found.covariance
+    )
+    np.testing.assert_allclose(deviation, np.sqrt(squared), rtol=1e-6)
+
+
+class TestLine:
+    X = np.array([0.0, 1.0, 2.0, 4.0, 7.0])
+    DEVIATION = np.array([0.1, 0.2, 0.1, 0.4, 0.2])
+
+    def test_points_that_scatter_less_than_they_may(self) -> None:
+        y = 3.0 - 0.5 * self.X + 0.1 * self.DEVIATION * np.array([1, -1, 1, -1, 1])
+        fitted, covariance = np.polyfit(self.X, y, 1, w=1 / self.DEVIATION, cov="unscaled")
+        found = decode.line(self.X, y, self.DEVIATION)
+        assert (found.slope, found.offset) == pytest.approx(tuple(fitted), rel=1e-12)
+        deviations = (found.slope_deviation, found.offset_deviation)
+        assert deviations == pytest.approx(tuple(np.sqrt(np.diag(covariance))), rel=1e-12)
+
+    def test_points_that_scatter_more(self) -> None:
+        """The covariance grows by chi^2/(n - 2), as that of `polyfit` does."""
+        y = 3.0 - 0.5 * self.X + 5 * self.DEVIATION * np.array([1, -1, 1, -1, 1])
+        covariance = np.polyfit(self.X, y, 1, w=1 / self.DEVIATION, cov=True)[1]
+        found = decode.line(self.X, y, self.DEVIATION)
+        deviations = (found.slope_deviation, found.offset_deviation)
+        assert deviations == pytest.approx(tuple(np.sqrt(np.diag(covariance))), rel=1e-12)
+
+    @pytest.mark.parametrize("scatter", [0.1, 5.0])
+    def test_a_mean_is_a_line_without_a_slope(self, scatter: float) -> None:
+        y = 3.0 + scatter * self.DEVIATION * np.array([1, -1, 1, -1, 1])
+        fitted, covariance = np.polyfit(self.X, y, 0, w=1 / self.DEVIATION, cov=True if scatter > 1 else "unscaled")
+        assert decode.mean(y, self.DEVIATION) == pytest.approx((fitted[0], np.sqrt(covariance[0, 0])), rel=1e-12)
