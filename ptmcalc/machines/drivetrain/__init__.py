@@ -10,6 +10,7 @@ from ptmcalc.machines.drivetrain.effects import EFFECTS
 from ptmcalc.machines.drivetrain.loads import LOADS, parts
 from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.witness import DORMAND_PRINCE
 
 
 def inspect(spec: Drivetrain) -> Iterator[Finding]:
@@ -35,4 +36,5 @@ KIND = MachineKind(
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     inspect=inspect,
     parts=parts,
+    witnesses=(DORMAND_PRINCE,),
 )
