@@ -522,7 +522,7 @@ class _Run:
                     near = np.linspace(times[index - 1], times[index + 1], _CLOSER)
                     closer = sign * (rows[k] @ inputs.columns(near, dense(near)))
                     middle = min(max(int(closer.argmax()), 1), len(near) - 2)
-                    top = max(top, float(closer.max()), _summit(closer[middle - 1 : middle + 2]))
+                    top = max(top, float(closer.max()), summit(closer[middle - 1 : middle + 2]))
                 if top > known[k]:
                     best[names[k]] = sign * top
 
@@ -543,7 +543,7 @@ def _turns(heights: FloatArray) -> bool:
     return bool(bend < 0 and abs(slope) <= 1.2 * abs(bend))
 
 
-def _summit(heights: FloatArray) -> float:
+def summit(heights: FloatArray) -> float:
     """Summit of the parabola through three equally spaced values; the largest of them where it has none inside."""
     slope, bend = (heights[2] - heights[0]) / 2, heights[2] - 2 * heights[1] + heights[0]
     if bend < 0 and abs(slope) <= abs(bend):

@@ -16,6 +16,7 @@ from ptmcalc.machines.shaft.loads import LOADS
 from ptmcalc.machines.shaft.model import machine_of
 from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
+from ptmcalc.machines.shaft.witness import WITNESSES
 
 _SPEED_TOLERANCE = 0.05
 
@@ -89,4 +90,5 @@ KIND = MachineKind(
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumptions=ASSUMPTIONS,
     inspect=inspect,
+    witnesses=WITNESSES,
 )

@@ -11,6 +11,7 @@ from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.witness import CARTESIAN
 
 SLEWING = MachineKind(
     name="crane",
@@ -24,4 +25,5 @@ SLEWING = MachineKind(
     template=resources.files(__package__).joinpath("template.yaml").read_text("utf-8"),
     assumed=assumptions,
     inspect=inspect,
+    witnesses=(CARTESIAN,),
 )
