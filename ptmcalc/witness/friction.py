@@ -31,18 +31,15 @@ class Friction:
     def decide(self, state: State, w: FloatArray, rest: Rest, inside: float) -> State:
         """The state with forces that fit it, what sticks tried first."""
         one = self.of
-        speeds = w[one.count : 2 * one.count]
         turning: list[tuple[int | None, ...]] = []
         for g, turn in enumerate(state.turning):
             if turn is None:
                 turning.append((None,))
             else:
-                turning.append((0, 1, -1) if rest.groups[g] else (int(np.sign(speeds[g])),))
+                turning.append((0, 1, -1) if rest.groups[g] else (turn,))
         slips: list[tuple[int, ...]] = []
-        for k, still in zip(one.clutches, rest.clutches, strict=True):
-            grip = one.train.grips[k]
-            apart = float(one.group_row(grip.first, grip.second) @ speeds)
-            slips.append((0, 1, -1) if still else (int(np.sign(apart)),))
+        for slip, still in zip(state.slips, rest.clutches, strict=True):
+            slips.append((0, 1, -1) if still else (slip,))
         signs = [
             state.meshes,
             *(found for found in itertools.product((1, -1), repeat=len(one.lossy)) if found != state.meshes),

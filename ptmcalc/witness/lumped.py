@@ -216,8 +216,8 @@ class _Run:
             grip = self.train.grips[k]
             clutches.append(abs(float(one.group_row(grip.first, grip.second) @ speeds)) <= 1e-13 * largest)
         if state is not None:
-            groups = [still or turn == 0 for still, turn in zip(groups, state.turning, strict=True)]
-            clutches = [still or slip == 0 for still, slip in zip(clutches, state.slips, strict=True)]
+            groups = [turn == 0 or (still and turn is None) for still, turn in zip(groups, state.turning, strict=True)]
+            clutches = [slip == 0 for slip in state.slips]  # what has just begun to slip is slow, but slips
         return Rest(tuple(groups), tuple(clutches))
 
     def _start(
@@ -249,10 +249,7 @@ class _Run:
             if impulse.time == t and group not in one.guided:
                 y = y.copy()
                 y[one.count + group] += impulse.size * one.ratio[impulse.body] / one.weights[group]
-                turning = list(state.turning)
-                if turning[group] == 0:
-                    turning[group] = int(np.sign(y[one.count + group]))
-                state = state._replace(turning=tuple(turning))
+                state = self._turned(y, state, [group])
         return y, state
 
     def _fired(
@@ -282,7 +279,8 @@ class _Run:
             state = state._replace(started=tuple(started))
         elif exit_.kind == "turning":
             y[one.count + exit_.index] = 0.0
-            rest = self._rest(y, state)
+            still = Rest(tuple(g == exit_.index or held for g, held in enumerate(rest.groups)), rest.clutches)
+            rest = self._meeting(y, state, still)
         elif exit_.kind == "slip":
             grip = self.train.grips[exit_.index]
             row = one.group_row(grip.first, grip.second)
@@ -290,8 +288,7 @@ class _Run:
             moved = max(movable, key=lambda g: abs(y[one.count + g]))
             y[one.count + moved] -= float(row @ y[one.count :]) / row[moved]
             place = one.clutches.index(exit_.index)
-            plain = self._rest(y, state)
-            rest = Rest(plain.groups, tuple(k == place or still for k, still in enumerate(plain.clutches)))
+            rest = Rest(rest.groups, tuple(k == place or still for k, still in enumerate(rest.clutches)))
         elif exit_.kind == "mesh":
             signs = list(state.meshes)
             signs[exit_.index] *= -1
@@ -299,6 +296,30 @@ class _Run:
         else:
             ahead = self._overcome(t, y, state)
         return y, state, rest, ahead
+
+    def _meeting(self, y: FloatArray, state: State, rest: Rest) -> Rest:
+        """What stands still, with the clutches whose sides have come to the same speed by that."""
+        one, speeds = self.one, y[self.one.count :]
+        clutches = []
+        for k, still in zip(one.clutches, rest.clutches, strict=True):
+            row = one.group_row(self.train.grips[k].first, self.train.grips[k].second)
+            apart = abs(float(row @ speeds)) <= 1e-13 * float(np.abs(row) @ np.abs(speeds))
+            clutches.append(still or apart)
+        return Rest(rest.groups, tuple(clutches))
+
+    def _turned(self, y: FloatArray, state: State, groups: list[int]) -> State:
+        """Directions after a blow; clutches slip as the speeds are then."""
+        one, turning = self.one, list(state.turning)
+        speeds = y[one.count :]
+        for group in groups:
+            if turning[group] is not None:
+                turning[group] = int(np.sign(speeds[group]))
+        slips = []
+        for k in one.clutches:
+            row = one.group_row(self.train.grips[k].first, self.train.grips[k].second)
+            apart = float(row @ speeds)
+            slips.append(int(np.sign(apart)) if abs(apart) > 1e-13 * float(np.abs(row) @ np.abs(speeds)) else 0)
+        return state._replace(turning=tuple(turning), slips=tuple(slips))
 
     def _linked(self, y: FloatArray, state: State, k: int, to: tuple[str, int]) -> tuple[FloatArray, State]:
         """A link on its next branch; a rigid one is struck."""
@@ -315,11 +336,7 @@ class _Run:
                 rebound = 0.0
             y = y.copy()
             y[one.count :] -= (1 + rebound) * closing * mobile * row / float(mobile @ row**2)
-            turning = [
-                int(np.sign(y[one.count + g])) if turn == 0 and row[g] and y[one.count + g] else turn
-                for g, turn in enumerate(state.turning)
-            ]
-            state = state._replace(turning=tuple(turning))
+            state = self._turned(y, state, np.flatnonzero(row).tolist())
             if rebound:
                 branches[k] = OPEN
         return y, state._replace(branches=tuple(branches))
@@ -374,7 +391,8 @@ class _Run:
         solver = DOP853(rates, t, y, stop, rtol=self.tolerance, atol=small, max_step=self.longest)
         watched, names = self._watched(state, now)
         squares = slice(len(names) - len(self.train.drives), len(names))
-        sizes = np.zeros(len(rows))
+        speeds = np.array([exit_.kind in ("turning", "slip") for exit_ in now.exits], dtype=bool)
+        sizes = np.where(speeds, np.abs(rows).sum(axis=1) * self.sizes[1], 0.0)  # next to the fastest so far
         while solver.status == "running":
             solver.step()
             self.history.steps += 1
