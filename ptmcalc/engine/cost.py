@@ -10,7 +10,7 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import forget
-from ptmcalc.base.units import SHARE, show
+from ptmcalc.base.units import SHARE, TIME, show
 from ptmcalc.contract.cost import Choice, CostReport, Held, LoadCost, Outcome, Role, Setting
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import Result, family
@@ -104,10 +104,13 @@ class _Candidate:
     rung: Rung
     role: Role
     variant: str = ""
+    reason: str = ""
+    """why it is not run"""
 
 
 def _candidates(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, budget: float) -> Iterator[_Candidate]:
-    """The rungs of the ladder, cheap to dear, the formulas shown beside them, and the witnesses of the kind."""
+    """The rungs of the ladder, cheap to dear, the formulas shown beside them, and the witnesses of the kind; where
+    none of these can tell anything, they stand there with the reason."""
     for solver in scene.formulas:
         yield _Candidate(
             Rung(solver, solver.represents, 0, solver.cost(spec, scene.scene, frozenset(), 0)), Role.FORMULA
@@ -116,23 +119,34 @@ def _candidates(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, budget: floa
         sets = [one.carried for one in scene.rungs if one.solver is rung.solver and one.level == rung.level]
         fuller = len(sets) > 1 and len(rung.carried) == max(map(len, sets))
         yield _Candidate(rung, Role.LADDER, " all" if fuller else "")
-    for witness in kind.witnesses:
-        seen = _of_witness(witness, spec, scene, _WITNESS_SHARE * budget)
-        if seen is not None:
-            yield _Candidate(seen, Role.WITNESS)
+    seen = [
+        one
+        for witness in kind.witnesses
+        if type(scene.scene) in witness.scenes
+        for one in _of_witness(witness, spec, scene, _WITNESS_SHARE * budget)
+    ]
+    yield from (one for one in seen if not one.reason or all(other.reason for other in seen))
 
 
-def _of_witness(witness: AnySolver, spec: MachineSpec, scene: ScenePlan, most: float) -> Rung | None:
-    """A witness with all it can carry, at its finest affordable refinement."""
+def _of_witness(witness: AnySolver, spec: MachineSpec, scene: ScenePlan, most: float) -> Iterator[_Candidate]:
+    """A witness with all it can carry, at its finest affordable refinement; or why it can tell nothing here."""
     allowed = frozenset(planned.effect.name for planned in scene.effects) - scene.excluded
-    if not (witness.always <= allowed and witness.usable_for(spec, scene.scene)):
-        return None
+    if not witness.always <= allowed:
+        return
     carried = allowed & witness.represents
+    beyond = witness.valid(spec, scene.scene)
+    if beyond is not None and beyond.exceeded:
+        yield _Candidate(Rung(witness, carried, 0, 0.0), Role.WITNESS, reason=beyond.meaning)
+        return
     rungs = [
         Rung(witness, carried, level, witness.cost(spec, scene.scene, carried, level))
         for level in range(witness.levels)
     ]
-    return next((rung for rung in reversed(rungs) if rung.seconds <= most), None)
+    cheap = next((rung for rung in reversed(rungs) if rung.seconds <= most), None)
+    if cheap is None:
+        yield _Candidate(rungs[0], Role.WITNESS, reason=f"more than the {show(most, TIME, 2)} a second method may take")
+    else:
+        yield _Candidate(cheap, Role.WITNESS)
 
 
 def _affordable(made: Plan, budget: float) -> float:
@@ -164,6 +178,8 @@ def _measured(spec: MachineSpec, scene: ScenePlan, one: _Candidate, most: float,
         predicted_seconds=rung.seconds,
         outcome=Outcome.NOT_RUN,
     )
+    if one.reason:
+        return _Measured(replace(row, reason=one.reason), rung, {})
     if one.role is Role.LADDER and rung.seconds > most:
         return _Measured(replace(row, reason="beyond the budget"), rung, {})
     try:

@@ -133,7 +133,7 @@ def conclusion(report: CostReport) -> str:
     parts = [_of_margins(report)]
     parts += [_of_accuracy(report, target) for target in report.targets if target != MARGINS]
     parts.append(_of_bars(report.settings))
-    left = [one for one in report.settings if one.outcome is Outcome.NOT_RUN]
+    left = [one for one in report.settings if one.outcome is Outcome.NOT_RUN and one.role is not Role.WITNESS]
     failed = [one for one in report.settings if one.outcome is Outcome.FAILED]
     if failed:
         parts.append(f"{_counted(len(failed), 'setting')} failed")

@@ -16,6 +16,7 @@ from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.solvers import SOLVERS
 from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.witness import MESH
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -87,4 +88,5 @@ KIND = MachineKind(
     assumed=assumptions,
     parts=parts,
     inspect=inspect,
+    witnesses=(MESH,),
 )

@@ -16,6 +16,7 @@ from ptmcalc.machines.conveyor.solvers.network import CELLS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.start_loads import START_LOADS, start_parts
 from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
+from ptmcalc.machines.conveyor.witness import ELEMENTS
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -136,5 +137,5 @@ KIND = MachineKind(
     assumed=assumptions,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,
-    witnesses=(CELLS,),
+    witnesses=(CELLS, ELEMENTS),
 )

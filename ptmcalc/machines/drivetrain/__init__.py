@@ -9,6 +9,7 @@ from ptmcalc.machines.drivetrain.effects import EFFECTS
 from ptmcalc.machines.drivetrain.loads import LOADS, parts
 from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.witness import DORMAND_PRINCE
 
 
 def inspect(spec: Drivetrain) -> Iterator[Finding]:
@@ -34,4 +35,5 @@ KIND = MachineKind(
     starting=template_in(__package__),
     inspect=inspect,
     parts=parts,
+    witnesses=(DORMAND_PRINCE,),
 )

@@ -19,6 +19,7 @@ from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import CREEPING, Hoist
+from ptmcalc.machines.hoist.witness import WITNESSES
 
 _SPEED_TOLERANCE = 0.05
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
@@ -92,4 +93,5 @@ KIND = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     parts=parts,
+    witnesses=WITNESSES,
 )

@@ -15,6 +15,7 @@ from ptmcalc.machines.shaft.loads import LOADS
 from ptmcalc.machines.shaft.model import machine_of
 from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
+from ptmcalc.machines.shaft.witness import WITNESSES
 
 _SPEED_TOLERANCE = 0.05
 
@@ -88,4 +89,5 @@ KIND = MachineKind(
     starting=template_in(__package__),
     assumptions=ASSUMPTIONS,
     inspect=inspect,
+    witnesses=WITNESSES,
 )

@@ -1,8 +1,8 @@
 """The angle of the cycle at which a run-out begins worst, and the brake that would do.
 
 Runs from some angles tell by what factor the closed form with the kinetic energy of the angle is off. Between them that
-factor is interpolated, so that every corner of the energy over the angle is seen without a run of its own; a run from
-the angle found so tells how good the interpolation is.
+factor is interpolated, so that every corner of the energy over the angle is seen without a run of its own. Its bend
+between the runs tells what the interpolation may hide; where that could be worse than the worst run, more runs follow.
 """
 
 import math
@@ -26,6 +26,8 @@ TIME, ANGLE = 0, 1
 _STARTS, _ANGLES = 9, 144
 _QUICK = (7, 1e-5)
 _MARGIN = 2.0
+_MORE, _ENOUGH = 24, 3e-5
+"""Runs that may be added to the first ones, and the share of the worst value that need not be told."""
 _FLOOR = 1e-10
 _NAMES = ("time", "angle")
 _MOST_ROUNDS, _MOST_SECANTS, _MOST_BISECTIONS = 4, 12, 60
@@ -79,12 +81,44 @@ class Search:
         found = self._closed[brake][which]
         return np.asarray(found if np.all(np.isfinite(found)) and np.all(found > 0) else self.energies)
 
-    def factor(self, which: int) -> FloatArray:
-        """By what the closed form is to be multiplied, at all angles."""
+    def factor(self, which: int) -> tuple[FloatArray, FloatArray]:
+        """By what the closed form is to be multiplied, at all angles, and what a straight line between two runs may
+        miss of that: an eighth of the square of their distance times the second derivative, by the larger of the two
+        divided differences around, taken twice."""
         period = self.start.machine.period
         values = np.array([measured(run, which) for run in self._runs])
-        guess = np.interp(self.picked, self.angles, self.closed(which), period=period)
-        return np.asarray(np.interp(self.angles, self.picked, values / guess, period=period))
+        known = values / np.interp(self.picked, self.angles, self.closed(which), period=period)
+        apart = np.diff(np.append(self.picked, self.picked[0] + period))
+        slopes = np.diff(np.append(known, known[0])) / apart
+        bends = 2 * np.abs(slopes - np.roll(slopes, 1)) / (apart + np.roll(apart, 1))
+        missed = _MARGIN * apart**2 / 8 * np.maximum(bends, np.roll(bends, -1))
+        between = (np.searchsorted(self.picked, self.angles, "right") - 1) % len(self.picked)
+        return np.asarray(np.interp(self.angles, self.picked, known, period=period)), missed[between]
+
+    def _told(self, which: int) -> FloatArray:
+        """Values that no angle exceeds, after runs from all angles that could be worse than the worst one so far."""
+        for _ in range(_MORE):
+            factor, missed = self.factor(which)
+            most = self.closed(which) * (factor + missed)
+            top = int(np.argmax(most))
+            values = [measured(run, which) for run in self._runs]
+            if not most[top] > max(values) * (1 + _ENOUGH) or not all(map(math.isfinite, values)):
+                break
+            self._add(float(self.angles[top]))
+        factor, missed = self.factor(which)
+        return np.asarray(self.closed(which) * (factor + missed))
+
+    def _add(self, angle: float) -> None:
+        """A run from between two others: from the angle, or from the middle where it is next to one of them."""
+        period = self.start.machine.period
+        at = int(np.searchsorted(self.picked, angle, "right"))
+        low = float(self.picked[at - 1])
+        high = float(self.picked[at]) if at < len(self.picked) else float(self.picked[0]) + period
+        if min(angle - low, high - angle) < (high - low) / 4:
+            angle = (low + high) / 2 % period
+        at = int(np.searchsorted(self.picked, angle))
+        self.picked = np.insert(self.picked, at, angle)
+        self._runs.insert(at, self.run(angle, _QUICK))
 
     def worst(self, which: int) -> Worst:
         """The largest value over all angles."""
@@ -92,14 +126,16 @@ class Search:
         if not np.all(np.isfinite(values)):
             top = int(np.argmax(values))
             return Worst(Estimate.exact(math.inf), float(self.picked[top]), self._runs[top])
-        predicted = self.closed(which) * self.factor(which)
+        most = self._told(which)
+        predicted = self.closed(which) * self.factor(which)[0]
         found = self._exact(float(self.angles[int(np.argmax(predicted))]), which)
+        values = np.array([measured(run, which) for run in self._runs])
         top = int(np.argmax(values))
         if values[top] > found.value.high:
             found = self._exact(float(self.picked[top]), which)
         value, at = found.value, int(np.argmin(np.abs(self.angles - found.angle)))
         missed = abs(value.value - float(predicted[at])) + _hidden(predicted)
-        unseen = max(float(predicted.max()) + missed - value.value, 0.0)
+        unseen = max(float(most.max()) + missed - value.value, 0.0)
         bar = Estimate(value.value, value.low, value.high + unseen, value.numerical + unseen)
         return Worst(bar, found.angle, found.run)
 
@@ -141,8 +177,8 @@ def _for_limit(root: "_Root", angle: float | None, search: Search | None) -> tup
     if angle is not None or search is None:
         return root.at(angle if angle is not None else 0.0), root.work
     which, limit = root.which, root.limit
-    factor = search.factor(which)
     at = search.worst(which).angle
+    factor, missed = search.factor(which)
     found = Estimate.exact(math.inf)
     for _ in range(_MOST_ROUNDS):
         found = root.at(at)
@@ -154,7 +190,8 @@ def _for_limit(root: "_Root", angle: float | None, search: Search | None) -> tup
         if predicted[top] <= predicted[here] * (1 + _LEAST):
             break
         at = float(search.angles[top])
-    unseen = max(float(predicted.max()) + _hidden(predicted) + abs(limit - float(predicted[here])) - limit, 0.0)
+    most = float((search.closed(which, found.value) * (factor + missed)).max())
+    unseen = max(most + _hidden(predicted) + abs(limit - float(predicted[here])) - limit, 0.0)
     extra = unseen / root.fall if root.fall > 0 else 0.0
     return Estimate(found.value, found.low, found.high + extra, found.numerical + extra), root.work
 

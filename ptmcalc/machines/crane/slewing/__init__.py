@@ -9,6 +9,7 @@ from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
+from ptmcalc.machines.crane.slewing.witness import CARTESIAN
 
 SLEWING = MachineKind(
     name="crane",
@@ -22,4 +23,5 @@ SLEWING = MachineKind(
     starting=template_in(__package__),
     assumed=assumptions,
     inspect=inspect,
+    witnesses=(CARTESIAN,),
 )

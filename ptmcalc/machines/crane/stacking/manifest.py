@@ -18,6 +18,7 @@ from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.witness import WITNESSES
 from ptmcalc.spec.scene import Scene
 
 EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)
@@ -47,4 +48,5 @@ def stacker(
         assumed=assumptions,
         parts=parts,
         tables=tables,
+        witnesses=of_its_scenes(WITNESSES),
     )

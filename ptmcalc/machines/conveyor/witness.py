@@ -1,0 +1,300 @@
+"""The second method for belts that move: finite elements, which no plan offers.
+
+Shared with the solvers: what the file says as numbers (masses, resistances and static tensions of the strands, forces
+of drives and brakes over time, the window). The belt's waves, friction that holds, drums that slip and what is read of
+a run are its own.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result, family, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor import bounds
+from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
+from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_mass
+from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
+from ptmcalc.witness import belt
+from ptmcalc.witness.belt import Length, Motion, Plan, Roller
+
+_ELEMENTS = (160, 320, 640)
+"""Elements of the finest of three runs at each refinement."""
+_FAST = 1e30
+_A_STEP, _AN_ELEMENT = 1.1e-4, 5e-8
+_MARGIN = 3.0
+_LONGER = 3
+Readings = dict[str, float]
+
+
+def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Loads of a scene in which the belt moves, from three meshes.
+
+        m ds v' = dS - w ds sgn v - c ds v - dz,   S' = K/ds dv,   central differences, friction by return map
+
+    **Range** any scene in motion of a belt that stays taut; without sag, damping and what goes along with the belt.
+    **Error** three times what a mesh differs by from one with half as many elements, or half of what that differs by
+    from the one before (two may agree by chance): fronts converge with the first order at least, so that what is still
+    to come is no more than that difference.
+    **Source** lumped elements: Nordell and Ciozda; Moreau's time stepping of friction; derived in `witness.belt`.
+    """
+    case = moving(spec, scene)
+    found, steps, end = [], 0, 0.0
+    for elements in _meshes(level):
+        seen = case
+        for _ in range(_LONGER):
+            motion = _moved(seen, carried, elements)
+            if not case.brings_to_rest or math.isinf(case.rigid_time) or (np.array(motion.head.belt) <= 0).any():
+                break
+            seen = replace(seen, window=2 * seen.window)
+        found.append(_readings(case, motion))
+        steps, end = steps + len(motion.times), float(motion.times[-1])
+    return Result(_with_bars(*found), work=steps, window=(0.0, end))
+
+
+def _meshes(level: int) -> tuple[int, int, int]:
+    return _ELEMENTS[level] // 4, _ELEMENTS[level] // 2, _ELEMENTS[level]
+
+
+def _with_bars(coarsest: Readings, coarse: Readings, fine: Readings) -> dict[str, Found]:
+    """Loads of the finest mesh; tensions, sums of the same waves, all with the largest of their bars."""
+    known = {}
+    for name, value in fine.items():
+        one, two = coarsest.get(name, math.inf), coarse.get(name, math.inf)
+        apart = max(abs(value - two), abs(two - one) / 2) if all(map(math.isfinite, (one, two, value))) else math.inf
+        same = one == two == value
+        known[name] = Estimate.exact(value) if same else Estimate.unknown(value)
+        if math.isfinite(apart) and not same:
+            known[name] = Estimate.within(value, _MARGIN * apart)
+    most = max((one.bar for name, one in known.items() if family(name).startswith("tension")), default=0.0)
+    return {
+        name: Found(Estimate.within(one.value, most) if family(name).startswith("tension") and one.bounded else one)
+        for name, one in known.items()
+    }
+
+
+def _moved(case: Moving, carried: frozenset[str], elements: int) -> Motion:
+    line, spec, scene = case.line, case.spec, case.scene
+    share = line.speed_share if "viscous_idlers" in carried else 0.0
+    back, carry = (_lengths(strand, line.stiffness, share, line.speed) for strand in (line.back, line.carry))
+    lengths = (*back, *carry)
+    counts = belt.shared_out(lengths, elements)
+    pieces = [(one, one.length / n) for one, n in zip(lengths, counts, strict=True) for _ in range(n)]
+    rubbed = np.array([(one.friction + one.drag * case.speed) * way for one, way in pieces])
+    climbed, ways = np.array([one.climb * way for one, way in pieces]), np.array([way for _, way in pieces])
+    first = sum(counts[: len(back)])
+    tension = _tension(case, rubbed, climbed, ways, first)
+    pulled = {"head": 0.0, "tail": 0.0}
+    if isinstance(scene, Start):
+        pulled["head"] = float(tension[-1] - tension[0] + climbed.sum())
+        pulled["tail"] = float(tension[first - 1] - tension[first])
+    takeup = None
+    if not line.fixed_length:
+        mass = spec.takeup.mass or 0.0 if "takeup_mass" in carried else 0.0
+        takeup = (line.takeup_tension, mass)
+    plan = Plan(
+        lengths,
+        len(back),
+        _rollers(case, carried, "head", pulled["head"]),
+        _rollers(case, carried, "tail", pulled["tail"]),
+        takeup,
+        _imposed(case, "head"),
+        _imposed(case, "tail"),
+        line.belt_line_mass,
+        max(line.tail_force, 0.0),
+    )
+    after = 2 * line.contour_time if case.brings_to_rest else math.inf
+    return belt.simulate(plan, elements, case.window, tension, case.speed, after)
+
+
+def _lengths(strand: Strand, stiffness: float, share: float, speed: float) -> list[Length]:
+    """Uniform lengths of a strand; a part of its resistance goes with the speed."""
+    found = []
+    for k, mass in enumerate(strand.masses):
+        length = strand.marks[k + 1] - strand.marks[k]
+        rubs = (strand.friction[k + 1] - strand.friction[k]) / length
+        climbs = (strand.climb[k + 1] - strand.climb[k]) / length
+        found.append(Length(length, mass, stiffness, (1 - share) * rubs, climbs, share * rubs / speed))
+    return found
+
+
+def _tension(case: Moving, rubbed: FloatArray, climbed: FloatArray, ways: FloatArray, first: int) -> FloatArray:
+    """Tension of every element at the start, less gravity's part."""
+    line = case.line
+    if case.begins_loose:
+        if not line.fixed_length:
+            return np.full(len(rubbed), line.takeup_tension)
+        inside = np.cumsum(climbed) - climbed / 2
+        return np.full(len(rubbed), line.takeup_tension - float(inside @ ways) / float(ways.sum()))
+    found: FloatArray = line.run_off + np.cumsum(rubbed) - rubbed / 2
+    found[first:] += line.tail_step
+    return found
+
+
+def _imposed(case: Moving, at: str) -> Callable[[float], float] | None:
+    scene = case.scene
+    if isinstance(scene, Jam):
+        speed, time = case.speed, scene.time
+        if scene.at != at:
+            return None
+        return lambda now: speed * max(1 - now / time, 0.0) if time else 0.0
+    return case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
+
+
+def _rollers(case: Moving, carried: frozenset[str], at: str, pulled: float) -> tuple[Roller, ...]:
+    spec, line = case.spec, case.line
+    drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
+    brakes = [braking(spec, brake).at for brake in brakes_of(spec, case.scene).values() if brake.at == at]
+    together = _sum(brakes)
+    if not drives:
+        return (Roller(line.tail_mass, hold=together),)
+    shafts = braked_shafts(spec, case.scene)
+    pulls = [_pull(case, name) for name, _ in drives]
+    loose: list[bool] = [] if isinstance(case.scene, Start) and case.imposed is None else [True]
+
+    def held(time: float) -> float:
+        if not loose and sum(pull(time, 0.0) for pull in pulls) < pulled * (1 - 1e-12):
+            return _FAST
+        loose.append(True)
+        return 0.0
+
+    found = []
+    for index, (name, drive) in enumerate(drives):
+        mass = drive_mass(drive, driven=name in shafts) + (line.tail_mass if at == "tail" and index == 0 else 0.0)
+        grip = drive.drum.friction * drive.drum.wrap if drive.drum.friction is not None else None
+        slips = "slip" in carried and grip is not None and grip < 700
+        hold = _sum([held, *brakes]) if index == len(drives) - 1 else held
+        one_way = at == "head" and spec.backstop is not None
+        found.append(Roller(mass, pulls[index], hold, grip if slips else None, one_way, drive_force(drive)))
+    return tuple(found)
+
+
+def _sum(parts: Sequence[Callable[[float], float]]) -> Callable[[float], float]:
+    return lambda time: sum((part(time) for part in parts), 0.0)
+
+
+def _pull(case: Moving, name: str) -> Callable[[float, float], float]:
+    """Force of a drive at the rim over time and speed."""
+    curve, force = case.curves.get(name), case.pulls[name]
+    if curve is not None:
+        return lambda time, speed: curve(time, speed)[0]
+    return lambda time, speed: float(force(np.array([time]))[0])
+
+
+# -- what is read ----------------------------------------------------------------------------------------------------
+
+
+def _readings(case: Moving, motion: Motion) -> Readings:
+    line, head, step = case.line, motion.head, float(motion.times[1])
+    on, off, speeds = (np.array(part) for part in (head.on, head.off, head.belt))
+    found: Readings = {
+        "tension_run_on_max": float(on.max()),
+        "tension_dynamic_run_on_max": float(on.max()) - line.run_on,
+        "tension_run_off_min": float(off.min()),
+    }
+    tail_on, tail_off = np.array(motion.tail.on), np.array(motion.tail.off)
+    first = motion.tail_element
+    highs = (motion.highest[:first].max(), motion.highest[first:].max(), on.max(), off.max(), tail_on.max())
+    lows = (
+        min(float(motion.lowest[:first].min()), float(off.min()), float(tail_on.min())),
+        min(float(motion.lowest[first:].min()), float(on.min()), float(tail_off.min())),
+    )
+    between = [np.array(spot.between) for spot in (head, motion.tail)]
+    high = max(*map(float, highs), float(tail_off.max()), *(float(one.max()) for one in between))
+    found |= {"tension_max": high, "tension_min": min(*lows, *(float(one.min()) for one in between))}
+    found |= bounds.derived_loads(line, high, lows)
+    for at, tensions, spot in (("head", between[0], head), ("tail", between[1], motion.tail)):
+        names = [name for name, drive in case.spec.all_drives.items() if drive.at == at]
+        for j, name in enumerate(names):
+            found |= _of_drive(case, name, tensions[:, j], tensions[:, j + 1], np.array(spot.belt), bool(spot.slid[j]))
+    used = [value for name, value in found.items() if name.startswith("slip_utilisation_max[")]
+    left = [value for name, value in found.items() if name.startswith("slip_reserve_min[")]
+    if used:
+        found |= {"slip_utilisation_max": max(used), "slip_reserve_min": min(left)}
+    if not line.fixed_length:
+        way = np.concatenate([[0.0], np.cumsum(speeds - motion.behind)]) * step / 2
+        found["takeup_movement"] = float(way.max() - way.min())
+    if case.brings_to_rest:
+        found |= _rest(case, speeds, step)
+    return found
+
+
+def _of_drive(case: Moving, name: str, on: FloatArray, off: FloatArray, speed: FloatArray, slipped: bool) -> Readings:
+    """Loads of a drum that has a drive."""
+    found = {of("tension_run_on_max", name): float(on.max()), of("tension_run_off_min", name): float(off.min())}
+    drum = case.spec.all_drives[name].drum
+    if drum.friction is None or slipped:
+        return found
+    exponent = drum.friction * drum.wrap
+    tight, slack = np.maximum(on, off), np.minimum(on, off)
+    lift = case.line.belt_line_mass * speed**2
+    if (slack <= lift).any() or (slack <= 0).any():
+        return found
+    used = (tight - lift) / (slack - lift) * math.exp(-exponent)
+    at_rest = float((tight / slack).max()) - 1  # centrifugal tension has no part in what the drum transmits
+    found[of("slip_utilisation_max", name)] = float(used.max())
+    found[of("slip_reserve_min", name)] = math.expm1(exponent) / at_rest if at_rest > 0 else math.inf
+    return found
+
+
+def _rest(case: Moving, speeds: FloatArray, step: float) -> Readings:
+    """When and where the belt at the head comes to rest for the first time."""
+    name = "coast_distance" if case.scene.type == "coast" else "stop_distance"
+    stopped = np.flatnonzero(speeds <= 0)
+    if not len(stopped):
+        return {"stop_time": math.inf, name: math.inf}
+    last = int(stopped[0])
+    way = float((speeds[1:last] + speeds[: last - 1]).sum()) / 2 * step if last > 1 else 0.0
+    return {"stop_time": last * step, name: way}
+
+
+# -- what it costs, and where it holds -------------------------------------------------------------------------------
+
+
+def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
+    """Seconds predicted from the steps of both meshes."""
+    case = moving(spec, scene)
+    rounds, seconds = case.window / case.line.contour_time, 1e-3
+    for elements in _meshes(level):
+        seconds += elements / belt.COURANT * rounds * (_A_STEP + elements * _AN_ELEMENT)
+    return seconds
+
+
+def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
+    """Whether there is a motion to simulate.
+
+        n, rounds of a wave in the time of the scene: at 1000 simulating it takes a minute
+
+    **Range** any scene in motion.
+    **Error** exact.
+    **Source** as `solvers.network`.
+    """
+    case = moving(spec, scene)
+    if case.window <= 0:
+        return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+    rounds = case.window / case.line.contour_time
+    return Criterion("n", rounds, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
+
+
+ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(
+    name="elements",
+    title="the whole belt in finite elements: drives, brakes, idlers that stick and slide",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=IN_MOTION,
+    represents=frozenset(
+        {"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers", "takeup_mass", "viscous_idlers"}
+    ),
+    gives=OF_NETWORK.union(PER_DRIVE, DRIVE),
+    run=run,
+    cost=cost,
+    source="lumped elements with Moreau's time stepping; derived in ptmcalc.witness.belt",
+    valid=valid,
+    always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
+    levels=len(_ELEMENTS),
+)

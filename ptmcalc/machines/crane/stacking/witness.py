@@ -1,0 +1,106 @@
+"""The second method for caught and pushing forks: Runge-Kutta steps from event to event; no plan offers it.
+
+Shared with the solvers: the list of parts of drive, rope, rack and column, the window, and what follows from the force
+of an event (`derived`). Equations, contact, friction and events are its own.
+"""
+
+import math
+
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.stacking.catching import RACK, ROPE
+from ptmcalc.machines.crane.stacking.derived import with_derived
+from ptmcalc.machines.crane.stacking.effects_events import CATCHING, LIMITER, PUSHING, SLOPE, YIELDING
+from ptmcalc.machines.crane.stacking.effects_events import RACK as RACK_GIVES
+from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
+from ptmcalc.machines.crane.stacking.solvers.fork_caught import with_factor
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.numerics.train.parts import Train
+from ptmcalc.witness import lumped
+
+
+def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
+    """Largest forces of rope and rack as the rack catches the fork.
+
+    **Range** as the exact run: no damping.
+    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
+    """
+    case = catch_of(spec, scene).without(
+        slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK_GIVES not in carried
+    )
+    names = {"rope_force_caught": ROPE} | ({} if case.rigid else {"rack_force": RACK})
+    found = _largest(case.train(), case.window(), level, names)
+    return Result(with_derived(spec, scene, with_factor(found.loads, case)), work=found.work, window=found.window)
+
+
+def pushed(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
+    """Largest force of the fork on the rack it is pushed against, with errors as `caught`."""
+    case = push_of(spec, scene)
+    found = _largest(case.train(), case.window(), level, {"fork_push_force": RACK})
+    return Result(with_derived(spec, scene, found.loads), work=found.work, window=found.window)
+
+
+def _largest(train: Train, window: float, level: int, names: dict[str, str]) -> Result:
+    """Largest forces of some links, from two runs."""
+    runs = lumped.twice(train, window, level)
+    links = [spring.name for spring in train.springs]
+    found = [{name: run.highest["link", links.index(link)] for name, link in names.items()} for run in runs]
+    return Result(lumped.compared(*found), work=sum(run.steps for run in runs), window=(0.0, window))
+
+
+def _caught_cost(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> float:
+    case = catch_of(spec, scene)
+    return lumped.seconds(case.train(), case.window(), lumped.TOLERANCES[level : level + 2])
+
+
+def _pushed_cost(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> float:
+    case = push_of(spec, scene)
+    return lumped.seconds(case.train(), case.window(), lumped.TOLERANCES[level : level + 2])
+
+
+def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:
+    """Whether something gives but the rack.
+
+        1 for a rigid column
+
+    **Range** any stacker.
+    **Error** exact.
+    **Source** the file.
+    """
+    if math.isinf(push_of(spec, scene).support):
+        return Criterion("column", 1.0, 1.0, "a rigid column: one spring, whose force is a closed form", "the file")
+    return None
+
+
+_SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.witness"
+CAUGHT: Solver[Stacker, ForkCaught] = Solver(
+    name="caught_runge_kutta",
+    title="drive, rope, carriage and rack, by Runge-Kutta steps from event to event",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({ForkCaught}),
+    represents=frozenset({CATCHING, RACK_GIVES, SLOPE, LIMITER}),
+    gives=frozenset({"rope_force_caught", "fork_caught_factor", "rack_force"}),
+    run=caught,
+    cost=_caught_cost,
+    source=_SOURCE,
+    always=frozenset({CATCHING}),
+    levels=2,
+)
+PUSHED: Solver[Stacker, ForkPush] = Solver(
+    name="push_runge_kutta",
+    title="drive, rack and carriage on its column, by Runge-Kutta steps",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({ForkPush}),
+    represents=frozenset({PUSHING, YIELDING}),
+    gives=frozenset({"fork_push_force"}),
+    run=pushed,
+    cost=_pushed_cost,
+    source=_SOURCE,
+    valid=yields,
+    always=frozenset({PUSHING, YIELDING}),
+    levels=2,
+)
+WITNESSES = (CAUGHT, PUSHED)
