@@ -15,7 +15,7 @@ from ptmcalc.base.words import quote
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.contract.result import Finding
-from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.problems import problems_of
@@ -121,20 +121,21 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
 
 
 def _kind_of(document: Document, data: Mapping[str, Any]) -> tuple[AnyKind | None, list[Diagnostic]]:
-    names = kind_names()
     if "kind" not in data:
+        names = kind_names()
         slip = next((key for key in data if meant(key, ("kind",))), "")
         hint = f"is {quote(slip)} meant for it? " * bool(slip) + f"add `kind: ...`; kinds: {', '.join(names)}"
         return None, [Diagnostic("SPC101", "`kind` is missing", document.value_span(()), (), hint)]
     named, place = data["kind"], document.value_span(("kind",))
     if named is Unread.VALUE:
         return None, []
-    if named not in names:
+    if not is_kind(named):
+        names = kind_names()
         reason = f"`kind` is {describe(named)}: no kind of machine is called so"
         hint = did_you_mean(named if isinstance(named, str) else "", names, "kinds: ")
         return None, [Diagnostic("SPC102", reason, place, ("kind",), hint)]
     try:
-        return load_kind(named), []
+        return load_type(named, data.get("type")) or load_kind(named), []
     except UsageError as error:
         return None, [Diagnostic("SPC102", error.message, place, ("kind",), error.hint)]
 

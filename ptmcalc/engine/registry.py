@@ -39,17 +39,41 @@ def _theirs() -> Mapping[str, str]:
     return {entry.name: entry.value for entry in metadata.entry_points(group=_GROUP)}
 
 
+def is_kind(name: object) -> bool:
+    """Whether a kind is called so."""
+    return isinstance(name, str) and (name in _ours() or name in _theirs())
+
+
+def load_type(name: str, word: object) -> AnyKind | None:
+    """The manifest of one type of a kind without the others, where its package lists them in `TYPES`, by the word its
+    files write behind `type`; else None."""
+    module = import_module(_place(name).partition(":")[0])
+    place = getattr(module, "TYPES", {}).get(word) if isinstance(word, str) else None
+    if place is None:
+        return None
+    module_of_type, _, attribute = place.partition(":")
+    kind = getattr(import_module(module_of_type), attribute, None)
+    if not isinstance(kind, MachineKind) or (kind.name, kind.type) != (name, word):
+        raise UsageError(f"type `{word}` of kind `{name}` defines no manifest of that name", f"expected at {place}")
+    return kind
+
+
 def load_kind(name: str) -> AnyKind:
     """The manifest of a kind.
 
     Raises:
         UsageError: no such kind, or its package does not define a manifest of its own name.
     """
-    place = _ours().get(name) or _theirs().get(name)
-    if place is None:
-        raise UsageError(f"no machine kind is called `{name}`", f"kinds: {', '.join(kind_names())}")
+    place = _place(name)
     module, _, attribute = place.partition(":")
     kind = getattr(import_module(module), attribute or "KIND", None)
     if not isinstance(kind, MachineKind) or kind.name != name:
         raise UsageError(f"the package of kind `{name}` defines no manifest of that name", f"expected at {place}")
     return kind
+
+
+def _place(name: str) -> str:
+    place = _ours().get(name) or _theirs().get(name)
+    if place is None:
+        raise UsageError(f"no machine kind is called `{name}`", f"kinds: {', '.join(kind_names())}")
+    return place

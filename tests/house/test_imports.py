@@ -132,3 +132,9 @@ def test_a_process_begins_before_its_first_import() -> None:
     """What `start` sets holds for all imports: it imports the command line itself only when it is called."""
     program = "import sys, ptmcalc.cli.start; assert not {'typer', 'numpy', 'pydantic'} & set(sys.modules)"
     assert python("-c", program).status == 0
+
+
+def test_a_crane_of_one_type_imports_no_other(tmp_path: Path) -> None:
+    found = modules(tmp_path / "modules.json", "check", "specs/crane_travelling.yaml", "--format", "plain")
+    types = {name.split(".")[3] for name in found if name.startswith("ptmcalc.machines.crane.")}
+    assert types == {"travelling"}

@@ -1,5 +1,6 @@
 """The README says what is so: its commands are those CI runs, its report is what the program prints."""
 
+import math
 import re
 import subprocess
 import sys
@@ -8,6 +9,8 @@ from collections.abc import Iterator
 
 import pytest
 from support.command import ROOT, ptmcalc, unpainted
+from support.peers import COLUMNS, METHODS
+from support.problems import PROBLEMS
 
 from ptmcalc.base.units import SHARE, show
 from ptmcalc.cli.app import app
@@ -86,7 +89,9 @@ def test_the_table_names_every_command_and_no_other() -> None:
     }
 
 
-OPTIONS = sorted(set(re.findall(r"(--?[a-z][a-z-]*)[ =`]", README.partition("## Commands")[2])))
+OPTIONS = sorted(
+    set(re.findall(r"(--?[a-z][a-z-]*)[ =`]", README.partition("## Commands")[2].partition("\n## Beside")[0]))
+)
 
 
 @pytest.mark.parametrize("option", OPTIONS)
@@ -112,6 +117,27 @@ def test_the_table_of_costs_is_of_the_files_there_are() -> None:
         found = re.fullmatch(r"-|(\d+) of (\d+)", held)
         assert found is not None
         assert found[1] == found[2], "a bar that does not hold is a fault"
+
+
+def test_the_table_of_peers_is_of_the_problems_and_methods_there_are() -> None:
+    """Its structure, not its seconds: the rows and columns the command prints today, and the unit they are in."""
+    section = README.partition("\n## Beside general solvers\n")[2].partition("\n## ")[0]
+    head, rule, *lines = [line for line in section.splitlines() if line.startswith("|")]
+    assert [cell.strip() for cell in head.strip("|").split("|")] == list(COLUMNS)
+    assert rule == "|" + " --- |" * len(COLUMNS)
+    rows = [[cell.strip() for cell in line[1:-1].split("|")] for line in lines]
+    settings = [(problem, word) for problem in PROBLEMS.values() for word, _ in problem.settings]
+    assert [(row[0], row[1]) for row in rows] == [(f"{one.name} {one.title}", word) for one, word in settings]
+    for row, (problem, word) in zip(rows, settings, strict=True):
+        assert len(row) == len(COLUMNS)
+        assert row[5] == (f"{problem.target:g} ms" if problem.target < math.inf else "-")
+        peers = row[-len(METHODS) :]
+        if word == problem.settings[-1][0]:
+            assert all(re.fullmatch(r"breaks down|(-|[\d,.]+ times) at \de[-+]\d\d", cell) for cell in peers), row
+        else:
+            assert not any(peers)
+    assert re.search(r"unit[^.]*\s\d+\.\d ms", section)
+    assert "tests/bench/test_problems.py" in section
 
 
 def choices() -> Iterator[Choice]:

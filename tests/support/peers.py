@@ -154,8 +154,9 @@ def rows(problem: Problem, repeats: int = REPEATS) -> list[list[str]]:
 
 
 def told(found: Peer, over: float | None) -> str:
-    """A peer as a cell: its ratio at equal error and that error."""
-    if not math.isfinite(found.error):
+    """A peer as a cell: its ratio at equal error and that error; one that is wrong by as much as it computes breaks
+    down."""
+    if not found.error < 1:
         return "breaks down"
     size = "-" if over is None else f"{over:,.0f} times" if over >= 10 else f"{over:.1f} times"
     return f"{size} at {found.error:.0e}"

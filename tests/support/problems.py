@@ -123,13 +123,13 @@ def told(system: System, z: np.ndarray) -> np.ndarray:
     return z[: system.own] / system.scale[: system.own]
 
 
-def by_solver(system: System, end: float, method: str, rtol: float, most_events: int = 500) -> Played:
+def by_solver(system: System, end: float, method: str, rtol: float, most_events: int = 5_000) -> Played:
     """The state at the end by a solver that stops at every guard: the equations and what follows an event are those of
     the system, which knows neither our propagation nor our roots."""
     scale, own = system.scale, system.own
     mode, z = system.start()
     reaction = system.react(mode, 0.0, z, None)
-    time, evaluations = 0.0, 0
+    time, last, evaluations = 0.0, -1.0, 0
     for _ in range(most_events):
         mode, z = reaction.mode, reaction.state
         if time >= end or reaction.finished:
@@ -148,6 +148,11 @@ def by_solver(system: System, end: float, method: str, rtol: float, most_events:
             row = motion.guards[fired, :own] * scale[:own]
             y[:own] -= row * (float(motion.guards[fired] @ (y * scale)) / float(row @ row))
         reaction = system.react(mode, time, y * scale, fired)
+        if fired is not None and time - last < 1e-9:  # off the guard, or the solver would stop at it again and again
+            motion = system.motion(reaction.mode)
+            reaction.state = reaction.state + 1e-9 * scale * _rates(motion, scale)(time, reaction.state / scale)
+            time += 1e-9
+        last = time
     raise RuntimeError(f"more than {most_events} events by {time:.4g} s")
 
 
