@@ -26,6 +26,36 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
     return keep
 
 
+def kept_for(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """What a function last made of the very objects it was given, so many times, until `forget`.
+
+    For functions of immutable machines that are asked again and again in one report: comparing two machines takes
+    longer than what they do. The objects are held as long as what was made of them, so no other has their identity.
+    """
+
+    def keep(function: Callable[P, T]) -> Callable[P, T]:
+        kept: dict[tuple[int, ...], tuple[tuple[object, ...], T]] = {}
+        forgotten_with(kept.clear)
+
+        @wraps(function)
+        def call(*args: P.args, **kwargs: P.kwargs) -> T:
+            if kwargs:
+                return function(*args, **kwargs)
+            key = tuple(map(id, args))
+            found = kept.get(key)
+            if found is not None:
+                return found[1]
+            made = function(*args)  # type: ignore[call-arg]
+            if len(kept) >= size:
+                del kept[next(iter(kept))]
+            kept[key] = args, made
+            return made
+
+        return call
+
+    return keep
+
+
 def forgotten_with(forgetter: Callable[[], object]) -> None:
     """Have something forgotten too, whenever all is."""
     _FORGETTERS.append(forgetter)

@@ -313,6 +313,30 @@ def merge(
 
 
 @app.command()
+def diff(
+    old: Annotated[str, typer.Argument(help="A design file, a folder of them, or a JSON report, as it was.")],
+    new: Annotated[str, typer.Argument(help="The same as it is now.")],
+    form: Annotated[
+        CostFormat, typer.Option("--format", help="How to print; markdown is a comment on a pull request.")
+    ] = CostFormat.TABLE,
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    effects: EffectsOption = None,
+    jobs: JobsOption = "auto",
+    store: StoreOption = "",
+) -> None:
+    """Show what changed between two states: verdicts, and loads against their error bars.
+
+    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or a file that is invalid now, 4 a bug of ours.
+    """
+    from ptmcalc.cli.diff import show_diff
+    from ptmcalc.engine.check import Options
+
+    options = Options(tuple(scene or ()), accuracy, _effects(effects))
+    raise typer.Exit(show_diff(old, new, options, jobs, store, form.value))
+
+
+@app.command()
 def plan(
     paths: Annotated[list[str], typer.Argument(help="Design files.")],
     form: ListOption = ListFormat.TABLE,

@@ -115,7 +115,7 @@ def rendered(form: Format, reports: Sequence[FileReport], verbose: bool, *, to_t
     return iter([render(form, reports, width=width, color=color, verbose=verbose)])
 
 
-def tallies_of(reports: Sequence[FileReport]) -> Iterator[Tally]:
+def tallies_of(reports: Sequence[FileReport]) -> Iterable[Tally]:
     """What a summary needs of each file; of a batch without taking every report from the store."""
     if isinstance(reports, tuple):
         return map(tally, reports)
@@ -125,14 +125,15 @@ def tallies_of(reports: Sequence[FileReport]) -> Iterator[Tally]:
 
 
 def _parts(reports: Sequence[FileReport]) -> Iterator[tuple[str, str]]:
-    if isinstance(reports, tuple):
-        yield from ((report.path, json.part_of(report)) for report in reports)
-        return
-    from ptmcalc.engine.batch import Results
+    """Each file with its part of the JSON; of a batch as the store has it."""
+    if not isinstance(reports, tuple):
+        from ptmcalc.engine.batch import Results
 
-    if isinstance(reports, Results):
-        for index, (name, text) in enumerate(reports.texts()):
-            yield name, text.decode() if text else json.part_of(reports[index])
+        if isinstance(reports, Results):
+            for index, (name, text) in enumerate(reports.texts()):
+                yield name, text.decode() if text else json.part_of(reports[index])
+            return
+    yield from ((report.path, json.part_of(report)) for report in reports)
 
 
 def write(path: Path, pieces: Iterable[str]) -> None:

@@ -34,7 +34,7 @@ ExitZeroOption = Annotated[
 
 def what_counts(
     select: list[str] | None, ignore: list[str] | None, baseline: str, write_baseline: str, *, whole: bool
-) -> "Callable[[Sequence[FileReport]], tuple[FileReport, ...]]":
+) -> "Callable[[Sequence[FileReport]], Sequence[FileReport]]":
     """What the options of a run make of its reports; they are looked at before it begins.
 
     Of a run over `whole` files it is told what a baseline holds that is no longer there.
@@ -44,7 +44,7 @@ def what_counts(
     choice = Choice(prefixes("--select", select), prefixes("--ignore", ignore))
     known = read_baseline(Path(baseline)) if baseline else {}
 
-    def counted(reports: "Sequence[FileReport]") -> "tuple[FileReport, ...]":
+    def counted(reports: "Sequence[FileReport]") -> "Sequence[FileReport]":
         found = chosen(reports, choice)
         if baseline:
             found, unmet = apart_from(found, known, Path(baseline).parent)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Interval
+from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck
@@ -92,7 +93,7 @@ class MachineKind(Generic[S]):
 
     def loads_of(self, spec: S) -> tuple[LoadInfo, ...]:
         """The loads of a machine."""
-        return tuple(self.parts(spec)) if self.parts else self.loads
+        return _loads(self.parts, spec) if self.parts else self.loads
 
     def tables_of(self, spec: S, scenes: Sequence[SceneReport]) -> tuple[TableReport, ...]:
         """The tables of its own that a kind has of a machine."""
@@ -101,6 +102,11 @@ class MachineKind(Generic[S]):
     def load_info(self, spec: S, name: str) -> LoadInfo:
         """What is known of a load of a machine by its name."""
         return next(info for info in self.loads_of(spec) if info.name == name)
+
+
+@kept_for(64)
+def _loads(parts: Callable[[S], Iterable[LoadInfo]], spec: S) -> tuple[LoadInfo, ...]:
+    return tuple(parts(spec))
 
 
 AnyKind = MachineKind[Any]

@@ -108,6 +108,7 @@ class Results(Sequence[FileReport]):
 
     def __init__(self, entries: Sequence[Entry], store: Store, options: Options, day: str) -> None:
         self._entries, self._store, self._options, self._day = entries, store, options, day
+        self._tallies: list[Tally] = []
 
     def __len__(self) -> int:
         return len(self._entries)
@@ -126,11 +127,13 @@ class Results(Sequence[FileReport]):
                 pass
         return check_file(Path(entry.name), self._options)
 
-    def tallies(self) -> Iterator[Tally]:
+    def tallies(self) -> list[Tally]:
         """The tally of each file."""
-        for index, entry in enumerate(self._entries):
-            known = None if entry.report is not None else self._store.tally(entry.key, self._day)
-            yield known or tally(self[index])
+        if not self._tallies:
+            for index, entry in enumerate(self._entries):
+                known = None if entry.report is not None else self._store.tally(entry.key, self._day)
+                self._tallies.append(known or tally(self[index]))
+        return self._tallies
 
     def texts(self) -> Iterator[tuple[str, bytes]]:
         """Of each file its name and what the store has of its JSON; empty where it has nothing."""

@@ -37,9 +37,24 @@ def _longest(code: str, prefixes: Iterable[str]) -> int | None:
     return max((len(prefix) for prefix in prefixes if code.startswith(prefix)), default=None)
 
 
-def chosen(reports: Sequence[FileReport], choice: Choice) -> tuple[FileReport, ...]:
+def chosen(reports: Sequence[FileReport], choice: Choice) -> Sequence[FileReport]:
     """The reports without what does not count, of which they keep the number; what makes a file invalid always does."""
-    return tuple(_without(report, choice) for report in reports)
+    return _Chosen(reports, choice) if choice.select or choice.ignore else reports
+
+
+class _Chosen(Sequence[FileReport]):
+    """Reports that lose what does not count when they are looked at: of a batch not all are in memory at once."""
+
+    def __init__(self, reports: Sequence[FileReport], choice: Choice) -> None:
+        self._reports, self._choice = reports, choice
+
+    def __len__(self) -> int:
+        return len(self._reports)
+
+    def __getitem__(self, index):  # type: ignore[no-untyped-def]
+        if isinstance(index, slice):
+            return _Chosen(self._reports[index], self._choice)
+        return _without(self._reports[index], self._choice)
 
 
 def _without(report: FileReport, choice: Choice) -> FileReport:

@@ -12,7 +12,7 @@ import tempfile
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -82,6 +82,8 @@ class Store:
         (tables,) = base.execute("select count(*) from sqlite_master")
         if tables[0] and (mark[0], form[0]) != (_OURS, _FORM):
             raise sqlite3.DatabaseError("it holds something else")
+        if tables[0]:
+            return
         base.execute("begin immediate")
         base.execute(_TABLE)
         base.execute(f"pragma application_id = {_OURS}")
@@ -186,5 +188,7 @@ def _record(row: Sequence[Any]) -> Record | None:
         return None
 
 
+@lru_cache(maxsize=1000)
 def _tally(text: str) -> Tally:
+    """Of many files most tallies are equal: they are one."""
     return Tally(**json.loads(text))

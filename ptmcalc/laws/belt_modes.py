@@ -29,6 +29,9 @@ from ptmcalc.laws.loop_bounds import LoopMasses
 
 FloatArray = NDArray[np.float64]
 
+_PARTS, _ROUNDS = 32, 12
+"""Parts an interval is divided into at a time, and how often: 60 bisections, in a fifth of the calls."""
+
 
 def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
     """The lowest natural circular frequencies of a belt loop.
@@ -57,10 +60,11 @@ def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> Flo
     while np.any(above := modes_below(loop, takeup_mass, low) >= wanted):
         high = np.where(above, low, high)
         low = np.where(above, low / 2, low)
-    for _ in range(60):
-        middle = (low + high) / 2
-        above = modes_below(loop, takeup_mass, middle) >= wanted
-        low, high = np.where(above, low, middle), np.where(above, middle, high)
+    shares = np.arange(1, _PARTS)[:, None] / _PARTS
+    for _ in range(_ROUNDS):
+        step = (high - low) / _PARTS
+        below = np.sum(modes_below(loop, takeup_mass, low + (high - low) * shares) < wanted, axis=0)
+        low, high = low + below * step, low + (below + 1) * step
     return np.asarray((low + high) / 2)
 
 

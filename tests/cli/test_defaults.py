@@ -95,3 +95,19 @@ def test_a_table_is_asked_for(project: Path) -> None:
 def test_other_commands_do_not_look_for_it(project: Path) -> None:
     (project / "ptmcalc.toml").write_text("nonsense", encoding="utf-8")
     assert ptmcalc("kinds").status == 0
+
+
+def test_the_defaults_of_a_batch_reach_their_options(project: Path) -> None:
+    """A store lies beside the file that names it."""
+    (project / "ptmcalc.toml").write_text(
+        'exclude = ["one.*"]\ngitignore = false\njobs = "1"\nstore = "kept"\nrepairs = false\n', encoding="utf-8"
+    )
+    (project / "machines" / "belts" / ".gitignore").write_text("*.yml\n", encoding="utf-8")
+    (project / "machines" / "belts" / "two.yml").write_bytes(SLIPPING.read_bytes())
+    done = ptmcalc("check", ".")
+    assert done.out.splitlines()[-1] == "1 file, 6 checks passed, 1 failed, 1 undecided"
+    assert done.out.startswith("two.yml:25:15: fail CNV101")
+    assert done.err == (
+        "ptmcalc: 1 design file is left out by --exclude or .gitignore\nptmcalc: 0 of 1 files known from `../../kept`\n"
+    )
+    assert (project / "kept").is_file()

@@ -26,7 +26,7 @@ with open(result, "w", encoding="utf-8") as file:
 
 HEAVY = {"scipy", "matplotlib", "jinja2", "dask", "distributed", "numba", "pint"}
 OF_A_MACHINE = {"numpy", "pydantic", "yaml"}
-COMMANDS = ("check", "merge", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
+COMMANDS = ("check", "diff", "merge", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
 
 
 def modules(result: Path, *arguments: str) -> set[str]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.forces import filled
-from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, drive_force
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
 from ptmcalc.numerics.belt.station import Torque
 
@@ -26,7 +26,7 @@ def share(spec: Conveyor) -> dict[str, float]:
 
 def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
     """The belt in steady motion: drives at the tail take their share of the resistance there."""
-    line = belt_line(spec, scene, filling)
+    line = belt_line_filled(spec, scene, filling) if filling else belt_line(spec, scene)
     shares = share(spec)
     tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
     return replace(line, tail_pull=tail * line.static_resistance) if tail else line

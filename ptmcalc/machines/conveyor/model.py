@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
@@ -65,9 +66,13 @@ class Strand:
     @property
     def even(self) -> bool:
         """Whether mass and static rise are the same all along."""
-        return len(set(self.masses)) == 1 and bool(
-            np.allclose(self.rises, self.rise * np.array(self.marks) / self.length, rtol=1e-12, atol=0)
-        )
+        return _even(self)
+
+
+@kept_for(256)
+def _even(strand: Strand) -> bool:
+    rises = strand.rise * np.array(strand.marks) / strand.length
+    return len(set(strand.masses)) == 1 and bool(np.allclose(strand.rises, rises, rtol=1e-12, atol=0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,9 +163,14 @@ class BeltLine:
         return self.belt_line_mass * self.speed**2
 
 
-def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
-    """The conveyor in the load state of a scene, or with the sections of `filling` loaded; a start has the start's
-    resistance."""
+@kept_for(64)
+def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
+    """The conveyor in the load state of a scene; a start has the start's resistance."""
+    return belt_line_filled(spec, scene, filling_of(spec, scene))
+
+
+def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool]) -> BeltLine:
+    """The conveyor in a scene with the sections of `filling` loaded."""
     g, route = spec.gravity, spec.route
     flat = route.inclination == "small_angle"
     given = spec.resistance
@@ -171,7 +181,6 @@ def belt_line(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | No
         grown = given.stop_factor
 
     parts = route.parts
-    filling = filling or filling_of(spec, scene)
     cosines = [1.0 if flat else part.cosine for part in parts]
     loads = [load_line_mass(spec) if full else 0.0 for full in filling]
     extra, span = extra_forces(spec, load_line_mass(spec)), route.span
@@ -479,6 +488,7 @@ def loop_masses(line: BeltLine, imposed: bool) -> LoopMasses:
     )
 
 
+@kept_for(64)
 def start_case(spec: Conveyor, scene: Start) -> StartCase:
     """A start of this conveyor.
 

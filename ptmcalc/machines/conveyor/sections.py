@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.spec.fields import Height, PositiveLength, PositiveSpan
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 
@@ -94,10 +95,7 @@ class Route(Fragment):
     @property
     def parts(self) -> tuple[Section, ...]:
         """The sections from the tail to the head, one where the slope is even."""
-        if self.sections is not None:
-            return self.sections
-        assert self.length is not None
-        return (Section.model_construct(length=self.length, lift=self.lift),)
+        return self.sections if self.sections is not None else _one_slope(self)
 
     @property
     def span(self) -> float:
@@ -118,6 +116,12 @@ class Route(Fragment):
             for number, (place, (before, part)) in enumerate(zip(places, pairwise(self.parts), strict=False), 2)
             if part.curve_radius is not None and part.slope != before.slope
         )
+
+
+@kept_for(64)
+def _one_slope(route: Route) -> tuple[Section, ...]:
+    assert route.length is not None
+    return (Section.model_construct(length=route.length, lift=route.lift),)
 
 
 def _too_steep(given: Given) -> Iterator[Conflict]:

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear, Motor
 from ptmcalc.components.start import Profile
@@ -347,8 +348,7 @@ class Conveyor(MachineSpec):
         if self.drives is not None:
             return self.drives
         assert self.drive is not None
-        given = {name: getattr(self.drive, name) for name in Drive.model_fields}
-        return {"head": PlacedDrive.model_construct(at="head", delay=0.0, **given)}
+        return _at_the_head(self.drive)
 
     @property
     def main_drive(self) -> PlacedDrive:
@@ -425,3 +425,10 @@ def _whole_length(route: Given) -> float | None:
         return route.number("length")
     parts = [part.number("length") if part else None for part in route.blocks("sections")]
     return sum(part for part in parts if part is not None) if None not in parts else None
+
+
+@kept_for(64)
+def _at_the_head(drive: Drive) -> dict[str, PlacedDrive]:
+    """The drives of a conveyor that has one."""
+    given = {name: getattr(drive, name) for name in Drive.model_fields}
+    return {"head": PlacedDrive.model_construct(at="head", delay=0.0, **given)}
