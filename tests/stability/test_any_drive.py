@@ -15,8 +15,8 @@ from support.zoo import wrong_anyway
 
 BUDGET, TRIED = 0.3, 0.05
 """Predicted seconds of a scene, and of one run that is held against the others."""
-EVALUATIONS = 2_000_000
-FEW = settings(max_examples=25, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+EVALUATIONS = 10_000_000
+FEW = settings(max_examples=20, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 MANY = settings(FEW, max_examples=1500)
 
 
