@@ -93,5 +93,4 @@ def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
 def _driven_at_its_own(values: NDArray[np.complex128], inputs: FloatArray) -> NDArray[np.bool_]:
     """Whether an input moves as a component does by itself: neither then has a share of its own in a state."""
     apart = np.abs(values[:, None] - np.linalg.eigvals(inputs))
-    found: NDArray[np.bool_] = (apart <= _WELL_POSED * np.abs(values)[:, None]).any(axis=1)
-    return found
+    return np.asarray((apart <= _WELL_POSED * np.abs(values)[:, None]).any(axis=1))

@@ -172,15 +172,27 @@ def checked(text: str, name: str = "case.yaml", budget: float = BUDGET) -> Check
 def is_wrong(text: str, name: str = "case.yaml", tried: float | None = None) -> list[str]:
     """Everything that is wrong with what comes of a file of the zoo; `tried` replaces the seconds it says."""
     wanted, found = expected(text), checked(text, name)
-    wrong = [*_beside_what_is_expected(wanted, found.report), *never_right(found.report)]
+    most = wanted.tried if tried is None else tried
+    return [*_beside_what_is_expected(wanted, found.report), *_wrong_by_itself(found, wanted.at_most, most)]
+
+
+def wrong_anyway(text: str, *, budget: float, tried: float, evaluations: float) -> list[str]:
+    """What is wrong with what comes of a valid file that says nothing of what is right."""
+    found = checked(text, budget=budget)
+    refused = [d.message for d in found.report.diagnostics if d.severity is Severity.ERROR]
+    return refused or _wrong_by_itself(found, {"evaluations": evaluations}, tried)
+
+
+def _wrong_by_itself(found: Checked, at_most: Mapping[str, float], tried: float) -> list[str]:
+    """What is wrong whatever was expected."""
+    wrong = never_right(found.report)
     for _, _, settled in found.settled:
         said = f"{settled.plan.scene.label}: "
-        wrong += [said + one for one in _of_runs(settled.runs, wanted.at_most.get("residual", RESIDUAL))]
-        wrong += [said + one for one in _beyond(wanted.at_most, settled.runs)]
-    most = wanted.tried if tried is None else tried
+        wrong += [said + one for one in _of_runs(settled.runs, at_most.get("residual", RESIDUAL))]
+        wrong += [said + one for one in _beyond(at_most, settled.runs)]
     for kind, spec, settled in found.settled[: len(found.report.scenes)]:
         said = f"{settled.plan.scene.label}: "
-        runs = [*settled.runs, *beside(kind, spec, settled, most)]
+        runs = [*settled.runs, *beside(kind, spec, settled, tried)]
         wrong += [said + one for one in contradictions(runs, _dust(kind, spec, settled))]
         wrong += [said + one for run in runs[len(settled.runs) :] for one in faulty(run)]
     return wrong
@@ -198,8 +210,12 @@ def never_right(report: FileReport) -> list[str]:
     for scene in report.scenes:
         for load in scene.loads:
             wrong += [f"{scene.name}: {load.info.name} {one}" for one in _no_interval(load.estimate)]
+        told = any(d.code.startswith("NUM") for d in report.diagnostics)
+        told |= any(
+            judgement.verdict is Verdict.FAIL for judgement in scene.checks
+        )  # what stalls has no cycle to judge
         for judgement in scene.checks:
-            wrong += [f"{scene.name}: {judgement.code} {one}" for one in _unfounded(judgement, report)]
+            wrong += [f"{scene.name}: {judgement.code} {one}" for one in _unfounded(judgement, told)]
     if not report.valid:
         wrong += [f"{d.code} has no place" for d in report.diagnostics if d.span is None or not d.message]
     return wrong
@@ -215,8 +231,9 @@ def _no_interval(one: Estimate) -> Iterator[str]:
         yield f"has a bar below 0: {one}"
 
 
-def _unfounded(judgement: Judgement, report: FileReport) -> Iterator[str]:
-    """A verdict without a number that bears it, an open one without a reason."""
+def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
+    """A verdict without a number that bears it, an open one without a reason; `told` whether the report says why some
+    numbers are not known."""
     value, limit = judgement.value, judgement.limit
     if judgement.verdict in (Verdict.PASS, Verdict.FAIL):
         if value is None or limit is None or any(_no_interval(value)):
@@ -231,7 +248,7 @@ def _unfounded(judgement: Judgement, report: FileReport) -> Iterator[str]:
         if not judgement.reason:
             yield "is undecided without a reason"
         unknown = value is None or not (value.bounded or value.low == value.high)
-        if unknown and not any(d.code.startswith("NUM") for d in report.diagnostics):
+        if unknown and not told:
             yield f"is undecided for {value} and no finding says why"
 
 
@@ -245,7 +262,7 @@ def _of_runs(runs: Iterable[Run], residual: float) -> Iterator[str]:
     for run in runs:
         yield from faulty(run)
         left = run.result.health.get("energy_residual")
-        trusted = any(one.bounded for one in run.estimates.values())
+        trusted = run.result.health.get("steps") != 0 and any(one.bounded for one in run.estimates.values())
         if left is None:
             if (
                 run.rung.solver.fidelity is Fidelity.TRANSIENT
