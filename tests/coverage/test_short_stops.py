@@ -8,14 +8,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from support.bars import MACHINES as ALL
+from support.bars import Limit, Trial, misses, near, opposites, tried, wide, widest
 from support.belt_scenes import Brake, Drive, Rig, loads_of
 from support.machines import check_of, load_of, report_of, scene_of, spec_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.conveyor import short_stops
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, moving, rounds
 
+ON_TRIAL = {"conveyor": ("stiff_stop",)}
+KIND = load_kind("conveyor")
+LIMITS = (
+    Limit("stop_distance", ("checks", "stop_distance"), least=0.001),
+    Limit("stop_time", ("checks", "stop_time"), least=0.001),
+)
 MACHINES, SEED = 24, 20261123
 ELEMENTS = 40
 
@@ -27,16 +36,21 @@ class Case:
     rig: Rig
     claims: dict[str, Estimate]
     found: dict[str, float]
+    trial: Trial
 
     def ratio(self, name: str) -> float:
         """Distance of the elements from the rigid body, as a part of the bar on that side."""
         claim, value = self.claims[name], self.found[name]
         room = claim.high - claim.value if value > claim.value else claim.value - claim.low
         apart = abs(value - claim.value)
-        least = self.rig.tension / 2 if self.rig.rigid else self.rig.tension
-        along = sum(one.length * (one.friction + abs(one.climb)) for one in self.rig.lengths())
-        rounding = 2 * along / ELEMENTS / least * abs(claim.value)  # so far the elements know their ends
+        rounding = _known(self.rig) * abs(claim.value)
         return 0.0 if apart <= rounding else (apart - rounding) / room if room else math.inf
+
+
+def _known(rig: Rig) -> float:
+    """So far the elements know their ends, as a share."""
+    least = rig.tension / 2 if rig.rigid else rig.tension
+    return 2 * sum(one.length * (one.friction + abs(one.climb)) for one in rig.lengths()) / ELEMENTS / least
 
 
 def _drawn(rng: np.random.Generator) -> Rig:
@@ -79,7 +93,11 @@ def drawn_cases(count: int, seed: int) -> list[Case]:
         claims = {name: one.widened(offsets[name]) for name, one in values.items() if name in offsets}
         window = (claims["stop_time"].high if claims["stop_time"].bounded else case.window) + 2 * rig.contour()
         motion = rig.stopped(window, ELEMENTS)
-        found.append(Case(rig, claims, loads_of(rig, motion).loads))
+        values = loads_of(rig, motion).loads
+        exact = {name: Estimate.within(one, _known(rig) * abs(one)) for name, one in values.items()}
+        plain = spec.with_value(("effects",), {"moving_belt": "off"})
+        trial = tried(len(found), rng, KIND, plain, scene, {"stiff_stop": claims}, exact, LIMITS)
+        found.append(Case(rig, claims, values, trial))
     return found
 
 
@@ -107,6 +125,21 @@ def test_the_sample_has_brakes_and_none_both_takeups_and_both_slopes(cases: list
 
 def test_every_interval_holds_finite_elements(cases: list[Case]) -> None:
     assert [one for one in told(cases) if one[2] > 1] == []
+
+
+def test_no_verdict_is_the_opposite_of_the_elements(cases: list[Case]) -> None:
+    trials = [case.trial for case in cases]
+    assert misses(trials, "stiff_stop", ignored=("tension_dynamic_run_on_max",)) == []
+    assert opposites(trials) == []
+    assert near(trials) >= 0.45
+    assert wide(trials, "stiff_stop") <= widest("stiff_stop")
+
+
+@pytest.mark.study
+def test_every_interval_holds_finite_elements_on_a_larger_sample() -> None:
+    cases = drawn_cases(ALL, SEED + 1)
+    assert [one for one in told(cases) if one[2] > 1] == []
+    assert opposites([case.trial for case in cases]) == []
 
 
 def test_a_tenth_of_the_intervals_would_not(cases: list[Case]) -> None:

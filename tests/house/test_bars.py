@@ -10,7 +10,12 @@ import pytest
 from ptmcalc.engine.registry import kind_names, load_kind
 
 COVERAGE = Path(__file__).parents[1] / "coverage"
-KINDS = ("drivetrain",)
+KINDS = ("conveyor", "chain_drive", "shaft", "drivetrain")
+NOT_YET = {
+    "conveyor": {"statics", "holding", "brake_statics", "run_out"},
+    "chain_drive": {"chain_selection", "takeup_weight"},
+}
+"""Closed forms that only worked cases hold so far, and a bound whose test does not judge: never longer."""
 NEEDED = {"misses", "wide", "opposites", "near"}
 """What a module asks of the bars it holds; of exact values `misses` and `opposites`."""
 
@@ -53,7 +58,7 @@ def pieces(kind: str) -> set[str]:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_solver_and_effect_is_held(kind: str) -> None:
-    assert pieces(kind) - held(kind) == set()
+    assert pieces(kind) - held(kind) == NOT_YET.get(kind, set())
 
 
 def test_what_is_said_to_be_held_is_there() -> None:
