@@ -325,8 +325,12 @@ def _shortening(spec: Hoist, scene: Moving) -> float:
     """Part of the rope's length that runs onto the drum or off it while the scene is looked at."""
     if isinstance(scene, Release):
         return 0.0
-    length = model.rope_length(spec, model.hook_height(scene)) / model.falls_of_a_rope(spec)
-    return hook_speed(spec, scene) * case_of(spec, scene, ALWAYS).window / length
+    return hook_speed(spec, scene) * case_of(spec, scene, ALWAYS).window / _length(spec, scene)
+
+
+def _length(spec: Hoist, scene: Moving) -> float:
+    """Of a fall, from the drum or the sheaves above to the hook [m]."""
+    return model.rope_length(spec, model.hook_height(scene)) / model.falls_of_a_rope(spec)
 
 
 def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
@@ -346,12 +350,14 @@ def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
 def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     """What the change of the rope's length can do to its dynamic force.
 
-        d/dt A^2 = (V/l) (e'/w)^2 <= (V/l) A^2,   so that A grows by at most (l_0/l_1)^(1/2)
+        d/dt ln A^2 = (V/l) sin^2 f = (V/2 l) (1 - cos 2 f),   so that A <= A_0 (l_0/l_1)^(1/4) exp(V/(2 l_1 w))
 
-    A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V; paid out it falls as much.
+    A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V, f its phase, which runs on with w:
+    what the cosine adds never comes to more than one of its halves. Paid out A falls as much. Times go with the
+    frequency, (l_0/l_1)^(1/2): those of lifting off with the length until then.
 
     **Range** a drive of constant speed; twice the change of length is allowed for one that swings.
-    **Error** an upper bound for a constant speed; (l_0/l_1)^(1/4) in the mean. In a structure the beat of two
+    **Error** an upper bound for a constant speed and one frequency. In a structure the beat of two
     frequencies shifts with the rope's: its forces are given four times as much, calibrated on a seeded sample (2.0).
     **Source** derived from the equation of `laws.rope_rod.hauling_gain`.
     """
@@ -360,7 +366,11 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     one = reduced(spec, scene)
     if math.isinf(gain):  # a stall stays one: what never happens is not in doubt
         return {name: ANYTHING for name in _anything(loads) if math.isfinite(loads[name].value)}
-    rise = gain * _dynamic_share(loads, one.weight)
+    turn = math.sqrt(one.stiffness / one.load_mass)
+    if "natural_frequency" in loads and math.isfinite(loads["natural_frequency"].value):
+        turn = min(turn, loads["natural_frequency"].value)
+    beside = hook_speed(spec, scene) / (2 * _length(spec, scene) * (1 - part) * turn)
+    rise = min(math.expm1(beside - math.log1p(-part) / 4), gain) * _dynamic_share(loads, one.weight)
     if rise == 0:
         return {}
     found = _around_forces(loads, one.weight, rise)
@@ -372,9 +382,12 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
         }
     if "natural_frequency" in loads and math.isfinite(loads["natural_frequency"].value):
         found["natural_frequency"] = _relative(loads["natural_frequency"], gain)
+    lifted = loads["lift_off_time"].high if "lift_off_time" in loads else math.inf
+    until = 2 * hook_speed(spec, scene) * lifted / _length(spec, scene)
+    soon = min(gain, 1 / math.sqrt(1 - until) - 1) if until < 1 else gain
     for name in ("lift_off_time", "tension_time", "lift_off_speed", "stop_time"):
         if name in loads and math.isfinite(loads[name].value):
-            found[name] = _relative(loads[name], gain)
+            found[name] = _relative(loads[name], gain if name == "stop_time" else soon)
     for name in ("stop_distance", "stop_distance_lowering"):
         if name in loads and math.isfinite(loads[name].value):
             size = (rise + part) * one.weight / one.stiffness  # the static stretch goes with the length
