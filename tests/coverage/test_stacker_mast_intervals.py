@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from support.decades import Seeded, overhead_stacker
 from support.machines import loaded
 from support.stacker_masts import random_stacker
 
@@ -14,11 +15,12 @@ from ptmcalc.contract.result import Result
 from ptmcalc.machines.crane.stacking.effects_mast import gravity_bound, modes_bound
 from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
 from ptmcalc.machines.crane.stacking.solvers.mast_beam import MAST_BEAM
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL, MAST_MODAL
 from ptmcalc.machines.crane.stacking.solvers.mast_two_mass import MAST_TWO_MASS
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 SEED, MACHINES, WEIGHED, TIGHTER = 101, 60, 12, 1 / 3
+BLOWS, OF_A_BLOW = 24, ("collision_force", "collision_deflection", "mast_moment_max")
 LOADS = ("mast_deflection_max", "mast_force_max", "mast_moment_max", "settling_time", "brake_time")
 
 
@@ -87,3 +89,31 @@ def test_a_third_of_the_bar_of_the_settling_time_would_not_hold(sample: dict[str
     settled = [one["settling_time"] for one in sample["modes"] if "settling_time" in one]
     assert len(settled) > 5
     assert max(settled) > TIGHTER
+
+
+@pytest.fixture(scope="module")
+def weighed() -> dict[str, list[float]]:
+    """How much of the bar for the weights each load of a collision needs, blow by blow."""
+    found: dict[str, list[float]] = {name: [] for name in OF_A_BLOW}
+    for seed in range(BLOWS):
+        data = overhead_stacker(Seeded(seed), decades=0.3)
+        data["scenes"] = [{"type": "obstacle", "mechanism": ("bridge", "trolley")[seed % 2]}]
+        spec = loaded(data).spec
+        assert isinstance(spec, Stacker)
+        scene = spec.all_scenes[0]
+        light = estimates(COLLISION_MODAL.run(spec, scene, COLLISION_MODAL.always, 0))
+        heavy = estimates(COLLISION_MODAL.run(spec, scene, COLLISION_MODAL.always | {GRAVITY}, 0))
+        spread = gravity_bound(spec, scene, light)
+        for name, needs in found.items():
+            needs.append(abs(heavy[name].value - light[name].value) / spread[name].high)
+    return found
+
+
+@pytest.mark.parametrize("name", OF_A_BLOW)
+def test_every_load_of_a_blow_lies_in_its_bar_for_the_weights(weighed: dict[str, list[float]], name: str) -> None:
+    assert len(weighed[name]) == BLOWS
+    assert max(weighed[name]) <= 1
+
+
+def test_a_third_of_the_bar_of_the_moment_of_a_blow_would_not_hold(weighed: dict[str, list[float]]) -> None:
+    assert max(weighed["mast_moment_max"]) > TIGHTER
