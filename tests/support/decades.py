@@ -46,7 +46,7 @@ class Drawn:
         self.draw = draw
 
     def real(self, low: float, high: float) -> float:
-        value: float = self.draw(st.floats(low, high, allow_nan=False, width=32))
+        value: float = self.draw(st.floats(low, high, allow_nan=False))
         return min(max(value, low), high)
 
     def one(self, choices: Sequence[One]) -> One:
