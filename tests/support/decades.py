@@ -169,7 +169,8 @@ def travelling(pick: Pick, decades: float = DECADES) -> Data:
         "bridge": {"mass": s(1.3e4, "kg"), "span": span, "height": s.maybe(0.6, "m")},
         "trolley": {"mass": s(2.2e3, "kg"), "nearest": s.below(span, 3), "height": s.maybe(1.1, "m")},
         "wheels": {
-            "diameter": s(0.315, "m"), "base": s(3.6, "m"), "driven": pick.one((["A1", "B1"], ["A1", "A2", "B1", "B2"])),
+            "diameter": s(0.315, "m"), "base": s(3.6, "m"),
+            "driven": pick.one((["A1", "B1"], ["A1", "A2", "B1", "B2"])),
             "frame": pick.one(("hinged", "rigid")), "inertia": s.maybe(0.25, "kg*m^2"), "rating": s(1.2e5, "N"),
         },
         "rolling": {"coefficient": s.pick.one((0.0, 1e-6, 0.008, 0.3))},
@@ -224,7 +225,9 @@ def hoist(pick: Pick, decades: float = DECADES) -> Data:
         "height": height,
         "least_fall": s(1.1, "m"),
         "speed": {"main": s(0.133, "m/s")},
-        "reeving": {"falls": pick.one((1, 2, 4, 8, 64)), "sheave_efficiency": s.share(0.5), "lead_length": s.maybe(3, "m")},
+        "reeving": {
+            "falls": pick.one((1, 2, 4, 8, 64)), "sheave_efficiency": s.share(0.5), "lead_length": s.maybe(3, "m"),
+        },
         "rope": {
             "diameter": d, "area": s(1.2e-4, "m^2"), "modulus": s(1.1e11, "Pa"), "mass": s(1.05, "kg/m"),
             "breaking_force": s(1.8e5, "N"), "damping": pick.one((0, 0.02, 0.3, 1)),
@@ -309,7 +312,9 @@ def overhead_stacker(pick: Pick, decades: float = DECADES) -> Data:
         "cab": {"mass": s.maybe(350, "kg"), "arm": s(-0.6, "m")},
         "bridge_travel": _travel(s, 1.0),
         "trolley_travel": _travel(s, 0.4),
-        "obstacle": pick.one(({"contact": "plastic"}, {"stiffness": s(8e6, "N/m"), "restitution": pick.one((0, 0.5, 1))})),
+        "obstacle": pick.one(
+            ({"contact": "plastic"}, {"stiffness": s(8e6, "N/m"), "restitution": pick.one((0, 0.5, 1))})
+        ),
         "rack": {"stiffness_vertical": s(2.5e6, "N/m")},
         "scenes": scenes[first : first + 3],
     }  # fmt: skip
@@ -380,7 +385,9 @@ def conveyor(pick: Pick, decades: float = DECADES) -> Data:
     return {
         "kind": "conveyor",
         "route": {"length": f"{length!r} m", "lift": f"{length * pick.real(-0.3, 0.3)!r} m"},
-        "belt": {"mass": s(20, "kg/m"), "stiffness": s(1.4e8, "N"), "breaking_force": s(4.8e6, "N"), "carcass": "textile"},
+        "belt": {
+            "mass": s(20, "kg/m"), "stiffness": s(1.4e8, "N"), "breaking_force": s(4.8e6, "N"), "carcass": "textile",
+        },
         "idlers": {
             "carry": {"line_mass": s.maybe(25, "kg/m"), "pitch": s(1.2, "m")},
             "return": {"line_mass": s.maybe(18, "kg/m"), "pitch": s(3, "m")},

@@ -59,7 +59,8 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
         V = P/m^2 ( sum_(k > 1) s_k L_k^2/w_k + s_1 |L_1^2/w_1 - L^2/w| )
 
     with the momentum L_k^2/(m w_k) P that a mode swings with against the base, m all that rolls; L and w of two masses.
-    Weights that make up a share r of the stiffness add r^2/20 of each load (`_SECOND`). The time in which the swing settles is that of a window so much narrower or wider.
+    Weights that make up a share r of the stiffness add r^2/20 of each load (`_SECOND`). The time in which the
+    swing settles is that of a window so much narrower or wider.
 
     **Range** every start and stop of two masses; nothing is known where the base comes to rest so softly that the time
     of it is open: with less than a tenth of the deceleration P/m.

@@ -62,7 +62,8 @@ def _told(one: Mast, frequency: float) -> Estimate:
 def _period(frequency: Estimate) -> Estimate:
     """Of a swing with that frequency."""
     ends = [2 * math.pi / one if one else math.inf for one in (frequency.value, frequency.high, frequency.low)]
-    return Estimate(*ends, numerical=max(ends[2] - ends[0], ends[0] - ends[1]) if frequency.bar else 0.0)
+    value, low, high = ends
+    return Estimate(value, low, high, numerical=max(high - value, value - low) if frequency.bar else 0.0)
 
 
 MAST_BEAM: Solver[Stacker, StackerScene] = Solver(
