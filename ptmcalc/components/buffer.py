@@ -10,6 +10,8 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.result import Finding
 from ptmcalc.laws import buffer
 from ptmcalc.spec.fields import Measure, PositiveForce, PositiveLength, PositiveSpeed
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
@@ -95,6 +97,13 @@ class Stopped:
     """speed at which they bottom out, 0 where they do not [m/s]"""
     energy_share: float
     """of their curve [1]"""
+
+    def findings(self, path: KeyPath) -> tuple[Finding, ...]:
+        """What to say where the buffers, which stand at `path`, do not stop what hits them."""
+        if not self.left:
+            return ()
+        why = f"the buffers bottom out with {units.show(self.left, units.SPEED)} left: the force has no upper end"
+        return (Finding("NUM110", why, (*path, "stroke"), "give them more stroke, or a larger force"),)
 
     def at_least(self, value: float) -> Estimate:
         """A force, or what comes of one: exact, or without an end above where the stop behind the buffers is hit."""

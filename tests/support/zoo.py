@@ -262,7 +262,9 @@ def _of_runs(runs: Iterable[Run], residual: float) -> Iterator[str]:
     for run in runs:
         yield from faulty(run)
         left = run.result.health.get("energy_residual")
-        trusted = run.result.health.get("steps") != 0 and any(one.bounded for one in run.estimates.values())
+        trusted = run.result.health.get("steps") != 0 and any(
+            one.bounded for name, one in run.estimates.items() if name not in OF_THE_RUN
+        )
         if left is None:
             if (
                 run.rung.solver.fidelity is Fidelity.TRANSIENT

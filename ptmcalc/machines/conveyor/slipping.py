@@ -36,6 +36,8 @@ from ptmcalc.numerics.loop import Motion
 _MARGIN = 2.0
 """on the difference of two grids at first order, and on slip within the bars of the tensions"""
 _THREE, _SECOND_ORDER, _SLOWEST = 3.0, 0.25, 0.9
+_ALL_GRIP = 460.0
+"""Exponent of a capstan beyond which more turns are not counted: e^460 holds all there is, more would overflow."""
 
 
 def slip_loads(
@@ -86,7 +88,7 @@ def _between(coarse: Motion, fine: Motion, history: Callable[[Motion], FloatArra
 
 def _within(case: StartCase, exponent: float, motion: Motion, bars: tuple[float, float]) -> FloatArray:
     """Slip speed that the bars of the tensions leave open [m/s]."""
-    line, squeeze = case.line, math.exp(-exponent)
+    line, squeeze = case.line, math.exp(-min(exponent, _ALL_GRIP))
     carry, back = line.impedance(CARRY), line.impedance(RETURN) if line.fixed_length else 0.0
     lift = line.belt_line_mass * motion.belt_speed**2
     on, off = motion.run_on - lift, motion.run_off - lift

@@ -51,7 +51,7 @@ def one_shape(
     built = OneShape(
         column,
         np.array([0.0, column.length]),
-        (0,),
+        np.array([[shape(0.0)], [0.0], [shape(column.length)], [0.0]]),  # `row` asks the shape itself
         np.array([[stiffness]]),
         np.array([[masses[0]]]),
         np.array([masses[1]]),

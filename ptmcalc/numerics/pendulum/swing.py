@@ -25,6 +25,8 @@ FloatArray = NDArray[np.float64]
 
 TOLERANCE = 1e-11
 MOST_STEPS = 20_000
+_SEEN = 64 * float(np.finfo(float).eps)
+"""Share of the energies at both ends below which rounding hides what is left over."""
 _COARSER, _FINE, _COARSE = 300.0, 12, 10
 """Tolerance of the second run over the first one's; nodes of both."""
 _DUST = 1e-12
@@ -128,7 +130,8 @@ class Swing:
         moving = max(float(begins[0][0]), float(ends[0][0]))
         change = float(ends[0][0] + ends[1][0] - begins[0][0] - begins[1][0])
         scale = max(float(turned.max()), moving, 1e-300)
-        residual = abs(float(total.sum()) - change) / scale
+        unseen = _SEEN * sum(abs(float(part[0])) for part in (*begins, *ends))  # of the height of a load on its rope
+        residual = max(abs(float(total.sum()) - change) - unseen, 0.0) / scale
         return Works(dict(zip(WORKS, total.tolist(), strict=True)), change, residual)
 
     def _extreme(self, name: str, sign: int, since: float, until: float) -> Peak:

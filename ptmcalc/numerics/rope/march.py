@@ -42,6 +42,8 @@ _SETTLED, _NEARLY, _FADED = 2e-15, 1e-13, 1e-12
 """Change of a round beside the size of a state at which approximation ends, or may; tail of the series."""
 _COARSE = 1e-3
 """Share of the longest panel below which the tail is rounding."""
+_CRUSHED = 1e-3
+"""Strained over unstrained rope below which only a step that does not converge leads: the rope is slack long before."""
 _MOST_PANELS = 40_000
 _MOST_AT_ONCE = 40
 _NOISE = 1e-11
@@ -270,7 +272,7 @@ class March:
         assert self.hauled is not None
         if mode.turn < 0:
             return np.full(len(y), 1 / (1 + self.hauled.wound_strain))
-        return np.asarray(1 / (1 + self._pulling(y, mode)))
+        return np.asarray(1 / np.maximum(1 + self._pulling(y, mode), _CRUSHED))
 
     def _pulling(self, y: FloatArray, mode: Mode) -> FloatArray:
         """Strain of a rope that is hauled in, 0 where it is slack."""

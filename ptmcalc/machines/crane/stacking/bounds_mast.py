@@ -23,9 +23,9 @@ from ptmcalc.numerics.mast.run import Course, play
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
 _ELEMENTS = 10
-_GRAVITY, _LEAST = 2.0, 0.5
+_GRAVITY, _LEAST = 2.0, 1.0
 """Times the difference of two runs, one with the weights, and times what they change of the stiffness: calibrated."""
-_MOMENT = 4.0
+_MOMENT = 3.0
 """Times what weights change of the stiffness, of the moment at the root in a collision, in which the higher modes have
 a good part: calibrated."""
 _SETTLES = 1.5
@@ -117,7 +117,6 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
         "mast_force_max": Interval(-stiffness * shift, stiffness * shift),
         "mast_moment_max": Interval(-turn, turn),
     }
-    settles = _settling(spec, scene, plain, right, _SETTLES * shift)
     return told if settles is None else told | {"settling_time": settles}
 
 
@@ -198,7 +197,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
 
     where a column that hangs only gets stiffer, one that stands only softer. Of a start or stop twice the difference of
     two runs of two masses, with weights and without, its time by `time_bound`; of a collision twice what the stiffness
-    changes, of the moment at the root four times. Of the contact nothing is known: it opens and closes again, and
+    changes, of the moment at the root three times. Of the contact nothing is known: it opens and closes again, and
     weights move the later blows against the swing of the column, so that the largest force may be another one.
 
     **Range** columns that their weights do not buckle.

@@ -28,6 +28,8 @@ FloatArray = NDArray[np.float64]
 SIGNALS = ("acceleration", "pull_along", "tension")
 _DOUBLINGS = 3
 _SHOWN = 400
+_MOST_STEPS = 3000
+"""Of a swing: starts of cranes take 2 to 60 radians, and a step is one or two of them."""
 _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
 _SIDE = 1e-12
@@ -187,10 +189,10 @@ def _reaching(
     """A leg until the axis has a speed, or stands; of a ramp until it is over."""
     if motion.ramp is not None and last:
         lasts = motion.speed / motion.ramp
-        return Leg(start, swing(case, 1.05 * lasts, tolerance=tolerance), lasts)
+        return Leg(start, swing(case, 1.05 * lasts, tolerance=tolerance, most_steps=_MOST_STEPS), lasts)
     reach = 1.3 * guess
     for _ in range(_DOUBLINGS):
-        found = swing(case, reach, tolerance=tolerance)
+        found = swing(case, reach, tolerance=tolerance, most_steps=_MOST_STEPS)
         there = _there(motion, found)
         if there is not None:
             return Leg(start, found, there)
@@ -210,7 +212,7 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
     last = legs[-1]
     if last.start + last.swing.end >= window:
         return [*legs[:-1], replace(last, lasts=window - last.start)]
-    found = swing(last.swing.case, window - last.start, tolerance=tolerance)
+    found = swing(last.swing.case, window - last.start, tolerance=tolerance, most_steps=_MOST_STEPS)
     return [*legs[:-1], Leg(last.start, found, window - last.start)]
 
 

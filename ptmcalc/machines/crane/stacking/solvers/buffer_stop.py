@@ -10,7 +10,7 @@ from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.events import struck
 from ptmcalc.machines.crane.stacking.loads import OF_THE_BUFFERS, names
 from ptmcalc.machines.crane.stacking.scenes import BufferScene
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
 
 
 def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) -> Result:
@@ -42,7 +42,8 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
     if hit.left:
         note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)
-    return Result(found, work=1)
+    key = MECHANISMS[model.mechanism(spec, scene)]
+    return Result(found, work=1, findings=hit.findings((key, "buffers")))
 
 
 BUFFER_STOP: Solver[Stacker, BufferScene] = Solver(

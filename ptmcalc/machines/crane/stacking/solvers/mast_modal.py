@@ -354,12 +354,18 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
 
 
 def _solver(
-    name: str, title: str, scenes: frozenset[type[Scene]], always: frozenset[str], gives: frozenset[str], levels: int
+    name: str,
+    title: str,
+    scenes: frozenset[type[Scene]],
+    always: frozenset[str],
+    gives: frozenset[str],
+    levels: int,
+    fidelity: Fidelity = Fidelity.TRANSIENT,
 ) -> Solver[Stacker, StackerScene]:
     return Solver(
         name=name,
         title=title,
-        fidelity=Fidelity.TRANSIENT,
+        fidelity=fidelity,
         scenes=scenes,
         represents=always | {GRAVITY},
         gives=gives | {"column_stiffness", "natural_frequency", "period"} | DERIVED,
@@ -397,4 +403,5 @@ STANDING_MODAL = _solver(
     frozenset(),
     frozenset(),
     1,
+    Fidelity.MODAL,
 )

@@ -52,7 +52,7 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
         found[name] = Found(hit.at_least(loads[name]))
     if hit.left:
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=_bottoms_out(hit))
-    return Result(found, work=1)
+    return Result(found, work=1, findings=hit.findings(("buffers",)))
 
 
 def _bottoms_out(hit: Stopped) -> str:

@@ -1,6 +1,5 @@
 """A start or a stop simulated with the load at any angle."""
 
-from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
@@ -11,8 +10,6 @@ from ptmcalc.machines.crane.travelling.simulated import simulate, turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 TOLERANCES = (1e-9, 1e-12)
-MOST_TURNS = 400.0
-"""Radians of swing that are followed: starts of cranes take 2 to 60."""
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
@@ -40,18 +37,6 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     )
 
 
-def valid(spec: Travelling, scene: Moving) -> Criterion:
-    """Radians through which the load swings in the scene, against those that are followed.
-
-        omega t <= 400
-
-    **Range** every start and stop.
-    **Error** none: a limit of work.
-    **Source** starts and stops of cranes take 2 to 60 radians.
-    """
-    return Criterion("ωt", turns(spec, scene), MOST_TURNS, "radians of swing in the scene", "work")
-
-
 SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     name="sway_simulated",
     title="swing of any angle with motor curve and gear, simulated",
@@ -61,7 +46,6 @@ SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     gives=MOVING,
     run=run,
     cost=lambda spec, scene, carried, level: 0.01 + 2e-3 * min(turns(spec, scene), 1e6) * (1 + level),
-    valid=valid,
     source="plane pendulum under a driven crane; Radau collocation, ptmcalc.numerics.pendulum.swing",
     always=frozenset({SWAY, LARGE, CURVE}),
     levels=len(TOLERANCES),
