@@ -269,7 +269,7 @@ class Friction:
                 for row, to in self._link_exits(k, branch, now):
                     value, slope = float(row @ w), float(row @ rate)
                     small = 1e-11 * float(np.abs(row) @ np.abs(w)) + 1e-15 * float(np.abs(row[: 2 * count]).sum())
-                    if value < -small or (value <= small and slope < 0):
+                    if value < -small or (value <= small and slope < -small):
                         branches = list(state.branches)
                         branches[k] = to
                         state, changed = state._replace(branches=tuple(branches)), True

@@ -24,7 +24,9 @@ _SAMPLES = np.linspace(0.0, 1.0, 9)
 _CLOSER = 41
 _BOOLE = np.array([7, 32, 12, 32, 14, 32, 12, 32, 7]) * 4 / 45 / 8 / 2
 _MOST_EVENTS = 400
-_MOST_STEPS = 40_000
+_MOST_STEPS = 12_000
+_MOST_AT_ONCE = 60
+"""Events at one time, after which something chatters."""
 _ROUNDING = 1e-9
 _STICKS = 1e-9
 _A_STEP, _FOLLOWED, _STABLE, _FADES = 6e-4, 1.2, 5.0, 20.0
@@ -150,9 +152,14 @@ class _Run:
         self._enter(t, end, state)
         state = self._start(t, y, state, self._rest(y, None))
         self._seen(t, y, state, history.first)
+        at_once = 0
         while t < end:
             stop = min([end, *(time for time in one.breaks(state) if time > t)])
+            since = t
             t, y, fired = self._advance(t, y, stop, state)
+            at_once = at_once + 1 if t <= since else 0
+            if at_once > _MOST_AT_ONCE:
+                raise NumericsError("NUM101", f"the second method meets a chattering contact at {t:.6g} s")
             if len(history.events) > _MOST_EVENTS:
                 raise NumericsError("NUM101", f"the second method meets more than {_MOST_EVENTS} events")
             before = state

@@ -29,7 +29,12 @@ def shaft(page: Path) -> Any:
 
 def test_the_json_is_a_row_a_setting_with_a_sentence(shaft: Any) -> None:
     assert shaft["schema_version"] == "1"
-    assert [row["setting"] for row in shaft["rows"]] == ["step_table 0", "speed_quadrature 0", "tachogram_up 0"]
+    assert [row["setting"] for row in shaft["rows"]] == [
+        "step_table 0",
+        "speed_quadrature 0",
+        "tachogram_up 0",
+        "runge_kutta_up 0",
+    ]
     assert {row["scene"] for row in shaft["rows"]} == {"run_up"}
     for row in shaft["rows"]:
         assert row["seconds"] > 0

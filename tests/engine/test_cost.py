@@ -131,6 +131,17 @@ def test_a_witness_runs_once_at_the_finest_setting_the_budget_has_room_for() -> 
     assert row(costs(kind_of(within(7, 9), witnesses=(seen,)), budget=50.0), "seen 1").role is Role.WITNESS
 
 
+def test_a_witness_that_can_tell_nothing_says_why_where_no_other_one_can() -> None:
+    dear, unfit = solver("dear", pull(8), seconds=99.0), solver("unfit", pull(8), valid=False)
+    found = costs(kind_of(within(7, 9), witnesses=(dear, unfit)))
+    reasons = {one.name: one.reason for one in found.settings if one.role is Role.WITNESS}
+    assert set(reasons) == {"dear 0", "unfit 0"}
+    assert reasons["dear 0"].endswith("a second method may take")
+    assert all(one.outcome is Outcome.NOT_RUN for one in found.settings if one.role is Role.WITNESS)
+    found = costs(kind_of(within(7, 9), witnesses=(dear, unfit, solver("seen", pull(8)))))
+    assert [one.name for one in found.settings if one.role is Role.WITNESS] == ["seen 0"]
+
+
 # -- errors ----------------------------------------------------------------------------------------------------------
 
 

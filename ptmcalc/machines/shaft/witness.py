@@ -28,7 +28,7 @@ from ptmcalc.witness import lumped
 _FIRST, _SECOND = 1e-7, 1e-9
 _SAMPLES = 24
 _ANGLES, _NARROWINGS = 32, 2
-_STEPS = (60, 120)
+_STEPS = (45, 90)
 """Steps of a turn in the runs of a stop from many angles at once."""
 _MOST_CYCLES = 60.0
 _A_CYCLE, _A_STEP = 0.03, 7e-4
