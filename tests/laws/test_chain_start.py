@@ -170,6 +170,22 @@ class TestPassingBound:
         bound = chain_start.passing_bound(np.array([30.0]), np.array([0.0108]), top, e, 0.2, 16, 300)[0]
         assert self.peak(30.0, 0.0108, top, 300, 0.2, 16) > bound / 3
 
+    @pytest.mark.parametrize("zeta", [0.02, 0.5, 3.0])
+    @pytest.mark.parametrize("teeth", [6, 17, 5000])
+    @pytest.mark.parametrize("w", [1e-4, 0.3])
+    def test_a_slow_mode_is_moved_by_what_a_tooth_moves(self, w: float, teeth: int, zeta: float) -> None:
+        """A single engagement and a mode so slow that the ways count: w^2 (1 + 2 zeta) E(0) (8 u + dv/w), with the
+        largest way u and the jump of the speed dv read off a polygon that rolls, and E(0) = |(-1, 2 zeta)|."""
+        speed, pitch = 2.0, 0.2
+        half = math.pi / teeth
+        radius = pitch / 2 / math.sin(half)
+        phi = half * np.linspace(-1.0, 1.0, 20_001)
+        chord = (phi + half) / (2 * half) * pitch
+        u = np.abs(radius * (np.sin(phi) + math.sin(half)) - chord).max()
+        jump = speed * (radius - radius * math.cos(half))  # cos(phi) turns from falling to rising at a tooth
+        bound = chain_start.passing_bound(np.array([w]), np.array([zeta]), speed, 0.0, pitch, teeth, 1)[0]
+        assert bound == pytest.approx(w * w * (1 + 2 * zeta) * math.hypot(1, 2 * zeta) * (8 * u + jump / w), rel=1e-5)
+
     def test_nothing_bounds_endless_passes_without_damping(self) -> None:
         bound = chain_start.passing_bound(np.array([30.0]), np.array([0.0]), 1.0, 0.0, 0.2, 12, math.inf)
         assert bound[0] == math.inf

@@ -178,5 +178,10 @@ class TestWheelByWheel:
         careful = float(skid.wheel_grip(torque, radius, load, 0.0, J, a))
         assert careful - force == pytest.approx(w * load)
 
+    @pytest.mark.parametrize(("rail", "force"), [("indoor", 16e3), ("outdoor", 9.6e3), ("sanded", 20e3)])
+    def test_what_a_rail_gives_as_handbooks_have_it(self, rail: str, force: float) -> None:
+        """80 kN on a wheel: 0.2 dry indoors, 0.12 outdoors, 0.25 with sand; there nothing is left over."""
+        assert skid.skid_reserve(skid.ADHESION[rail], 80e3, force) == pytest.approx(1.0, rel=1e-12)
+
     def test_a_wheel_that_lifts_off_or_needs_nothing(self) -> None:
         assert skid.skid_reserve(0.14, [-5.0, 8e4, 0.0], [1e3, 0.0, 0.0]).tolist() == [0.0, math.inf, math.inf]

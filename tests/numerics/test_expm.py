@@ -137,3 +137,15 @@ class TestSeveralTimes:
     def test_large_entries_do_not_overflow(self) -> None:
         found = expm.Powers(np.array([[0.0, 1e200], [0.0, 0.0]])).at(np.array([1e-190]))
         assert found[0].tolist() == [[1.0, pytest.approx(1e10, rel=1e-15)], [0.0, 1.0]]
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e12])
+@pytest.mark.parametrize("turned", [False, True], ids=["feeds on the rest", "feeds the rest"])
+def test_what_only_feeds_or_is_fed_is_made_no_larger_than_the_rest(size: float, turned: bool) -> None:
+    """A state outside every loop: the sum of its entries becomes 1/2 to 1 of the largest of the others, 3 here."""
+    matrix = np.array([[0.0, size, size], [0.0, -1.0, 2.0], [0.0, -3.0, -1.0]])
+    matrix = matrix.T.copy() if turned else matrix
+    scale = expm.balance(matrix)
+    balanced = np.abs(matrix * scale / scale[:, None])
+    beside = balanced[1:, 0].sum() if turned else balanced[0, 1:].sum()
+    assert 3 / 2 <= beside <= 3

@@ -39,6 +39,16 @@ class TestEnds:
         assert done.end.angle == 5.0
         assert done.end.time == pytest.approx(-2 * math.log(0.75), rel=1e3 * tolerance)
 
+    def test_an_angle_costs_little_more_than_its_time(self, order: int, tolerance: float) -> None:
+        """The last step is cut by Newton's method, not by smaller and smaller ones: in all at most twice the work."""
+        passed, begin = -2 * math.log(0.75), State(0.0, 1.0, 8.0)
+        by_time, by_angle = (
+            follow(Phase(lambda t, a, w: -0.5 * w, marks(), **end), begin, order, tolerance)
+            for end in ({"until_time": passed}, {"until_angle": 5.0})
+        )
+        assert len(by_angle.steps) == len(by_time.steps)
+        assert by_angle.evaluations <= 2 * by_time.evaluations
+
     def test_at_rest(self, order: int, tolerance: float) -> None:
         """A pendulum swings up to where its speed is 0."""
         phase = Phase(lambda t, a, w: -9.0 * np.sin(a), marks())

@@ -257,6 +257,22 @@ class TestSlip:
         late = motion.times > 5.5
         assert np.max(np.abs(motion.drum_speed - motion.belt_speed)[late]) == 0.0
 
+    @pytest.mark.parametrize("spans", [(0.0, 0.0), (60.0, 30.0)], ids=["straight", "taut"])
+    def test_a_light_drum_in_elements_catches_the_belt_as_by_characteristics(self, spans: tuple[float, float]) -> None:
+        """What drum and belt have when they meet they keep: the energy closes, and both methods meet at one speed."""
+        surge = Drive(force=lambda t: np.where(t < 0.5, 60e3, 2e3))
+        light = loop(grip=self.GRIP, spans=spans, drum=4e3)
+        found = sagging.march(light, surge, 3.0, sagging.grid_of(light, 100))
+        other = march(loop(grip=self.GRIP, drum=4e3), surge, 3.0, grid(200))
+        met, at = (
+            motion.times[1:][(np.diff(np.abs(motion.drum_speed - motion.belt_speed) > 0)) & (motion.times[1:] > 0.5)]
+            for motion in (found, other)
+        )
+        assert len(met) == len(at) == 1
+        assert met[0] == pytest.approx(at[0], abs=2 * found.grid.step)
+        assert found.energy_residual < 3e-4
+        assert found.drum_speed[-1] == pytest.approx(other.drum_speed[-1], rel=1e-3)
+
     def test_braking_sense(self) -> None:
         """A drum held back by a fast stop of its speed lets the belt run ahead: the run-off is the tight side."""
         drive = Drive(speed=lambda t: np.where(t < 1.0, 3.0 * t, np.maximum(3.0 - 30.0 * (t - 1.0), 0.0)))
