@@ -64,8 +64,8 @@ ELSEWHERE = {
         *("carriage_statics", "travel_statics", "travel_starting_reserve", "weights", "standing_modal", "top_guide"),
     },
 }
-"""Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not judge:
-held by tests of their laws and of their kind alone, not on a sample of two hundred. None may join them."""
+"""Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not
+judge: held by tests of their laws and of their kind alone, not on a sample of two hundred. None may join them."""
 
 
 @pytest.mark.parametrize("kind", kind_names())

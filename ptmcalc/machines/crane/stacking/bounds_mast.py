@@ -117,6 +117,7 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
         "mast_force_max": Interval(-stiffness * shift, stiffness * shift),
         "mast_moment_max": Interval(-turn, turn),
     }
+    settles = _settling(spec, scene, plain, right, _SETTLES * shift)
     return told if settles is None else told | {"settling_time": settles}
 
 
