@@ -142,10 +142,10 @@ class TestSeveralTimes:
 @pytest.mark.parametrize("size", [1e-12, 1e12])
 @pytest.mark.parametrize("turned", [False, True], ids=["feeds on the rest", "feeds the rest"])
 def test_what_only_feeds_or_is_fed_is_made_no_larger_than_the_rest(size: float, turned: bool) -> None:
-    """A state outside every loop: the sum of its entries becomes 1/2 to 1 of the largest of the others, 3 here."""
+    """A state outside every loop: its entries add up to the largest of the others, 3 here, within a factor of 4."""
     matrix = np.array([[0.0, size, size], [0.0, -1.0, 2.0], [0.0, -3.0, -1.0]])
     matrix = matrix.T.copy() if turned else matrix
     scale = expm.balance(matrix)
     balanced = np.abs(matrix * scale / scale[:, None])
     beside = balanced[1:, 0].sum() if turned else balanced[0, 1:].sum()
-    assert 3 / 2 <= beside <= 3
+    assert 3 / 4 <= beside <= 2 * 3
