@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from support.any_drive import any_chain, any_shaft, any_train
 from support.zoo import wrong_anyway
@@ -16,7 +16,14 @@ from support.zoo import wrong_anyway
 BUDGET, TRIED = 0.3, 0.05
 """Predicted seconds of a scene, and of one run that is held against the others."""
 EVALUATIONS = 10_000_000
-FEW = settings(max_examples=20, derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+FEW = settings(
+    max_examples=20,
+    derandomize=True,
+    deadline=None,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+    phases=[Phase.generate],
+)
 MANY = settings(FEW, max_examples=1500)
 
 

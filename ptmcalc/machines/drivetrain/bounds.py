@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import of
@@ -22,7 +23,7 @@ _TOUCHING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class _Rigid:
-    """Largest and smallest torque of every link in the rigid train; of none where that would take long to find."""
+    """Largest and smallest torque of every link in the rigid train; none where that is not found."""
 
     high: Mapping[str, float]
     low: Mapping[str, float]
@@ -45,7 +46,10 @@ def _rigid(key: "_Scene") -> _Rigid:
     case, end = rigid(case_of(spec, scene, backlash=False)), motion.window(scene, case_of(spec, scene))
     if motion.seconds(case, end) > motion.BESIDE:
         return _Rigid({}, {})
-    course = motion.run(case, end, _TOLERANCE)
+    try:
+        course = motion.run(case, end, _TOLERANCE)
+    except NumericsError:  # a bound cannot rest on it; the solver that meets it says so
+        return _Rigid({}, {})
     named = {name: course.torque(name) for name in (*spec.links, *spec.gears)}
     high = {name: float(course.record.top.values[i]) for name, i in named.items() if i is not None}
     low = {name: float(course.record.bottom.values[i]) for name, i in named.items() if i is not None}

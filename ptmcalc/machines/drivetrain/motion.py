@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
 from ptmcalc.machines.drivetrain.loads import parts
@@ -104,8 +105,10 @@ def window(scene: TrainScene, case: Case) -> float:
 def _rigid_time_of(key: "_Identity") -> float:
     case, end = key.case, _FIRST
     while end <= _LONGEST:
-        course = run(case, end, 1e-6)
-        found = ended(course)
+        try:
+            found = ended(run(case, end, 1e-6))
+        except NumericsError:  # the solver that meets it says so; a plan only needs some time
+            break
         if math.isfinite(found):
             return max(found, 1e-3)
         end *= 4

@@ -5,6 +5,7 @@ import math
 import pytest
 from support.machines import changed, report_of
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.machines.drivetrain import bounds, motion
 from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain
@@ -68,3 +69,16 @@ def test_it_becomes_cheap_once_it_fades() -> None:
     assert motion.seconds(case, 20.0) < 0.1  # 25 decay times of 2e-5 s at 1e5 rad/s: 50 rad
     assert motion.seconds(rigid(case), 20.0) == motion.seconds(case, 20.0)
     assert bounds.largest_share(spec, spec.all_scenes[0]) >= 0
+
+
+def test_a_rigid_train_that_cannot_be_run_bounds_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The plan asks for it too: there it must not end in a traceback."""
+
+    def broken(*_: object, **__: object) -> None:
+        raise NumericsError("NUM101", "a nonlinear torque could not be resolved by any step")
+
+    spec = Drivetrain.model_validate(changed(DATA, links__gear__gap="1 mrad", scenes=[{"type": "start"}]))
+    scene = spec.all_scenes[0]
+    monkeypatch.setattr(motion, "run", broken)
+    assert math.isfinite(motion.window(scene, case_of(spec, scene)))
+    assert bounds.largest_backlash(spec, scene) == math.inf
