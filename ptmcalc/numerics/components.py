@@ -20,7 +20,8 @@ class Components:
     What is no more than rounding of the state is not there: a stiff link under a slow load never shows less.
 
     Eigenvectors only say what lies between the nodes of a panel, never how the state moves. A component whose
-    eigenvector is not well separated (a free mass, coinciding frequencies) counts as always there.
+    eigenvector is not well separated (a free mass, coinciding frequencies, an input that moves as it does by itself)
+    counts as always there.
     """
 
     values: NDArray[np.complex128]
@@ -79,6 +80,7 @@ def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
     overlap = np.einsum("ij,ji->i", left, right)
     posed = (np.abs(overlap) > _WELL_POSED) & (np.bincount(match, minlength=own)[match] == 1)
     posed &= np.abs(values) > 1e-6 * np.abs(values).max(initial=0.0)
+    posed &= ~_driven_at_its_own(values, inputs)
     left = left / np.where(posed, overlap, 1.0)[:, None]
     gap = values[:, None, None] * np.eye(len(inputs)) - inputs
     gap[~posed] = np.eye(len(inputs))
@@ -86,3 +88,9 @@ def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
     shapes = (rows[:, :own] @ right).T
     found, seen = np.hstack([left, beyond]).astype(complex), shapes.astype(complex)
     return Components(values.astype(complex), found, seen, posed, np.abs(rows))
+
+
+def _driven_at_its_own(values: NDArray[np.complex128], inputs: FloatArray) -> NDArray[np.bool_]:
+    """Whether an input moves as a component does by itself: neither then has a share of its own in a state."""
+    apart = np.abs(values[:, None] - np.linalg.eigvals(inputs))
+    return np.asarray((apart <= _WELL_POSED * np.abs(values)[:, None]).any(axis=1))

@@ -57,12 +57,16 @@ WITHOUT_LEDGER: Mapping[str, str] = {
     "step_table": "a table as by hand, shown beside, never decides",
     "chain_run_through": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_run_through_near": "a sum over tooth passes, each in closed form: nothing is integrated",
+    "chain_start_teeth": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_breakaway": "a wave front in closed form: nothing is integrated",
 }
 """Transients that keep no account of energy, and why."""
 
-OF_THE_RUN = {"energy_residual"}
-"""Loads that say something of a run, not of the machine."""
+DUST = 1e-12
+"""Of a number that should be 0, as a share of the largest one of its quantity."""
+OF_THE_RUN = {"energy_residual", "tension_polygon_bound"}
+"""Loads that say something of a run, not of the machine: what its ledger leaves over, and an upper bound that is as
+good as the run."""
 
 _EXPECT = re.compile(r"^# (expect|at most|tries): *(.*?) *$")
 _VERDICT = re.compile(r"(pass|fail|undecided|invalid)")
@@ -168,16 +172,28 @@ def checked(text: str, name: str = "case.yaml", budget: float = BUDGET) -> Check
 def is_wrong(text: str, name: str = "case.yaml", tried: float | None = None) -> list[str]:
     """Everything that is wrong with what comes of a file of the zoo; `tried` replaces the seconds it says."""
     wanted, found = expected(text), checked(text, name)
-    wrong = [*_beside_what_is_expected(wanted, found.report), *never_right(found.report)]
+    most = wanted.tried if tried is None else tried
+    return [*_beside_what_is_expected(wanted, found.report), *_wrong_by_itself(found, wanted.at_most, most)]
+
+
+def wrong_anyway(text: str, *, budget: float, tried: float, evaluations: float) -> list[str]:
+    """What is wrong with what comes of a valid file that says nothing of what is right."""
+    found = checked(text, budget=budget)
+    refused = [d.message for d in found.report.diagnostics if d.severity is Severity.ERROR]
+    return refused or _wrong_by_itself(found, {"evaluations": evaluations}, tried)
+
+
+def _wrong_by_itself(found: Checked, at_most: Mapping[str, float], tried: float) -> list[str]:
+    """What is wrong whatever was expected."""
+    wrong = never_right(found.report)
     for _, _, settled in found.settled:
         said = f"{settled.plan.scene.label}: "
-        wrong += [said + one for one in _of_runs(settled.runs, wanted.at_most.get("residual", RESIDUAL))]
-        wrong += [said + one for one in _beyond(wanted.at_most, settled.runs)]
-    most = wanted.tried if tried is None else tried
+        wrong += [said + one for one in _of_runs(settled.runs, at_most.get("residual", RESIDUAL))]
+        wrong += [said + one for one in _beyond(at_most, settled.runs)]
     for kind, spec, settled in found.settled[: len(found.report.scenes)]:
         said = f"{settled.plan.scene.label}: "
-        runs = [*settled.runs, *beside(kind, spec, settled, most)]
-        wrong += [said + one for one in contradictions(runs)]
+        runs = [*settled.runs, *beside(kind, spec, settled, tried)]
+        wrong += [said + one for one in contradictions(runs, _dust(kind, spec, settled))]
         wrong += [said + one for run in runs[len(settled.runs) :] for one in faulty(run)]
     return wrong
 
@@ -194,8 +210,12 @@ def never_right(report: FileReport) -> list[str]:
     for scene in report.scenes:
         for load in scene.loads:
             wrong += [f"{scene.name}: {load.info.name} {one}" for one in _no_interval(load.estimate)]
+        told = any(d.code.startswith("NUM") for d in report.diagnostics)
+        told |= any(
+            judgement.verdict is Verdict.FAIL for judgement in scene.checks
+        )  # what stalls has no cycle to judge
         for judgement in scene.checks:
-            wrong += [f"{scene.name}: {judgement.code} {one}" for one in _unfounded(judgement, report)]
+            wrong += [f"{scene.name}: {judgement.code} {one}" for one in _unfounded(judgement, told)]
     if not report.valid:
         wrong += [f"{d.code} has no place" for d in report.diagnostics if d.span is None or not d.message]
     return wrong
@@ -211,8 +231,9 @@ def _no_interval(one: Estimate) -> Iterator[str]:
         yield f"has a bar below 0: {one}"
 
 
-def _unfounded(judgement: Judgement, report: FileReport) -> Iterator[str]:
-    """A verdict without a number that bears it, an open one without a reason."""
+def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
+    """A verdict without a number that bears it, an open one without a reason; `told` whether the report says why some
+    numbers are not known."""
     value, limit = judgement.value, judgement.limit
     if judgement.verdict in (Verdict.PASS, Verdict.FAIL):
         if value is None or limit is None or any(_no_interval(value)):
@@ -227,7 +248,7 @@ def _unfounded(judgement: Judgement, report: FileReport) -> Iterator[str]:
         if not judgement.reason:
             yield "is undecided without a reason"
         unknown = value is None or not (value.bounded or value.low == value.high)
-        if unknown and not any(d.code.startswith("NUM") for d in report.diagnostics):
+        if unknown and not told:
             yield f"is undecided for {value} and no finding says why"
 
 
@@ -241,7 +262,7 @@ def _of_runs(runs: Iterable[Run], residual: float) -> Iterator[str]:
     for run in runs:
         yield from faulty(run)
         left = run.result.health.get("energy_residual")
-        trusted = any(one.bounded for name, one in run.estimates.items() if name not in OF_THE_RUN)
+        trusted = run.result.health.get("steps") != 0 and any(one.bounded for one in run.estimates.values())
         if left is None:
             if (
                 run.rung.solver.fidelity is Fidelity.TRANSIENT
@@ -294,8 +315,11 @@ def beside(kind: AnyKind, spec: MachineSpec, settled: Settled, most: float) -> I
         yield Run(rung, result, widen(scene, spec, rung, result))
 
 
-def contradictions(runs: Iterable[Run]) -> list[str]:
-    """Loads of which two runs claim intervals without a common value: one of them must be wrong."""
+def contradictions(runs: Iterable[Run], dust: Mapping[str, float] | None = None) -> list[str]:
+    """Loads of which two runs claim intervals without a common value: one of them must be wrong.
+
+    `dust` is what rounding leaves of a load, which no estimate tells, in its own unit.
+    """
     found = []
     for one, other in itertools.combinations(runs, 2):
         for name in one.estimates.keys() & other.estimates.keys() - OF_THE_RUN:
@@ -303,9 +327,27 @@ def contradictions(runs: Iterable[Run]) -> list[str]:
             if math.isnan(a.value + b.value) and not (math.isinf(a.value) and math.isinf(b.value)):
                 continue  # `faulty` says so
             rounding = ROUNDING * (abs(a.value) + abs(b.value)) if math.isfinite(a.value + b.value) else 0.0
+            rounding += (dust or {}).get(name, 0.0)
             if max(a.low, b.low) > min(a.high, b.high) + rounding:
                 found.append(f"{name}: {_called(one)} says {_span(a)}, {_called(other)} {_span(b)}")
     return found
+
+
+def _dust(kind: AnyKind, spec: MachineSpec, settled: Settled) -> dict[str, float]:
+    """Of each load, rounding beside the largest number of its quantity in the scene, be it a load or a limit."""
+    quantities = {info.name: info.quantity for info in kind.loads_of(spec)}
+    largest: dict[Any, float] = {}
+
+    def met(name: str, value: float) -> None:
+        if math.isfinite(value):
+            largest[quantities[name]] = max(largest.get(quantities[name], 0.0), abs(value))
+
+    for name, one in settled.estimates.items():
+        met(name, one.value)
+    for ruling in settled.rulings:
+        if ruling.limit is not None:
+            met(ruling.check.loads[0], ruling.limit.value)
+    return {name: DUST * largest.get(quantity, 0.0) for name, quantity in quantities.items()}
 
 
 def _called(run: Run) -> str:

@@ -37,9 +37,9 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
     own: that of a stretch goes with the ninth power of its length, so stretches 0.7 and 0.85 times as long, or such
     multiples of two of it, have errors at least 25 and 4 times as large or as small, and two runs differ by nearly the
     larger error; 3 leaves room for errors of many stretches that add and cancel. Where a load agrees by chance, others
-    of its kind do not: those of forces, or those of motion. Added is what reading a signal may miss; where a motor gives
-    less torque than it could, as at its synchronous speed, forces miss as much as they would beside all of it, for they
-    are read from a speed that is known no better. What is largest at the start is what the file says.
+    of its kind do not: those of forces, or those of motion. Added is what reading a signal may miss; where a motor
+    gives less torque than it could, as at its synchronous speed, forces miss as much as they would beside all of it,
+    for they are read from a speed that is known no better. What is largest at the start is what the file says.
     """
     own = motion.readings(spec, course)
     compared = [motion.readings(spec, other) for other in others]
@@ -57,7 +57,9 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
         size = sizes[part_of(name)]
         bar = _MARGIN * apart[name]
         if time != 0:
-            bar = max(bar, _MARGIN * shares[_is_force(name)] * size) + _UNSEEN * (idle if _is_force(name) else 1.0) * size
+            bar = (
+                max(bar, _MARGIN * shares[_is_force(name)] * size) + _UNSEEN * (idle if _is_force(name) else 1.0) * size
+            )
         found[name] = Found(Estimate.within(value, bar), at)
     found["energy_residual"] = Found(Estimate.exact(course.ledger.residual))
     return found

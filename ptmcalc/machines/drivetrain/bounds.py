@@ -22,7 +22,7 @@ _TOUCHING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class _Rigid:
-    """Largest and smallest torque of every link in the rigid train."""
+    """Largest and smallest torque of every link in the rigid train; of none where that would take long to find."""
 
     high: Mapping[str, float]
     low: Mapping[str, float]
@@ -42,8 +42,10 @@ class _Rigid:
 @remembered(64)
 def _rigid(key: "_Scene") -> _Rigid:
     spec, scene = key.spec, key.scene
-    case = case_of(spec, scene)
-    course = motion.run(rigid(case_of(spec, scene, backlash=False)), motion.window(scene, case), _TOLERANCE)
+    case, end = rigid(case_of(spec, scene, backlash=False)), motion.window(scene, case_of(spec, scene))
+    if motion.seconds(case, end) > motion.BESIDE:
+        return _Rigid({}, {})
+    course = motion.run(case, end, _TOLERANCE)
     named = {name: course.torque(name) for name in (*spec.links, *spec.gears)}
     high = {name: float(course.record.top.values[i]) for name, i in named.items() if i is not None}
     low = {name: float(course.record.bottom.values[i]) for name, i in named.items() if i is not None}

@@ -26,6 +26,11 @@ _CHATTER, _LAST_PART = 60, 0.05
 _PERIODS = 10
 _FADES = 25.0
 _GLIDED = 200.0
+_RADIAN, _LONG_RADIAN, _EVENTS, _ROUNDS = 2e-5, 5e-5, 5e-3, 3.0
+"""Seconds a radian takes that is followed, one that is passed over by long panels, and the events of a play; what a
+smooth torque curve costs over a linear motion."""
+BESIDE = 0.3
+"""Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
 _DUST = 1e-11
 
 
@@ -266,13 +271,33 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
     }
 
 
-def radians_to_see(case: Case, end: float) -> FloatArray:
-    """Radians of each natural vibration that a run must resolve: to its end, or until its damping has made it fade.
+def seconds(case: Case, end: float) -> float:
+    """Predicted seconds of one run and of that it is compared with: what rings, and a few events for every play."""
+    smooth = is_smooth(case)
+    ringing = _RADIAN * _fastest(case, end) if smooth else _linear(case, end)
+    plays = 1 + sum(spring.play > 0 for spring in case.train.springs)
+    return 2 * (_ROUNDS if smooth else 1.0) * (ringing + _EVENTS * plays)
 
-    A linear motion goes over what rings fast by long panels, so that no vibration takes more than some hundred radians
-    of it; a smooth torque curve has to follow the fastest one.
+
+def _fastest(case: Case, end: float) -> float:
+    """Radians of the fastest vibration to the end or until it has faded: a smooth curve has to follow it."""
+    values, seen = _seen(case, end)
+    return float((values * seen).max(initial=1.0))
+
+
+def _linear(case: Case, end: float) -> float:
+    """Seconds of what rings in a linear motion.
+
+    It goes over what rings beside something slower by long panels, so that no more than some hundred radians of it
+    are looked at; the slowest vibration that is left is followed until it has faded.
     """
+    values, seen = _seen(case, end)
+    before = np.concatenate([[0.0], np.maximum.accumulate(seen)])[: len(seen)]
+    alone = values * np.maximum(seen - before, 0.0)
+    return float((_RADIAN * alone + _LONG_RADIAN * np.minimum(values * seen, _GLIDED)).sum())
+
+
+def _seen(case: Case, end: float) -> tuple[FloatArray, FloatArray]:
+    """Frequencies of the vibrations, rising, and how long each is seen [s]."""
     values, fading = damped(case.train)
-    seen = np.minimum(end, np.divide(_FADES, fading, out=np.full_like(fading, math.inf), where=fading > 0))
-    radians: FloatArray = values * seen
-    return radians if is_smooth(case) else np.minimum(radians, _GLIDED)
+    return values, np.minimum(end, np.divide(_FADES, fading, out=np.full_like(fading, math.inf), where=fading > 0))

@@ -33,6 +33,7 @@ _POINTS = 7  # of the course of a step or stretch
 _JUST_BEFORE = 1e-15
 _NEAR_REST = 0.3  # part of the energy a whole cycle must leave
 _SETTLED = 1e-12
+_AT_REST = 1e-13  # rounding of a speed, over that at the beginning
 
 
 @dataclass(frozen=True)
@@ -372,6 +373,9 @@ def _march(
         state = done.end
         if done.reason == TIME:
             state = State(until, state.angle, state.speed)
+            if not driven and state.speed <= _AT_REST * begin.speed:  # it stops at the very moment the brake changes
+                state, finished = State(until, state.angle, 0.0), True
+                break
         elif done.reason == ANGLE and high == machine.period:
             state, turns, followed = State(state.time, 0.0, state.speed), turns + 1, followed + 1
             settled = abs(state.speed - before) <= _SETTLED * state.speed and until == math.inf

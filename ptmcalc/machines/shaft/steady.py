@@ -189,34 +189,51 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
 def _gain(machine: Machine, grid: Grid, speed: float) -> float:
     """P(w) - w; minus infinity where the shaft stalls on the way."""
     pieces = _run(machine, grid, speed**2 / 2)
-    return -math.inf if pieces is None else math.sqrt(2 * pieces[-1]) - speed
+    return -math.inf if pieces is None else math.sqrt(2 * pieces[-1].after) - speed
 
 
-def _run(machine: Machine, grid: Grid, e: float) -> list[float] | None:
-    """e at the edges of a grid from its value at the first one, stretch by stretch; None where the shaft stalls."""
-    values = [e]
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """A stretch that the motion has passed: its end, e at its nodes, shape (1, n), and behind it."""
+
+    edge: float
+    nodes: FloatArray
+    after: float
+
+
+def _run(machine: Machine, grid: Grid, e: float) -> list[_Piece] | None:
+    """The motion from its value at the first edge of a grid, stretch by stretch, each divided where one does not do;
+    None where the shaft stalls."""
+    pieces: list[_Piece] = []
     for low, high in zip(grid.edges[:-1].tolist(), grid.edges[1:].tolist(), strict=True):
-        after = _passed(machine, low, high, values[-1], (high - low) * 1e-5)
-        if after is None:
+        passed = _passed(machine, low, high, pieces[-1].after if pieces else e, (high - low) * 1e-5)
+        if passed is None:
             return None
-        values.append(after)
-    return values
+        pieces += passed
+    return pieces
 
 
-def _passed(machine: Machine, low: float, high: float, e: float, shortest: float) -> float | None:
+def _passed(machine: Machine, low: float, high: float, e: float, shortest: float) -> list[_Piece] | None:
     piece = Grid(np.array([low, high]), FINE)
     orbit = solve(piece, rate(machine, piece, running(machine)), np.full((1, FINE), e), start=e)
     if orbit is not None and float(orbit.tail()[0]) <= 1e-7 * e:
-        return float(orbit.within([1.0])[0, 0])
+        return [_Piece(high, orbit.nodes, float(orbit.within([1.0])[0, 0]))]
     if high - low <= shortest:
         return None
     middle = (low + high) / 2
     half = _passed(machine, low, middle, e, shortest)
-    return None if half is None else _passed(machine, middle, high, half, shortest)
+    if half is None:
+        return None
+    rest = _passed(machine, middle, high, half[-1].after, shortest)
+    return None if rest is None else half + rest
 
 
-def _bracketed(machine: Machine, grid: Grid, low: float, high: float) -> Orbit | None:
-    """The cycle between a speed that a cycle raises and one that it lowers."""
+def _bracketed(machine: Machine, grid: Grid, low: float, high: float) -> Orbit:
+    """The cycle between a speed that a cycle raises and one that it lowers, on the stretches it was passed by.
+
+    Raises:
+        NumericsError: Newton's method does not close it: there is one, but it is not found.
+    """
     at_low, at_high = _gain(machine, grid, low), _gain(machine, grid, high)
     for _ in range(80):
         middle = high - at_high * (high - low) / (at_high - at_low)
@@ -229,14 +246,13 @@ def _bracketed(machine: Machine, grid: Grid, low: float, high: float) -> Orbit |
             high, at_high, at_low = middle, gain, at_low / 2
         if high - low <= 1e-9 * high or gain == 0:
             break
-    edges = _run(machine, grid, low**2 / 2)
-    if edges is None:
-        return None
-    values = np.array(edges)
-    place = (grid.angles - grid.edges[:-1, None]) / grid.lengths[:, None]
-    guess = values[:-1, None] * (1 - place) + values[1:, None] * place
-    orbit = solve(grid, rate(machine, grid, running(machine)), guess)
-    return orbit if orbit is not None and orbit.multiplier < 1 else None
+    pieces = _run(machine, grid, low**2 / 2)
+    if pieces is not None:
+        finer = Grid(np.array([grid.edges[0], *(one.edge for one in pieces)]), FINE)
+        orbit = solve(finer, rate(machine, finer, running(machine)), np.concatenate([one.nodes for one in pieces]))
+        if orbit is not None and orbit.multiplier < 1:
+            return orbit
+    raise NumericsError("NUM101", "there is a steady cycle, and it is not found to its last digits")
 
 
 # -- refinement -----------------------------------------------------------------------------------------------------

@@ -1,5 +1,7 @@
 """The polygon effect on strands with mass and elasticity all along: the Fourier series of the dynamic tension."""
 
+import math
+
 import numpy as np
 
 from ptmcalc.base import units
@@ -56,7 +58,8 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
         peaks = swept(spec, chain, speeds, carried, count).largest
         return {"tension_dynamic_polygon": History(units.FORCE, speeds.tolist(), peaks.tolist(), units.SPEED)}
 
-    return Result(loads, work=count, findings=_near_a_step(spec) + _without_damping(spec, scene), histories=histories)
+    findings = _near_a_step(spec) + (_without_damping(spec, scene) or _without_bound(found.bound, count))
+    return Result(loads, work=count, findings=findings, histories=histories)
 
 
 def sweep_speeds(spec: ChainDrive) -> np.ndarray:
@@ -83,6 +86,13 @@ def _without_damping(spec: ChainDrive, scene: Run) -> tuple[Finding, ...]:
         return ()
     message = "a chain without damping has no bound for its polygon tension: its high harmonics meet modes at any speed"
     return (Finding("NUM102", message, ("chain", "damping"), "write `damping: {ratio: 0.05}`, or a measured ratio"),)
+
+
+def _without_bound(bound: float, count: int) -> tuple[Finding, ...]:
+    if math.isfinite(bound):
+        return ()
+    message = f"the polygon tension has no bound: what lies behind harmonic {count} of the teeth cannot be told here"
+    return (Finding("NUM102", message, ("chain", "damping")),)
 
 
 DISTRIBUTED_STRAND: Solver[ChainDrive, Run] = Solver(

@@ -10,8 +10,6 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, Train
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
 """Largest tail of a nonlinear torque at each refinement, as a share of its size."""
-_ROUNDS = 3.0
-"""What a nonlinear torque costs over a linear one."""
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
@@ -50,8 +48,12 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
 
 
 def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found], end: float) -> dict[str, Found]:
-    """Largest torques over those of the rigid train, and its torque at the end."""
-    runs = bars.played(rigid(case_of(spec, scene, False)), end, TOLERANCES[0])
+    """Largest torques over those of the rigid train, and its torque at the end; none where that would take long, as
+    with a stiff undamped link to the ground."""
+    case = rigid(case_of(spec, scene, False))
+    if motion.seconds(case, end) > motion.BESIDE:
+        return {}
+    runs = bars.played(case, end, TOLERANCES[0])
     of_rigid = bars.loads(spec, *runs)
     found = {}
     for name in (*spec.links, *spec.gears):
@@ -73,11 +75,7 @@ def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: in
     A component fades with its damping, so a stiff link that is damped costs no more than a soft one.
     """
     case = case_of(spec, scene, "backlash" in carried)
-    radians = motion.radians_to_see(case, motion.window(scene, case))
-    plays = 1 + sum(spring.play > 0 for spring in case.train.springs)
-    smooth = motion.is_smooth(case)
-    ringing = 2e-5 * float(radians.max(initial=1.0)) if smooth else 5e-5 * float(radians.sum())
-    return 4e-3 + 2 * (_ROUNDS if smooth else 1.0) * (ringing + 5e-3 * plays) * (1 + level / 2)
+    return 4e-3 + motion.seconds(case, motion.window(scene, case)) * (1 + level / 2)
 
 
 ELASTIC: Solver[Drivetrain, TrainScene] = Solver(

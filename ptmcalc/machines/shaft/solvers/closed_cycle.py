@@ -43,7 +43,7 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     """
     cycle = cycle_of(spec, scene.load, mean_inertia="varying_inertia" not in carried)
     if cycle is None:
-        return Result(work_balance.stalled(), work=1)
+        return Result(work_balance.stalled(), work=1, health={"steps": 0.0})
     books = ledger.of_cycle(cycle)
     fine, rough = (_loads_of(cycle, orbit) for orbit in (cycle.orbit, cycle.rough))
     loads = {name: Found(bar(value, rough[name][0]), at) for name, (value, at) in fine.items()}

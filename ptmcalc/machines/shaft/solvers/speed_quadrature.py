@@ -39,7 +39,9 @@ def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Resul
 
 
 def _between(value: float, low: float, high: float) -> Estimate:
-    rounding = 1e-9 * value if math.isfinite(value) else 0.0
+    if not math.isfinite(value):  # infinite less infinite is no number
+        return Estimate(value, low, high, 0.0, 0.0 if low == high else math.inf)
+    rounding = 1e-9 * value
     return Estimate(value, low - rounding, high + rounding, rounding, max(high - value, value - low))
 
 

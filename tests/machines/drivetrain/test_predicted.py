@@ -1,0 +1,70 @@
+"""Seconds that are predicted for a drive train: by what rings and for how long, not by the stiffest link alone."""
+
+import math
+
+import pytest
+from support.machines import changed, report_of
+
+from ptmcalc.machines.drivetrain import bounds, motion
+from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.numerics.train.modes import damped
+from ptmcalc.numerics.train.parts import Body, Spring, Train
+
+DATA = {
+    "kind": "drivetrain",
+    "inertias": {"motor": {"inertia": "1 kg*m^2"}, "load": {"inertia": "3 kg*m^2"}},
+    "links": {
+        "gear": {"between": ["motor", "load"], "stiffness": "1e12 N*m/rad", "limit": "50 N*m"},
+        "rope": {"between": ["load", "ground"], "stiffness": "4 N*m/rad", "limit": "20 N*m"},
+    },
+    "torques": {"motor": {"at": "motor", "type": "constant", "torque": "8 N*m"}},
+    "scenes": [{"type": "run", "duration": "20 s"}],
+}
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 1e-2, 0.3])
+def test_each_vibration_fades_by_the_damping_of_its_own_links(ratio: float) -> None:
+    """Two inertias on the ground, far apart in frequency: 2 zeta w of the gear alone, and nothing of the rope."""
+    damping = 2 * ratio * math.sqrt(1e10 / (1 + 1 / 3))
+    train = Train(
+        (Body("motor", 1.0), Body("load", 3.0)),
+        springs=(Spring("gear", 0, 1, 1e10, damping), Spring("r", 1, None, 4.0)),
+    )
+    values, fading = damped(train)
+    assert values == pytest.approx([1.0, math.sqrt(1e10 * 4 / 3)], rel=1e-6)
+    assert fading[1] == pytest.approx(damping / 2 * (1 + 1 / 3), rel=1e-6)
+    assert fading[0] <= 1e-12 * fading[1]
+
+
+@pytest.mark.parametrize("damping", ["0 N*m*s/rad", "1 MN*m*s/rad"])
+def test_a_stiff_gear_beside_a_soft_rope_is_cheap(damping: str) -> None:
+    (scene,) = report_of(changed(DATA, links__gear__damping=damping)).scenes
+    run = next(one for one in scene.solvers if one.name == "elastic")
+    assert run.predicted_seconds < 0.2
+    assert run.work < 2000
+
+
+def test_what_swings_alone_is_followed_and_said_to_be_dear() -> None:
+    """1e6 rad/s against the ground and nothing slower: 20 million radians. Neither plan nor formula follows them."""
+    stiff = changed(
+        DATA,
+        inertias={"load": {"inertia": "1 kg*m^2"}},
+        links={"rope": {"between": ["load", "ground"], "stiffness": "1e12 N*m/rad", "gap": "1 mrad", "limit": "9 N*m"}},
+        torques={"motor": {"at": "load", "type": "constant", "torque": "8 N*m"}},
+    )
+    report = report_of(stiff)
+    assert {d.code for d in report.diagnostics} == {"NUM103"}
+    (scene,) = report.scenes
+    assert sum(one.work for one in scene.solvers) < 2000
+
+
+def test_it_becomes_cheap_once_it_fades() -> None:
+    rope = {**DATA["links"]["rope"], "stiffness": "1e10 N*m/rad", "damping": "1e5 N*m*s/rad"}
+    push = {"at": "load", "type": "constant", "torque": "8 N*m"}
+    alone = changed(DATA, inertias={"load": {"inertia": "1 kg*m^2"}}, links={"rope": rope}, torques={"push": push})
+    spec = Drivetrain.model_validate(alone)
+    case = case_of(spec, spec.all_scenes[0])
+    assert motion.seconds(case, 20.0) < 0.1  # 25 decay times of 2e-5 s at 1e5 rad/s: 50 rad
+    assert motion.seconds(rigid(case), 20.0) == motion.seconds(case, 20.0)
+    assert bounds.largest_share(spec, spec.all_scenes[0]) >= 0
