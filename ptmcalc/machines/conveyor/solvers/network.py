@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.estimate import NOTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -24,7 +24,7 @@ from ptmcalc.machines.conveyor import bounds, deep_sag
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.kept import Kept
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.loads import DRIVE, GRIP, OF_NETWORK, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import (
     BeltLine,
     FloatArray,
@@ -360,15 +360,15 @@ def _largest(history: FloatArray, step: float) -> tuple[float, float]:
 # -- bars -----------------------------------------------------------------------------------------------------------
 
 
-def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float, step: float) -> dict[str, float]:
+def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float, step: float) -> dict[str, Interval]:
     """Bars of all loads of the finest grid: what is still to come of the load itself, and what the largest error of any
-    tension makes of it.
+    tension makes of it, to either side: a drum that transmits little may have any reserve above its least.
 
     Slip comes and goes in phases that join and part as the grid is refined, each known to a step of the belt's way: of
     slip the larger of both differences counts, and no less than such a step.
     """
     coarsest, coarse, fine = grids
-    bars = {}
+    bars: dict[str, float] = {}
     for name, (value, _) in fine.items():
         known = [grid[name][0] if name in grid else math.inf for grid in (coarsest, coarse)]
         slid = family(name) in SLIPS and value > 0
@@ -381,14 +381,18 @@ def _bars(case: Moving, grids: tuple[Values, Values, Values], moved_most: float,
     values = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     asked = len({drive.at for drive in case.spec.all_drives.values()}) if case.imposed is not None else 0
     off = case.spec.takeup.mass is not None
-    for name, offsets in bounds.moved(line, values, change, slowing, grips(case.spec), off, asked).items():
-        slid = family(name) in SLIPS and fine[name][0] > 0
-        if not slid:
-            bars[name] = max(bars[name], abs(offsets.low), abs(offsets.high))
+    moved = bounds.moved(line, values, change, slowing, grips(case.spec), off, asked)
+    sides = {}
     for name, (value, _) in fine.items():
+        slid = family(name) in SLIPS and value > 0
+        offsets = NOTHING if slid else moved.get(name, NOTHING)
         size = fine["tension_max"][0] if family(name) in _SHARING else value
-        bars[name] += _ROUNDING * abs(size) if math.isfinite(size) else 0.0
-    return bars
+        rounding = _ROUNDING * abs(size) if math.isfinite(size) else 0.0
+        down, up = max(bars[name], -offsets.low) + rounding, max(bars[name], offsets.high) + rounding
+        if family(name) not in GRIP:
+            down = up = max(down, up)
+        sides[name] = Interval(-down, up)
+    return sides
 
 
 def _apart(coarse: Drawn, fine: Drawn, smooth: bool) -> float:
@@ -419,13 +423,12 @@ def _still_to_come(one: float, two: float, three: float, least: float) -> float:
     return _MARGIN * last * ratio / (1 - ratio)
 
 
-def _estimate(name: str, value: float, bar: float) -> Estimate:
+def _estimate(name: str, value: float, sides: Interval) -> Estimate:
     least = 0.0 if family(name) in SLIPS else -math.inf
-    if not math.isfinite(bar):
-        return Estimate(value, least, math.inf, numerical=math.inf)
+    bar = max(-sides.low, sides.high)
     if not math.isfinite(value):
-        return Estimate.exact(value)
-    return Estimate(value, max(value - bar, least), value + bar, numerical=bar)
+        return Estimate.exact(value) if math.isfinite(bar) else Estimate(value, least, math.inf, numerical=math.inf)
+    return Estimate(value, max(value + sides.low, least), value + sides.high, numerical=bar)
 
 
 # -- what is said besides -------------------------------------------------------------------------------------------
