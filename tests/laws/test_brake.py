@@ -118,7 +118,7 @@ class TestTorqueForTime:
     @pytest.mark.parametrize("shape", [LINEAR, EXPONENTIAL])
     @pytest.mark.parametrize("other", [-300.0, 0.0, 250.0])
     @pytest.mark.parametrize(("delay", "rise"), [(0.0, 0.0), (0.15, 0.3), (0.15, 4.0)])
-    @pytest.mark.parametrize("time", [0.3, 0.9])
+    @pytest.mark.parametrize("time", [0.3, 0.55, 0.9])
     def test_stops_in_that_time(self, shape: str, other: float, delay: float, rise: float, time: float) -> None:
         torque = brake.brake_torque_for_time(J, SPEED, time, other, delay, rise, shape)
         assert run_out(SPEED, torque, other, delay, rise, shape)[0] == pytest.approx(time, rel=1e-7)

@@ -133,6 +133,14 @@ class TestDriven:
         assert buffer.progressive_buffer(5e3, M1, 0.0, 6e4, 0.12, 1.0)[0] == pytest.approx(1e4, rel=1e-12)
         assert buffer.progressive_buffer(-5e3, M1, 0.0, 6e4, 0.12, 1.0) == (0.0, 0.0)
 
+    @pytest.mark.parametrize("power", [0.5, 1.0, 2.0, 3.0])
+    @pytest.mark.parametrize("speed", [0.0, 1e-6])
+    def test_a_steady_push_against_a_curve_of_a_power(self, power: float, speed: float) -> None:
+        """At rest at first and last P u = F_e s/(p + 1) (u/s)^(p + 1), F = F_e (u/s)^p: F = (p + 1) P."""
+        force, path = buffer.progressive_buffer(600.0, M1, speed, 6e4, 0.12, power)
+        assert force == pytest.approx((power + 1) * 600.0, rel=1e-5)
+        assert path == pytest.approx(0.12 * ((power + 1) * 0.01) ** (1 / power), rel=1e-5)
+
     @pytest.mark.parametrize("push", [-9e3, 0.0, 6e3, 9.9e3])
     def test_constant_force(self, push: float) -> None:
         stroke = buffer.constant_force_stroke(push, 1e4, M1, V)

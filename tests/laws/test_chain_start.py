@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from scipy.linalg import eigh
+from scipy.linalg import eigh, expm
 from support import chain_fem
 
 from ptmcalc.laws import belt_modes, chain_resonance, chain_start, loop_bounds
@@ -185,6 +185,30 @@ class TestPassingBound:
         jump = speed * (radius - radius * math.cos(half))  # cos(phi) turns from falling to rising at a tooth
         bound = chain_start.passing_bound(np.array([w]), np.array([zeta]), speed, 0.0, pitch, teeth, 1)[0]
         assert bound == pytest.approx(w * w * (1 + 2 * zeta) * math.hypot(1, 2 * zeta) * (8 * u + jump / w), rel=1e-5)
+
+    @pytest.mark.parametrize("passes", [1, 2, 9, 65, 66, 300, math.inf])
+    @pytest.mark.parametrize("zeta", [0.01, 0.3, 1.0, 1.9, 2.1, 9.0])
+    def test_a_fast_mode_by_what_is_left_of_every_jump(self, zeta: float, passes: float) -> None:
+        """Jumps in a mode of 40 rad/s, each faded by a matrix exponential of (d, d'/w): the first 64 one by one, behind
+        them as often as they come what the last left, or every 64 of them by the norm of the map over their time."""
+        w, speed, e, pitch, teeth = 40.0, 1.5, 0.3, 0.2, 7
+        h = math.pi / teeth
+        radius = pitch / 2 / math.sin(h)
+        a = radius * (speed**2 * math.sin(h) + e * (1 - math.cos(h)))
+        v = radius * (2 * speed**3 * (2 - math.cos(h)) + 6 * e * speed * (2 * math.sin(h) + h))
+        count = int(min(passes - 1, 64))
+        fade = expm(2 * h / speed * w * np.array([[0.0, 1.0], [-1.0, -2 * zeta]]))
+        states = [np.array([-1.0, 2 * zeta])]
+        for _ in range(count):
+            states.append(fade @ states[-1])
+        left = [float(np.linalg.norm(state)) for state in states[1:]]
+        total = sum(left)
+        if passes > 65:
+            map_of_all = float(np.linalg.norm(np.linalg.matrix_power(fade, 64), 2))
+            total += min((passes - 65) * left[-1] if left[-1] else 0.0, total * map_of_all / (1 - map_of_all))
+        expected = 7 * a + (2 * a + min(2 * a, v / w)) * total
+        bound = chain_start.passing_bound(np.array([w]), np.array([zeta]), speed, e, pitch, teeth, passes)[0]
+        assert bound == pytest.approx(expected, rel=1e-10)
 
     def test_nothing_bounds_endless_passes_without_damping(self) -> None:
         bound = chain_start.passing_bound(np.array([30.0]), np.array([0.0]), 1.0, 0.0, 0.2, 12, math.inf)

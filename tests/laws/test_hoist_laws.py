@@ -93,6 +93,11 @@ class TestDrum:
         expected = layers_turn_by_turn(length, 0.15875, step, 36, packing == "nested")
         assert (turns, layers) == (pytest.approx(expected[0], rel=1e-12), expected[1])
 
+    def test_a_micrometre_more_than_a_layer_begins_the_next(self) -> None:
+        full = 36.0 * math.tau * (0.3 + 0.0175) / 2
+        for more, layers in ((-1e-6, 1), (0.0, 1), (1e-6, 2)):
+            assert rope_drum.turns_for_length(full + more, 0.3, 0.0175, 36.0, 0.0152, "nested")[1] == layers
+
     @pytest.mark.parametrize("packing", ["nested", "square"])
     def test_what_lies_below_a_layer_is_what_the_layers_below_take(self, packing: str) -> None:
         below = rope_drum.length_below(np.arange(1, 9), 0.3, 0.0175, 36.0, 0.0152, packing)

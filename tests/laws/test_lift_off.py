@@ -26,6 +26,9 @@ class TestC14:
         assert (found.peak_force / Q, found.lift_off_speed, found.time) == pytest.approx(
             (factor, speed, time), rel=PRINTED
         )
+        assert lift_off.elasticity_number(1e-3, share * Q, Q, M1, M, K) == pytest.approx(
+            max(1e-3 * math.sqrt(K / M) / G, 2 * (share - 1) * 5 / 23), rel=1e-12
+        )
         number = lift_off.elasticity_number(found.lift_off_speed, share * Q, Q, M1, M, K)
         assert number == pytest.approx(max(speed / math.sqrt(G * Q / K), 2 * (share - 1) * M / (M1 + M)), rel=PRINTED)
 

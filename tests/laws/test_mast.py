@@ -130,6 +130,29 @@ class TestExactModes:
         assert mast_modes.mast_frequency(one, 1) == pytest.approx(math.sqrt(c / 4000 + c / 1800), rel=1e-13)
         assert math.isinf(mast_modes.mast_frequency(one, 2))
 
+    @pytest.mark.parametrize("unit", [4.0, 1.0, 1e-3])
+    @pytest.mark.parametrize(
+        ("root", "slide", "tip", "place", "top"),
+        [(0.0, 0.0, 1.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0, 1.0), (0.0, 0.0, 1.0, 0.5, 1.0), (0.0, 0.0, 1.0, 1.0, 1.0),
+         (1.0, 0.7, 1.0, 0.5, 1.0), (1.0, 0.7, 1.0, 1.0, 0.0), (1.0, 0.7, 0.0, 1.0, 1.0)],
+    )  # fmt: skip
+    def test_a_column_without_mass_by_its_flexibility(
+        self, unit: float, root: float, slide: float, tip: float, place: float, top: float
+    ) -> None:
+        """Points on a cantilever whose root shifts: C = slide + a^2 (3 b - a)/6, 1/w^2 are the eigenvalues of C M."""
+        masses: dict[float, float] = {}
+        for at, mass in ((0.0, root), (place, tip), (1.0, top)):
+            if mass:
+                masses[at] = masses.get(at, 0.0) + mass * unit
+        at = np.array(list(masses))
+        low, high = np.minimum(at[:, None], at), np.maximum(at[:, None], at)
+        flexible = slide + low**2 * (3 * high - low) / 6
+        expected = np.sort(np.linalg.eigvals(flexible * np.array(list(masses.values()))).real)[::-1] ** -0.5
+        one = Mast(1.0, 1.0, 0.0, HELD, tip * unit, root * unit, 0.0, slide, place, top * unit)
+        found = [mast_modes.mast_frequency(one, k) for k in range(1, len(at) + 2)]
+        assert found[:-1] == pytest.approx(expected, rel=1e-9)
+        assert math.isinf(found[-1])
+
     @pytest.mark.parametrize("tip", [0.25, 0.5, 1.0, 2.0, 4.0])
     @pytest.mark.parametrize("base", [0.25, 0.5, 1.0, 2.0, 4.0, HELD])
     @pytest.mark.parametrize("b", [0.0, 0.25, 0.747])

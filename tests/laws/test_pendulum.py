@@ -174,6 +174,13 @@ class TestHoisting:
         third = [slow * (one / slow) ** (1 / 3) for one in (low, high)]
         assert min(found) < third[0] or max(found) > third[1]
 
+    def test_the_interval_by_hand(self) -> None:
+        """From e = 4/3 on 1/4 of the rope to e = 2/3 on all of it: asinh(1/2) + asinh(1/4) + 1/8, g L/V^2 = 9/4."""
+        low, high = pendulum.hoisted_angle_bounds(0.01, 1.0, 4.0, 4.0, 9.0)
+        exponent = math.log(0.5 + math.sqrt(1.25)) + math.log(0.25 + math.sqrt(1.0625)) + 0.125
+        assert low == pytest.approx(0.01 * 0.25**0.75 * math.exp(-exponent), rel=1e-13)
+        assert high == pytest.approx(0.01 * 0.25**0.75 * math.exp(exponent), rel=1e-13)
+
 
 class TestSlewing:
     @pytest.mark.parametrize("speed", [1e-6, 0.2, 1.0, 1.1, 9.0])

@@ -89,6 +89,12 @@ class TestTimeOfShare:
         assert 0 <= time <= rise_time * (1 + 1e-15)
         assert start_profile.rise(shape, rise_time, time) == pytest.approx(share, abs=1e-12)
 
+    def test_a_parabola_on_both_sides_of_its_middle(self) -> None:
+        """q = 2 x^2 up to a half, 1 - 2 (1 - x)^2 from there on."""
+        share = np.linspace(0.49, 0.51, 21)
+        expected = np.where(share < 0.5, (share / 2) ** 0.5, 1 - ((1 - share) / 2) ** 0.5)
+        assert start_profile.time_of_share("parabolic", 1.0, share) == pytest.approx(expected, rel=1e-14)
+
     def test_the_first_time_where_a_table_rests(self) -> None:
         points = ((0.0, 0.2), (0.25, 0.5), (0.75, 0.5), (1.0, 1.0))
         times = start_profile.time_of_share(points, 8.0, [-1.0, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0])

@@ -162,6 +162,8 @@ def attempt(mutant: Mutant, tests: list[list[str]], place: Path, reach: Reach, t
             status, said = run_tests(place, "-x", *files, limit=limit, **{CHOSEN: str(place / "chosen.json")})
             if status is None:
                 return Outcome(mutant, "endless", f"in {len(batch)} tests from {files[0]}")
+            if status == pytest.ExitCode.NO_TESTS_COLLECTED:  # all of them renamed since `reach`
+                continue
             if status:
                 failed = [line for line in said if line.startswith(("FAILED", "ERROR"))]
                 if not failed:  # neither a test nor its file: pytest itself

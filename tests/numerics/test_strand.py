@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -280,6 +281,42 @@ class TestSlip:
         assert motion.slipped
         assert np.min(motion.drum_speed - motion.belt_speed) < -1e-3
         assert np.max(motion.run_off / motion.run_on) <= np.exp(0.5) * (1 + 1e-9)
+
+    @pytest.mark.parametrize("back", [False, True])
+    @pytest.mark.parametrize("rigid", [False, True])
+    def test_the_unit_of_force_does_not_matter(self, rigid: bool, back: bool) -> None:
+        """A toy belt, all its forces and masses a millionth: the same motion to the last digit, in both senses."""
+        unit = 2.0**-20
+        real = loop(rigid=rigid, on=31e3 if back else 60e3, drum=2e3, grip=Grip(0.5, 12.0))
+        small = Loop(
+            *(
+                replace(
+                    strand,
+                    line_mass=strand.line_mass * unit,
+                    stiffness=strand.stiffness * unit,
+                    static_start=strand.static_start * unit,
+                    static_end=strand.static_end * unit,
+                )
+                for strand in (real.carry, real.back)
+            ),
+            real.drum_mass * unit,
+            0.0,
+            rigid,
+            Grip(0.5, 12.0 * unit),
+        )
+
+        def force(t: np.ndarray) -> np.ndarray:
+            return np.where(t < 1.0, 10e3, -30e3 if back else 40e3)
+
+        motions = [
+            march(one, Drive(force=lambda t, k=k: force(t) * k), 2.0, grid(100, 1e-4))
+            for one, k in ((real, 1.0), (small, unit))
+        ]
+        lead = motions[0].drum_speed - motions[0].belt_speed
+        assert (lead.min() < -1e-3) if back else (lead.max() > 1e-3)
+        assert np.array_equal(motions[0].belt_speed, motions[1].belt_speed)
+        assert np.array_equal(motions[0].drum_speed, motions[1].drum_speed)
+        assert np.array_equal(motions[0].run_on * unit, motions[1].run_on)
 
     def test_slip_from_the_start_holds_the_belt_back(self) -> None:
         """A static state beyond the grip: the belt is held by its idlers and never runs backward."""

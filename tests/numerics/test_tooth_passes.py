@@ -91,6 +91,20 @@ def test_a_sum_never_rises_above_what_its_modes_followed() -> None:
     assert np.all(found.largest <= np.abs(GAINS).T @ found.followed + 1e-12)
 
 
+@pytest.mark.parametrize("group", [200_000, 500])
+def test_the_work_is_the_places_looked_at_of_every_mode(group: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_GROUP", group)
+    looked = []
+
+    def seen(times: np.ndarray, middles: np.ndarray) -> np.ndarray:
+        looked.append(times.size)
+        return direct(times, middles)
+
+    found = tooth_passes(edges(), inputs, W, ZETA, GAINS, seen)
+    assert found.work == len(W) * sum(looked)
+    assert (len(looked) > 1) == (group == 500)
+
+
 def test_too_many_teeth_say_so() -> None:
     with pytest.raises(NumericsError, match="tooth passes"):
         engagements(lambda t: 1e9 * t, 10.0, 0.0)
