@@ -162,12 +162,13 @@ def left_out(mast: Mast, base: float, place: float, kept: int, rise: float, forc
 def moment_left_out(mast: Mast, base: float, kept: int, rise: float, force: float) -> float:
     """Bound of what modes that are taken to follow at once could still add to the moment at the root [N m].
 
-        sum_(k > kept) |h_k| F s_k,   h_k = t^T M p_k p_k^T M 1/m   (less (t^T M 1/m) p_k^T M 1 for t^T M p_k)
+        sum_(k > kept) |h_k| F s_k,   h_k = (t^T M - t^T K_w/w_k^2) p_k p_k^T M 1/m   (less (t^T M 1/m) p_k^T M 1)
 
-    for the inertia forces of a mode on their arms t, in brackets beside a base that rolls; otherwise as `left_out`.
+    for the inertia forces of a mode on their arms t and for what weights and props K_w do against it, in brackets
+    beside a base that rolls; otherwise as `left_out`.
     """
     values, pushed, shapes = _set_off(mast, base)
-    turned = mast.elements.turned @ shapes
+    turned = mast.elements.turned @ shapes - (mast.elements.righted @ shapes) / values**2
     if math.isfinite(base):
         turned = turned - mast.elements.moment / (mast.elements.total + base) * (mast.elements.carried @ shapes)
     return _strays(turned * pushed, values, kept, rise) * abs(force)

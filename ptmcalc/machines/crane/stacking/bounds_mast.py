@@ -42,13 +42,14 @@ _GRAZES = 0.1
 def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
     """What the shapes left out may change of the loads of two masses.
 
-    Deflection and moment at rest are exact, but for what the shape of a force at the far end misses of the weights; of
+    Deflection and moment at rest are exact, but for what the shape of a force at the far end misses of the weights: a
+    force at the far end leaves an error of second order of them, even acceleration one of the first order; of
     what swings the first mode has the share g_1/g_s, all others together no more than sum |g_k|:
 
         |dx| <= P (s_1 |g_s - g_1| + sum_(k > 1) s_k |g_k|)   beside a base that rolls, P the force that comes
               + a (|h_s - h_1| + sum_(k > 1) |h_k|)           as it stops, a its deceleration; 2 a s_k along a ramp
               + 2 |x(w) - x(w_1)|                             two masses with the frequency of the exact column
-              + 2 x |d/d_1 - 1|                               d static deflection of two masses, d_1 of the column
+              + 2 |d - d_1| x/d                               d, d_1 under even acceleration: two masses, the column
               + sum |p_k L_k| min(2 V w_k, 2 a)/w_k^2         held-base modes, kicked by the speed V, a the step
                                                               of acceleration that comes so much earlier or later
 
@@ -58,6 +59,9 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
         V = P/m^2 ( sum_(k > 1) s_k L_k^2/w_k + s_1 |L_1^2/w_1 - L^2/w| )
 
     with the momentum L_k^2/(m w_k) P that a mode swings with against the base, m all that rolls; L and w of two masses.
+    Of the moment at the root the same, g_k and h_k that of the inertia of a mode less that of the weights on it, and
+    d, d_1 the moments under even acceleration: a root that turns under the column alone, while girders shift under the
+    trolley too, leans the weights otherwise than the one shape says, however little that is of the whole deflection.
     The time in which the swing settles is that of a window so much narrower or wider. All of it with the weights on the
     column and without, as the run may have been either; a file that leaves weights out, or insists on them, tells.
 
@@ -94,7 +98,7 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
     length, stiffness = spec.column.length, swinging(spec, scene).stiffness
     exact = Mast.of(moves.column.column, _ELEMENTS, (length,))
     own = lumped(spec, scene, moves, gravity=gravity)
-    stiffer = abs(own.gives(length, length) / exact.gives(length, length) - 1)
+    evenly, exactly = _even(own, length), _even(exact, length)
     heavier = float((own.frequencies[0] / exact.frequencies[0]) ** 2)
     plain, right = (course_of(spec, scene, gravity=gravity, heavier=factor) for factor in (1.0, heavier))
     if moves.follows:
@@ -108,9 +112,10 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
             raise NumericsError("NUM103", "the base comes to rest too softly to tell when")
         sums.append(_kicked(exact, own, length, moves, max(paces)))
     shift, turn = (sum(one[k] for one in sums) for k in (0, 1))
+    reached = plain.largest("deflection")[0] / evenly[0]
     shift, turn = (
-        one + _FREQUENCY * (abs(plain.largest(what)[0] - right.largest(what)[0]) + stiffer * plain.largest(what)[0])
-        for one, what in ((shift, "deflection"), (turn, "moment"))
+        one + _FREQUENCY * (abs(plain.largest(what)[0] - right.largest(what)[0]) + abs(ours - theirs) * reached)
+        for one, what, ours, theirs in zip((shift, turn), ("deflection", "moment"), evenly, exactly, strict=True)
     )
     told = {
         "mast_deflection_max": Interval(-shift, shift),
@@ -119,6 +124,14 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
     }
     settles = _settling(spec, scene, plain, right, _SETTLES * shift)
     return told if settles is None else told | {"settling_time": settles}
+
+
+def _even(mast: Mast, place: float) -> tuple[float, float]:
+    """Deflection at a place and moment at the root at rest under an even acceleration of 1 m/s^2, one against the
+    other."""
+    built = mast.elements
+    bent = mast.flexibility @ built.carried
+    return float(built.row(place) @ bent), float(built.moment - built.righted @ bent)
 
 
 def _strays(mast: Mast, place: float, base: float, rise: float, jump: float) -> tuple[float, float]:
@@ -133,7 +146,7 @@ def _strays(mast: Mast, place: float, base: float, rise: float, jump: float) -> 
         inertia = inertia - built.moment * pushed / total
     strays = np.minimum(1.0, 2 / (values * rise)) if rise > 0 else np.ones(len(values))
     found = []
-    for gains in ((built.row(place) @ shapes) * per, inertia * values**2 * per):
+    for gains in ((built.row(place) @ shapes) * per, (inertia * values**2 - built.righted @ shapes) * per):
         others = float(np.abs(gains[1:]) @ strays[1:])
         first = abs(float(gains[1:].sum())) * float(strays[0])
         found.append((others + first) * abs(jump))
@@ -167,7 +180,7 @@ def _kicked(exact: Mast, own: Mast, place: float, moves: Happening, pace: float)
     each, one = swings(exact), swings(own)
     speed = _KICK * moves.jump / total**2 * (float(each[1:].sum()) + abs(float(each[0] - one[0])))
     kicks = np.abs(exact.participation) * np.minimum(speed * exact.frequencies, 2 * pace)
-    turned = np.abs(exact.elements.turned @ exact.shapes)
+    turned = np.abs(exact.elements.turned @ exact.shapes - exact.elements.righted @ exact.shapes / exact.frequencies**2)
     return float(np.abs(exact.at(place)) @ (kicks / exact.frequencies**2)), float(turned @ kicks)
 
 
