@@ -134,7 +134,9 @@ def test_hardly_a_verdict_is_left_open(cases: list[Case]) -> None:
 
 
 def test_the_ladder_does_less_work_than_always_exact(cases: list[Case]) -> None:
-    ladder, always = ([run for one in kind for run in one.runs] for kind in _both(cases))
+    """Of machines that were not put next to a limit, where the best run must come in the end."""
+    far = [case for case in cases if not case.trial.near]
+    ladder, always = ([run for one in kind for run in one.runs] for kind in _both(far))
     assert sum(run.result.work for run in ladder) < 0.8 * sum(run.result.work for run in always)
     assert sum(run.rung.seconds for run in ladder) < 0.75 * sum(run.rung.seconds for run in always)
     assert sum(len(case.ladder.runs) == 1 for case in cases) > 0.2 * len(cases), "closed forms decide many machines"
