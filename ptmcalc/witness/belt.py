@@ -124,24 +124,29 @@ class _Place:
         self,
         time: float,
         dt: float,
-        mass: float,
+        masses: tuple[float, float],
         belt: float,
         on: float,
         off: float,
         weight: tuple[float, float, float, float] | None = None,
     ) -> tuple[float, float | None]:
-        """Belt speed after the step, and that behind the take-up: `weight` is (tension, mass, node's mass, speed)."""
+        """Belt speed after the step, and that behind the take-up: `weight` is (tension, mass, node's mass, speed).
+
+        `masses` are those of the half elements before and behind the drums: what slips between them passes on what the
+        one behind takes to speed up as well, e times. All of it before the drums instead would make a slipping place
+        too stiff for its mass: next to the limit of stability it then chatters between sticking and slipping.
+        """
         lift = self.line_mass * belt**2
         self.drives = [roller.pull(time, ahead) for roller, ahead in zip(self.rollers, self.ahead, strict=True)]
         for senses, way in self._states(time):
-            found = self._try(senses, way, time, dt, mass, belt, on, off, weight, lift)
+            found = self._try(senses, way, time, dt, masses, belt, on, off, weight, lift)
             if found is not None:
                 new, behind, drums, pulls, tensions = found
                 for j, sense in enumerate(senses):
                     if sense:
                         self.spot.slid[j] += abs(drums[j] - new) * dt
                         self.spot.heat[j] += abs(drums[j] - new) * abs(pulls[j]) * dt
-                self.spot.on.append(on)
+                self.spot.on.append(tensions[0])
                 self.spot.off.append(tensions[-1])
                 self.spot.between.append(tensions)
                 self.spot.belt.append((belt + new) / 2)
@@ -174,7 +179,7 @@ class _Place:
         way: str,
         time: float,
         dt: float,
-        mass: float,
+        masses: tuple[float, float],
         belt: float,
         on: float,
         off: float,
@@ -187,13 +192,14 @@ class _Place:
             way = "free"  # what holds a drum does not hold the belt
         at_v, at_h, at_r, at_t, at_w, at_f = 0, 1, 2, 3, 4, 4 + n
         a, b = np.zeros((4 + 2 * n, 4 + 2 * n)), np.zeros(4 + 2 * n)
-        # belt: m v'/dt - sum f - at_t = m v/dt - S_on
-        a[0, at_v], a[0, at_t] = mass / dt, -1.0
+        before, after = masses
+        # belt before the drums: m v'/dt - sum f - at_t = m v/dt - S_on
+        a[0, at_v], a[0, at_t] = before / dt, -1.0
         a[0, at_f : at_f + n] = -1.0
-        b[0] = mass * belt / dt - on
-        # what is behind the drums
-        a[1, at_t] = 1.0
-        b[1] = off
+        b[0] = before * belt / dt - on
+        # belt behind them: m v'/dt + at_t = m v/dt + S_off, or the weight
+        a[1, at_t], a[1, at_v] = 1.0, after / dt
+        b[1] = off + after * belt / dt
         a[2, at_r] = 1.0
         if weight:
             tension, heavy, node, back = weight
@@ -287,7 +293,7 @@ def simulate(
     head = _Place(plan.head, speed, plan.head_speed, plan.belt_line_mass)
     low = _Place(plan.tail, speed, plan.tail_speed, plan.belt_line_mass)
     highest, lowest, behind = start.copy(), start.copy(), np.zeros(steps)
-    lumps = np.diff(middle)
+    lumps, around = np.diff(middle), (float(m[tail - 1]) / 2, float(m[tail]) / 2)
     s = start
     for n in range(steps):
         time, part = n * dt, dt if n else dt / 2  # speeds live half a step later than places
@@ -301,15 +307,15 @@ def simulate(
         on, off = float(s[-1] + rise[-1] - middle[-1]), float(s[0] - middle[0])
         if plan.takeup:
             weight = (*plan.takeup, float(mass[0]), float(v[0]))
-            belt, back = head.step(time, part, float(mass[-1]), float(v[-1]), on, off, weight)
+            belt, back = head.step(time, part, (float(mass[-1]), 0.0), float(v[-1]), on, off, weight)
             assert back is not None
             new[0], new[-1] = back, belt
         else:
-            belt, _ = head.step(time, part, float(mass[-1] + mass[0]), float(v[-1]), on, off)
+            belt, _ = head.step(time, part, (float(mass[-1]), float(mass[0])), float(v[-1]), on, off)
             new[0] = new[-1] = belt
         before = float(s[tail - 1] + rise[tail] - middle[tail - 1])
         after = float(s[tail] + rise[tail] - middle[tail])
-        new[tail], _ = low.step(time, part, float(mass[tail]), float(v[tail]), before, after)
+        new[tail], _ = low.step(time, part, around, float(v[tail]), before, after)
         behind[n] = (v[0] + new[0]) / 2
         v = new
         u = u + dt * v

@@ -20,8 +20,10 @@ SCENES = [
     ("specs/crane_rack_stacker.yaml", "fork_push_loaded", "push_runge_kutta"),
     ("specs/chain_drive.yaml", "run_loaded", "mesh"),
     ("specs/conveyor/decline_conveyor.yaml", "emergency_stop_loaded", "elements"),
+    ("specs/conveyor/screw_takeup_conveyor.yaml", "jam_loaded", "elements"),
 ]
 LONG = [
+    ("specs/conveyor/screw_takeup_conveyor.yaml", "run_out_empty", "elements"),
     ("specs/conveyor/two_drive_conveyor.yaml", "start_on_the_hill", "elements"),
     ("specs/drivetrain.yaml", "hoisting", "dormand_prince"),
     ("specs/hoist.yaml", "lower_brake_loaded", "dormand_prince"),

@@ -32,3 +32,23 @@ def test_a_belt_that_runs_out_goes_as_far_as_its_friction_lets_it() -> None:
     belt = np.array(found.head.belt)
     way = float(belt[belt > 0].sum() * found.times[1])
     assert way == pytest.approx(4.0**2 / (2 * 0.5), rel=0.05)
+
+
+@pytest.mark.parametrize("sense", [1, -1], ids=["ahead", "behind"])
+def test_a_drum_that_slips_passes_on_e_times_the_tension_and_does_not_chatter(sense: int) -> None:
+    """S_above = e S_behind with what both strands take to move: v = S (e - 1)/(Z_on + e Z_off), until an echo comes."""
+    exponent, tension = 1.16, 150e3
+    count = sum(shared_out(BELT, 200))
+    plan = Plan(BELT, 1, (Roller(100.0, lambda time, speed: sense * 1e6, exponent=exponent),), (Roller(1e-3),))
+    found = simulate(plan, 200, 0.4, np.full(count, tension))
+    back, carry = (math.sqrt(one.stiffness * one.line_mass) for one in BELT)
+    e = math.exp(sense * exponent)
+    belt = tension * (e - 1) / (carry + e * back)
+    late = found.times > 0.05
+    for history, exact in (
+        (found.head.belt, belt),
+        (found.head.on, tension + carry * belt),
+        (found.head.off, tension - back * belt),
+    ):
+        assert np.array(history)[late] == pytest.approx(exact, rel=0.01)
+    assert {slips for slips, counts in zip(found.head.slips, late, strict=True) if counts} == {(sense,)}

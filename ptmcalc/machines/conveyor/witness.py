@@ -125,7 +125,12 @@ def _lengths(strand: Strand, stiffness: float, share: float, speed: float) -> li
 
 
 def _tension(case: Moving, rubbed: FloatArray, climbed: FloatArray, ways: FloatArray, first: int) -> FloatArray:
-    """Tension of every element at the start, less gravity's part."""
+    """Tension of every element at the start, less gravity's part.
+
+    A running belt begins in balance: half the elements beside head and tail rub at the next node within, and so does
+    the belt's force at the tail. One node off, and a pulse as high as that force sets out from there: the shorter the
+    finer the mesh, but never lower.
+    """
     line = case.line
     if case.begins_loose:
         if not line.fixed_length:
@@ -134,6 +139,8 @@ def _tension(case: Moving, rubbed: FloatArray, climbed: FloatArray, ways: FloatA
         return np.full(len(rubbed), line.takeup_tension - float(inside @ ways) / float(ways.sum()))
     found: FloatArray = line.run_off + np.cumsum(rubbed) - rubbed / 2
     found[first:] += line.tail_step
+    found[first - 1] = found[first] + line.tail_pull
+    found[0], found[-1] = line.run_off, found[-1] + rubbed[-1] / 2
     return found
 
 
@@ -250,8 +257,12 @@ def _rest(case: Moving, speeds: FloatArray, step: float) -> Readings:
     if not len(stopped):
         return {"stop_time": math.inf, name: math.inf}
     last = int(stopped[0])
-    way = float((speeds[1:last] + speeds[: last - 1]).sum()) / 2 * step if last > 1 else 0.0
-    return {"stop_time": last * step, name: way}
+    if not last:
+        return {"stop_time": 0.0, name: 0.0}
+    before, after = float(speeds[last - 1]), float(speeds[last])
+    part = before / (before - after) * step
+    way = float((speeds[1:last] + speeds[: last - 1]).sum()) / 2 * step + before * part / 2
+    return {"stop_time": (last - 1) * step + part, name: way}
 
 
 # -- what it costs, and where it holds -------------------------------------------------------------------------------
