@@ -98,12 +98,14 @@ class Drive:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Steps of time: `carry` and `back` cells per strand; `mismatch` is the relative error of the travel times."""
+    """Steps of time: `carry` and `back` cells per strand; `mismatch` is the relative error of the travel times; so many
+    steps a `panel`, over which waves are polynomials of its degree: whole panels make up a strand."""
 
     step: float
     carry: int
     back: int
     mismatch: float
+    panel: int = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +175,12 @@ def match(first: float, second: float, at_least: int, tolerance: float, at_most:
 
 def refined(grid: Grid) -> Grid:
     """The same grid with every cell halved."""
-    return Grid(grid.step / 2, grid.carry * 2, grid.back * 2, grid.mismatch)
+    return replace(grid, step=grid.step / 2, carry=grid.carry * 2, back=grid.back * 2)
+
+
+def panelled(grid: Grid, panel: int) -> Grid:
+    """The same grid with every cell cut into the steps of a panel."""
+    return replace(grid, step=grid.step / panel, carry=grid.carry * panel, back=grid.back * panel, panel=panel)
 
 
 def steps_of(window: float, grid: Grid) -> tuple[int, float]:
@@ -188,9 +195,10 @@ def steps_of(window: float, grid: Grid) -> tuple[int, float]:
     return steps, window / grid.step - (steps - 1)
 
 
-def at_end(history: FloatArray, share: float) -> float:
-    """Value of a history that ends inside its last step, after a share of it, by the parabola of three samples."""
+def at_end(history: FloatArray, share: float) -> FloatArray:
+    """Values (one, or several along the second axis) of histories that end inside their last step, after a share of
+    it, by the parabola of three samples."""
     if len(history) < 3:
-        return float(history[-2] + share * (history[-1] - history[-2]))
+        return np.asarray(history[-2] + share * (history[-1] - history[-2]))
     before, start, end = history[-3:]
-    return float(start + share * (end - before) / 2 + share**2 * (end - 2 * start + before) / 2)
+    return np.asarray(start + share * (end - before) / 2 + share**2 * (end - 2 * start + before) / 2)

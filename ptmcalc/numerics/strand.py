@@ -10,9 +10,12 @@ Drum of mass m (force imposed)    m v' + (Z_1 + Z_2) v = F + P_off - N_on       
 Tail of mass m_t                  m_t v' + (Z_1 + Z_2) v = P_carry - N_return
 Constant-tension take-up          N_off = -P_off (dynamic), it travels with half the speed difference
 
-Each is a first-order equation advanced by the exponential step for a forcing that is linear over the step, which
-is exact for m -> 0 (a trapezoidal step would ring) and second order otherwise. Echoes arrive on the grid, so the
-corners of the solution are samples of it.
+Each is a first-order equation advanced by the exponential step for a forcing that is a polynomial over a panel of one
+step or several, which is exact for m -> 0 (a trapezoidal step would ring); for one step it is of second order. Echoes
+arrive on the grid, so the corners of the solution are samples of it, and ends of panels where the drive has none.
+
+What arrives within the travel time of the shorter strand is known before: over such a block each equation is
+y_k = d y_(k-1) + u_k with given u, advanced as a whole (`Fading`). Only where the belt slips it goes step by step.
 
 **Grip.** With a friction exponent mu alpha given, the belt sticks to the drum while the tight side is below
 exp(mu alpha) times the slack side (both less rho v^2). Slip begins and ends at the root of that condition inside
@@ -22,18 +25,21 @@ a step; while slipping the belt speed follows from the friction law and the drum
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from typing import TypeVar
 
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
+from ptmcalc.numerics.collocation import gauss
 from ptmcalc.numerics.loop import BACKWARD, Drive, Extreme, FloatArray, Grid, Loop, Motion, Strand, at_end, steps_of
 
 _EVENTS_PER_STEP = 8
 _ROOT_STEPS = 60
-_Peak = tuple[float, int]
-"""A value, with its sign turned where the smallest is wanted, and the sample it occurs at."""
+_STRETCH = 32
+_Values = TypeVar("_Values", float, FloatArray)
+_GAUSS, _FADED = 32, 40.0
 
 
 def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
@@ -43,32 +49,64 @@ def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
         NumericsError: NUM101 when the window needs more steps than MOST_STEPS, when slip and stick alternate
             without end inside a step, or when the belt lifts off the drum by its own centrifugal force.
     """
-    steps, last_share = steps_of(window, grid)
-    times = np.arange(steps + 1, dtype=np.float64) * grid.step
-    drum = _Drum(loop, drive, times, grid.step)
-    tail = _Node(loop.tail_mass, sum(loop.impedances), grid.step)
-    interior = _Delays(loop, grid, steps, last_share)
-    interior.run(drum, tail)
-    return _motion(loop, grid, times, last_share, drum, tail, interior)
+    return _Marched(loop, drive, window, grid).motion()
+
+
+def run_on(loop: Loop, drive: Drive, window: float, grid: Grid, when: FloatArray) -> FloatArray:
+    """Run-on tension at the times `when` [N], no later than the window, without anything else `march` answers.
+
+    Between the samples it is the polynomial that the waves were advanced with.
+    """
+    marched = _Marched(loop, drive, window, grid)
+    return loop.carry.static_end + between(marched.drum.on, grid, when)
+
+
+def between(history: FloatArray, grid: Grid, when: FloatArray) -> FloatArray:
+    """A history of samples at the times `when`, by the polynomials through the samples of every panel."""
+    many = grid.panel
+    which = np.minimum(when / (grid.step * many), (len(history) - 1) // many - 1).astype(int)
+    place = when / grid.step - many * which
+    found = np.zeros(len(place))
+    for k, factor in enumerate(_lagrange(many, place)):
+        found += factor * history[k : len(history) - many + k : many][which]
+    return found
 
 
 class _Node:
-    """m v' + Z v = g(t) by the exponential step for g linear over the step."""
+    """m v' + Z v = g(t) by the exponential step for g a polynomial through the samples of a panel of steps."""
 
-    def __init__(self, mass: float, impedance: float, step: float) -> None:
+    def __init__(self, mass: float, impedance: float, step: float, panel: int = 1) -> None:
         self.impedance = impedance
         self.rate = impedance / mass if mass > 0 else math.inf
         self.full = weights(self.rate * step)
         self.step_size = step
+        self.panel = panel
+        self.kernel = panel_weights(self.rate * step, panel).T / impedance
+        self.fading = self.full[0] ** np.arange(1, panel + 1)
+        self.ends = Fading(float(self.fading[-1]))
         self.speed = 0.0
         self.forcing = 0.0
 
-    def step(self, forcing: float) -> float:
-        """Speed at the end of the step, at which the forcing is `forcing`."""
-        decay, old, new = self.full
-        self.speed = decay * self.speed + (old * self.forcing + new * forcing) / self.impedance
-        self.forcing = forcing
-        return self.speed
+    def block(self, forcing: FloatArray) -> FloatArray:
+        """Speeds at the samples after the present one, at which the forcing is given: whole panels of them."""
+        if math.isinf(self.rate):
+            speeds = forcing / self.impedance
+            self.go_on(float(speeds[-1]), float(forcing[-1]))
+            return speeds
+        panels = forcing.reshape(-1, self.panel)
+        forced = panels @ self.kernel[1:]
+        starts = np.empty(len(forced))
+        starts[0], starts[1:] = self.forcing, panels[:-1, -1]
+        forced += starts[:, None] * self.kernel[0]
+        ends = self.ends.run(self.speed, forced[:, -1])
+        starts[0], starts[1:] = self.speed, ends[:-1]
+        forced += starts[:, None] * self.fading
+        self.go_on(float(ends[-1]), float(forcing[-1]))
+        return forced.ravel()
+
+    def go_on(self, speed: float, forcing: float) -> None:
+        """Take this as the present sample."""
+        self.speed, self.forcing = speed, forcing
 
     def part(self, speed: float, before: float, after: float, share: float) -> float:
         """Speed after a share of a step from `speed`, with the forcing going from `before` to `after`."""
@@ -85,63 +123,168 @@ def weights(x: float) -> tuple[float, float, float]:
     return math.exp(-x), grown - slope, slope
 
 
+class Fading:
+    """y_k = d y_(k-1) + u_k for many k at once: the powers of d over a stretch, and the same rule from one stretch to
+    the next with the power of d over a whole one."""
+
+    def __init__(self, decay: float) -> None:
+        apart = np.subtract.outer(np.arange(_STRETCH), np.arange(_STRETCH))
+        self.within = np.where(apart >= 0, decay ** np.maximum(apart, 0.0), 0.0).T
+        self.fading = decay ** np.arange(1.0, _STRETCH + 1)
+        self.decay = decay
+        self.longer: Fading | None = None
+
+    def run(self, start: float, given: FloatArray) -> FloatArray:
+        """y_1 ... y_n from y_0 = `start`."""
+        n = len(given)
+        if n <= _STRETCH:
+            return np.asarray(given @ self.within[:n, :n] + start * self.fading[:n])
+        whole = -(-n // _STRETCH)
+        padded = np.zeros((whole, _STRETCH))
+        padded.ravel()[:n] = given
+        found: FloatArray = padded @ self.within
+        if self.longer is None:
+            self.longer = Fading(float(self.fading[-1]))
+        starts = np.empty(whole)
+        starts[0], starts[1:] = start, self.longer.run(start, found[:-1, -1])
+        found += starts[:, None] * self.fading
+        return np.asarray(found.ravel()[:n])
+
+
+def _lagrange(count: int, x: FloatArray) -> list[FloatArray]:
+    """The polynomials that are 1 at one of the nodes 0 ... count and 0 at the others, at x."""
+    found = [np.full_like(x, (-1.0) ** count / math.factorial(count))]
+    for k in range(1, count + 1):
+        found.append(found[-1] * ((x - (k - 1)) * ((k - 1 - count) / k)))
+    above = np.ones_like(x)
+    for k in range(count, -1, -1):
+        found[k] *= above
+        above *= x - k
+    return found
+
+
+@cache
+def panel_weights(x: float, panel: int) -> FloatArray:
+    """Weights of the forcing at the nodes of a panel, of steps of x time constants, on the answer after every step:
+    shape (panel, panel + 1).
+
+        W_ij = int_0^i x e^(-x (i - s)) l_j(s) ds
+
+    with l_j the polynomials of Lagrange: exact for a forcing that is one of so high a degree.
+    """
+    if panel == 1:
+        return np.array([weights(x)[1:]])
+    nodes, shares = gauss(_GAUSS)
+    reach = min(_FADED / x, 1.0)  # before that, nothing is left of the forcing at the end of the step
+    sharp = min(x, _FADED)
+    starts = np.arange(panel)[:, None]
+    inputs = np.array(_lagrange(panel, starts + 1 - reach * nodes))
+    steps: FloatArray = np.einsum("jiq,q->ij", inputs, shares * sharp * np.exp(-sharp * nodes))
+    for i in range(1, panel):
+        steps[i] += math.exp(-x) * steps[i - 1]
+    steps.setflags(write=False)
+    return steps
+
+
 class _Drum:
     """The drive drum: sticks to the belt, or slips on it."""
 
-    def __init__(self, loop: Loop, drive: Drive, times: FloatArray, step: float) -> None:
+    def __init__(self, loop: Loop, drive: Drive, times: FloatArray, grid: Grid) -> None:
         self.z_carry, self.z_back = loop.impedances
         self.fixed = loop.fixed_length
         self.z_off = self.z_back if self.fixed else 0.0
         self.mass = loop.drum_mass
-        self.step_size = step
+        self.step_size = step = grid.step
         self.on_static, self.off_static = loop.carry.static_end, loop.back.static_start
-        self.force = drive.force(times).tolist() if drive.force else None
-        self.imposed = drive.speed(times).tolist() if drive.speed else None
-        self.node = _Node(loop.drum_mass, self.z_carry + self.z_off, step)
+        self.forces = drive.force(times) if drive.force else None
+        self.speeds = drive.speed(times) if drive.speed else None
+        self.node = _Node(loop.drum_mass, self.z_carry + self.z_off, step, grid.panel)
         self.grip = loop.grip
         self.squeeze = math.exp(-loop.grip.exponent) if loop.grip else 0.0
         self.slipping = 0  # +1: the drum runs ahead of the belt, -1: the belt ahead of the drum
         self.slipped = False
-        n = len(times)
-        self.belt = [0.0] * n
-        self.drum = [0.0] * n
-        self.on = [0.0] * n
-        self.off = [0.0] * n
+        self.belt, self.drum, self.on, self.off = np.zeros((4, len(times)))
         self.arriving = (0.0, 0.0)  # N at the run-on, P at the run-off, at the last sample
-        if self.force:
-            self.node.forcing = self.force[0]
+        self.at = (0.0, 0.0)  # belt and drum speed there
+        self.force: list[float] | None = None
+        self.imposed: list[float] | None = None
+        if self.forces is not None:
+            self.node.forcing = float(self.forces[0])
         if self.grip:
             self.slipping = self._breaks(0.0, 0.0, 0.0)
             self.slipped = bool(self.slipping)
 
-    def step(self, k: int, n_on: float, p_off: float) -> float:
-        """Belt speed at sample k, where the waves n_on and p_off arrive."""
-        if not self.grip:
-            belt = drum = self._stuck(k, n_on, p_off)
-        else:
-            belt, drum = self._gripped(k, n_on, p_off)
-        self.arriving = (n_on, p_off)
-        self.belt[k], self.drum[k] = belt, drum
-        self.on[k] = n_on + self.z_carry * belt
-        self.off[k] = p_off - self.z_off * belt if self.fixed else 0.0
+    def block(self, first: int, n_on: FloatArray, p_off: FloatArray) -> FloatArray:
+        """Belt speeds at the samples from `first` on, where the waves n_on and p_off arrive.
+
+        A belt that sticks is advanced as a whole and its grip looked at afterwards; from the sample on where it breaks
+        the block goes on step by step.
+        """
+        here = slice(first, first + len(n_on))
+        belt, drum = self.belt[here], self.drum[here]
+        kept = 0
+        if not self.slipping:
+            kept = self._stuck(here, n_on, p_off, belt)
+            drum[:kept] = belt[:kept]
+            if kept:
+                self.arriving, self.at = (float(n_on[kept - 1]), float(p_off[kept - 1])), (float(belt[kept - 1]),) * 2
+        if kept < len(belt):
+            self._by_steps(first + kept, n_on[kept:], p_off[kept:], belt[kept:], drum[kept:])
         return belt
 
-    def _stuck(self, k: int, n_on: float, p_off: float) -> float:
-        if self.imposed:
-            return float(self.imposed[k])
-        assert self.force is not None
-        return self.node.step(self.force[k] - n_on + (p_off if self.fixed else 0.0))
+    def tensions(self, n_on: FloatArray, p_off: FloatArray) -> None:
+        """Dynamic tensions of run-on and run-off, after all blocks."""
+        self.on[:] = n_on + self.z_carry * self.belt
+        if self.fixed:
+            self.off[:] = p_off - self.z_off * self.belt
+
+    def _stuck(self, here: slice, n_on: FloatArray, p_off: FloatArray, belt: FloatArray) -> int:
+        """Speeds of a belt that sticks, into `belt`; for how many samples it does."""
+        before = self.node.speed
+        forcing = -n_on
+        if self.speeds is not None:
+            belt[:] = self.speeds[here]
+        else:
+            assert self.forces is not None
+            forcing += self.forces[here]
+            if self.fixed:
+                forcing += p_off
+            start = self.node.forcing
+            belt[:] = self.node.block(forcing)
+        if not self.grip:
+            return len(belt)
+        on, off = self._sides(n_on, p_off, belt)
+        breaks = (on * self.squeeze > off) | (off * self.squeeze > on)
+        if not breaks.any():
+            return len(belt)
+        kept = int(breaks.argmax())
+        if self.speeds is None:
+            self.node.go_on(*((float(belt[kept - 1]), float(forcing[kept - 1])) if kept else (before, start)))
+        return kept
+
+    def _by_steps(self, first: int, n_on: FloatArray, p_off: FloatArray, belt: FloatArray, drum: FloatArray) -> None:
+        """Speeds of belt and drum, into `belt` and `drum`, where grip may change at any of the samples."""
+        if self.force is None and self.forces is not None:
+            self.force = self.forces.tolist()
+        if self.imposed is None and self.speeds is not None:
+            self.imposed = self.speeds.tolist()
+        found = []
+        for k, waves in enumerate(zip(n_on.tolist(), p_off.tolist(), strict=True), first):
+            self.at = self._gripped(k, *waves)
+            self.arriving = waves
+            found.append(self.at)
+        belt[:], drum[:] = np.transpose(found)
 
     def _gripped(self, k: int, n_on: float, p_off: float) -> tuple[float, float]:
         """One step of a drum that sticks, slips, or goes from one to the other; most steps see no change."""
         if self.slipping:
             force = (self.force[k - 1], self.force[k]) if self.force else (0.0, 0.0)
-            pushed = force[0] + force[1] - self._pull(*self.arriving, self.belt[k - 1])
+            pushed = force[0] + force[1] - self._pull(*self.arriving, self.at[0])
             belt = self._slip_speed(n_on, p_off)
             if self.imposed:
                 drum = self.imposed[k]
             else:
-                drum = self.drum[k - 1] + self.step_size * (pushed - self._pull(n_on, p_off, belt)) / (2 * self.mass)
+                drum = self.at[1] + self.step_size * (pushed - self._pull(n_on, p_off, belt)) / (2 * self.mass)
             if self.slipping * (drum - belt) >= 0:
                 return belt, drum
         else:
@@ -151,7 +294,7 @@ class _Drum:
                 speed = self.imposed[k]
             else:
                 decay, old, new = node.full
-                speed = decay * self.drum[k - 1] + (old * node.forcing + new * forcing) / node.impedance
+                speed = decay * self.at[1] + (old * node.forcing + new * forcing) / node.impedance
             if not self._breaks(n_on, p_off, speed):
                 node.speed, node.forcing = speed, forcing
                 return speed, speed
@@ -162,7 +305,7 @@ class _Drum:
         forces = (self.force[k - 1], self.force[k]) if self.force else (0.0, 0.0)
         speeds = (self.imposed[k - 1], self.imposed[k]) if self.imposed else (0.0, 0.0)
         cell = _Cell((self.arriving[0], n_on), (self.arriving[1], p_off), forces, speeds)
-        belt, drum, at = self.belt[k - 1], self.drum[k - 1], 0.0
+        belt, drum, at = *self.at, 0.0
         for _ in range(_EVENTS_PER_STEP):
             if not self.slipping:
                 stuck = partial(self._stuck_at, cell, at, drum)
@@ -211,7 +354,7 @@ class _Drum:
         """Dynamic force the belt takes from the drum."""
         return n_on + self.z_carry * belt - (p_off - self.z_off * belt if self.fixed else 0.0)
 
-    def _sides(self, n_on: float, p_off: float, belt: float) -> tuple[float, float]:
+    def _sides(self, n_on: _Values, p_off: _Values, belt: _Values) -> tuple[_Values, _Values]:
         """Whole tensions of run-on and run-off, less the centrifugal one."""
         assert self.grip is not None
         lift = self.grip.belt_line_mass * belt * belt
@@ -295,93 +438,100 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
 
 
 class _Delays:
-    """Strands without sag: pure delays. Waves leaving drum, tail and run-off are kept as histories."""
+    """Strands without sag: pure delays. Waves leaving drum, tail and run-off are kept as histories, each behind the
+    rest of a strand that nothing has entered yet: what is `cells` samples old comes out at the other end."""
 
     def __init__(self, loop: Loop, grid: Grid, steps: int, last_share: float) -> None:
         self.loop, self.grid, self.steps, self.last_share = loop, grid, steps, last_share
-        n = steps + 1
-        self.cell_updates = steps
-        self.from_drum = [0.0] * n  # P into the carry strand
-        self.into_carry = [0.0] * n  # N from the tail
-        self.into_back = [0.0] * n  # P from the tail
-        self.from_off = [0.0] * n  # N into the return strand
-        self.tail_speed = [0.0] * n
+        n = -(-steps // grid.panel) * grid.panel + 1
+        self.cells = grid.carry, grid.back
+        self.cell_updates = n - 1
+        self.carry = np.zeros((2, grid.carry + n))  # P from the drum, N from the tail
+        self.back = np.zeros((2, grid.back + n))  # P from the tail, N from the run-off
+        self.tail_speed = np.zeros(n)
 
     def run(self, drum: _Drum, tail: _Node) -> None:
+        """Blocks no longer than the shorter strand: what arrives in one has left before it began."""
         z_carry, z_back = self.loop.impedances
         fixed, carry, back = self.loop.fixed_length, self.grid.carry, self.grid.back
-        from_drum, into_carry, into_back, from_off = (
-            self.from_drum,
-            self.into_carry,
-            self.into_back,
-            self.from_off,
-        )
-        for k in range(1, self.steps + 1):
-            n_on = into_carry[k - carry] if k >= carry else 0.0
-            p_off = into_back[k - back] if k >= back else 0.0
-            p_tail = from_drum[k - carry] if k >= carry else 0.0
-            n_tail = from_off[k - back] if k >= back else 0.0
-            belt = drum.step(k, n_on, p_off)
-            from_drum[k] = n_on + 2 * z_carry * belt
-            from_off[k] = p_off - 2 * z_back * belt if fixed else -p_off
-            v_tail = tail.step(p_tail - n_tail)
-            self.tail_speed[k] = v_tail
-            into_carry[k] = p_tail - 2 * z_carry * v_tail
-            into_back[k] = n_tail + 2 * z_back * v_tail
+        from_drum, into_carry = self.carry
+        into_back, from_off = self.back
+        last = len(self.tail_speed)
+        for first in range(1, last, min(carry, back)):
+            end = min(first + min(carry, back), last)
+            n_on, p_off = into_carry[first:end], into_back[first:end]
+            p_tail, n_tail = from_drum[first:end], from_off[first:end]
+            belt = drum.block(first, n_on, p_off)
+            from_drum[carry + first : carry + end] = n_on + 2 * z_carry * belt
+            from_off[back + first : back + end] = p_off - 2 * z_back * belt if fixed else -p_off
+            v_tail = tail.block(p_tail - n_tail)
+            self.tail_speed[first:end] = v_tail
+            into_carry[carry + first : carry + end] = p_tail - 2 * z_carry * v_tail
+            into_back[back + first : back + end] = n_tail + 2 * z_back * v_tail
+        drum.tensions(into_carry[:last], into_back[:last])
+
+    def waves(self) -> FloatArray:
+        """What leaves drum, tail, tail and run-off, at the samples of the window."""
+        return np.concatenate([self.carry[:, self.grid.carry :], self.back[:, self.grid.back :]])[:, : self.steps + 1]
 
     def extremes(self, strand: Strand, carry: bool) -> tuple[Extreme, Extreme]:
         """Largest and smallest tension of a strand, over every pair of samples of its two waves.
 
         A sample of P and one of N meet at a node at a sample of time, or in the middle of a cell half a step later;
-        between them the waves are linear, so no other place holds an extreme of the sampled waves. From one such
-        place to the next the extreme over time changes by no more than the steepest step of a wave and of the static
-        tension, so only stretches that could still hold a better place are looked into.
+        between them the waves are linear, so no other place holds an extreme of the sampled waves. Sample u of P and
+        sample v of N meet u - v half cells from the middle of the strand, and the static tension is linear along it:
+        the tension is a number of u and one of v, and u meets a stretch of the v.
         """
-        cells = self.grid.carry if carry else self.grid.back
-        down, up = (self.from_drum, self.into_carry) if carry else (self.into_back, self.from_off)
-        pause = np.zeros(cells)
-        p, n = np.concatenate([pause, down]), np.concatenate([pause, up])
+        cells = self.cells[0 if carry else 1]
+        p, n = (self.carry if carry else self.back)[:, : cells + self.steps + 1]
         static = strand.static(np.arange(2 * cells + 1) / (2 * cells))
-        steepest = max(np.abs(np.diff(p)).max(), np.abs(np.diff(n)).max()) / 2 + abs(static[1] - static[0])
-        seen: dict[int, tuple[_Peak, _Peak]] = {}
+        along = (static[-1] - static[0]) / (2 * cells) * (np.arange(len(p)) - self.steps / 2)
+        last = 2 * self.steps - 2 + (self.last_share >= 0.5)
+        recent = range(max(self.steps - 2, 0), self.steps + 1)
+        rows = [static[::2] + (p[i : i + cells + 1] + n[i : i + cells + 1][::-1]) / 2 for i in recent]
+        final = at_end(np.array(rows), self.last_share)
+        steady = 8 * np.finfo(float).eps * max(np.abs(p).max(), np.abs(n).max(), *np.abs(static[[0, -1]]))
 
-        def place(side: int, j: int) -> _Peak:
-            """Extremes over time after j half cells, and the samples they occur at."""
-            if j not in seen:
-                middle = j % 2
-                length = self.steps + 1 - (middle if self.last_share >= middle / 2 else 2)
-                tension = static[j] + (p[(j + 1) // 2 :][:length] + n[cells - j // 2 :][:length]) / 2
-                if not middle:
-                    tension[-1] = at_end(tension, self.last_share)
-                if not len(tension):  # a window of less than half a step never comes to the middle of a cell
-                    return -math.inf, 0
-                top, bottom = int(tension.argmax()), int(tension.argmin())
-                seen[j] = (float(tension[top]), top), (-float(tension[bottom]), bottom)
-                self.cell_updates += len(tension)
-            return seen[j][side]
+        def tension(u: int, v: int) -> float:
+            return float(static[u - v + cells] + (p[u] + n[v]) / 2)
 
         found = []
-        for side, sign in enumerate((1, -1)):
-            j = _best_place(partial(place, side), 2 * cells, float(steepest))
-            value, sample = place(side, j)
-            missed = (_bend(p, sample + (j + 1) // 2) + _bend(n, sample + cells - j // 2)) / 2
-            time, position = (sample + j % 2 / 2) * self.grid.step, j / (2 * cells) * strand.length
-            found.append(Extreme(sign * value, time, position, missed))
+        for sign in (1, -1):
+            best, at = -math.inf, (0, 0)
+            for early, late in ((p, n[cells:]), (n, p[cells:])):  # both ends, which win what is equal inside
+                i = int((sign * (early[: len(late) - 1] + late[:-1])).argmax())
+                pair = (i, i + cells) if early is p else (i + cells, i)
+                if sign * tension(*pair) > best:
+                    best, at = sign * tension(*pair), pair
+            pair = best_pair(sign * (p / 2 + along), sign * (n / 2 - along), cells, last)
+            if sign * tension(*pair) > best + steady:
+                best, at = sign * tension(*pair), pair
+            place = int((sign * final).argmax())
+            if sign * final[place] > best + steady:
+                best, at = sign * float(final[place]), (self.steps + place, self.steps + cells - place)
+            u, v = self._first(sign * (p / 2), sign * (n / 2), at, last, steady)
+            missed = (_bend(p, u) + _bend(n, v)) / 2
+            time, position = (u + v - cells) / 2 * self.grid.step, (u - v + cells) / (2 * cells) * strand.length
+            found.append(Extreme(sign * best, time, position, missed))
+            self.cell_updates += len(p) * cells.bit_length()
         return found[0], found[1]
+
+    def _first(self, p: FloatArray, n: FloatArray, at: tuple[int, int], last: int, steady: float) -> tuple[int, int]:
+        """The first pair at the place of another one that comes as high: a tension that rests does so from then on."""
+        u, v = at
+        past = min(u, v, (u + v - len(p) + self.steps + 1) // 2)
+        if u + v - len(p) + self.steps + 1 > last:
+            return at
+        before = p[u - past : u + 1] + n[v - past : v + 1]
+        back = past - int((before >= before[-1] - steady).argmax())
+        return u - back, v - back
 
     def stored(self) -> float:
         """Kinetic and elastic energy of the waves on both strands at the end [J]."""
         total = 0.0
-        for strand, cells, down, up in (
-            (self.loop.carry, self.grid.carry, self.from_drum, self.into_carry),
-            (self.loop.back, self.grid.back, self.into_back, self.from_off),
-        ):
-            z = self.loop.impedances[0 if strand is self.loop.carry else 1]
-            for waves in (down, up):
-                held = np.zeros(cells + 1)
-                recent = np.asarray(waves[-(cells + 1) :])
-                held[len(held) - len(recent) :] = recent
-                total += energy.work(held**2, self.grid.step) / (4 * z)
+        for waves, cells, z in zip((self.carry, self.back), self.cells, self.loop.impedances, strict=True):
+            for one in waves[:, self.steps : self.steps + cells + 1]:
+                total += energy.work(one**2, self.grid.step) / (4 * z)
         return total
 
 
@@ -395,62 +545,82 @@ def _bend(wave: FloatArray, at: int) -> float:
     return float((second[1:] + second[:-1]).max(initial=0.0)) / 4
 
 
-def _best_place(value: Callable[[int], _Peak], last: int, steepest: float) -> int:
-    """The place of the largest value, by halving the stretches whose ends and slope allow a larger one."""
-    best = max((0, last), key=lambda j: value(j)[0])
-    stretches = [(0, last)]
-    while stretches:
-        low, high = stretches.pop()
-        reach = (value(low)[0] + value(high)[0] + steepest * (high - low)) / 2
-        if high - low < 2 or reach <= value(best)[0]:
-            continue
-        middle = (low + high) // 2
-        if value(middle)[0] > value(best)[0]:
-            best = middle
-        stretches += [(low, middle), (middle, high)]
-    return best
+def best_pair(one: FloatArray, other: FloatArray, cells: int, last: int) -> tuple[int, int]:
+    """The u and v at which one[u] + other[v] is largest, with |u - v| <= cells and 0 <= u + v - cells <= last.
+
+    For most u the v are a stretch of 2 cells + 1, whose largest is that of two stretches of a power of 2; such of the
+    double length are had from the single ones. The first of both histories are those of a strand at rest: what
+    pairs them with u + v < cells is what rests at u + v = cells, and is taken for it.
+    """
+    count, whole = last // 2 + 1, 2 * cells + 1
+    u = np.arange(count, (cells + last + cells) // 2 + 1)
+    low, lengths = u - cells, 2 * cells + last - 2 * u + 1
+    levels = np.frexp(lengths)[1] - 1
+    tables = np.concatenate([np.full(cells, -np.inf), other, np.full(cells, -np.inf)])
+    late = np.full(len(u), -np.inf)
+    for level in range(whole.bit_length()):
+        if level:
+            tables = np.maximum(tables[: -(1 << level - 1)], tables[1 << level - 1 :])
+        mine = levels == level
+        first = low[mine] + cells
+        late[mine] = np.maximum(tables[first], tables[first + lengths[mine] - (1 << level)])
+    rest = whole - (1 << whole.bit_length() - 1)
+    early = np.maximum(tables[:count], tables[rest : rest + count])
+    best = int((one[: count + len(u)] + np.concatenate([early, late])).argmax())
+    start = max(best - cells, 0)
+    stop = min(best + cells, cells + last - best) + 1
+    found = start + int(other[start:stop].argmax())
+    ahead = max(-(-(cells - best - found) // 2), 0)
+    return best + ahead, found + ahead
 
 
-def _motion(
-    loop: Loop,
-    grid: Grid,
-    times: FloatArray,
-    last_share: float,
-    drum: _Drum,
-    tail: _Node,
-    interior: _Delays,
-) -> Motion:
-    belt, rim = np.asarray(drum.belt), np.asarray(drum.drum)
-    on, off = np.asarray(drum.on), np.asarray(drum.off)
-    carry_max, carry_min = interior.extremes(loop.carry, carry=True)
-    back_max, back_min = interior.extremes(loop.back, carry=False)
-    ahead = loop.back.length
-    residual = _balance(loop, drum, tail, interior, belt, rim, on, off, grid.step)
-    for history in (times, belt, rim, on, off):
-        history[-1] = at_end(history, last_share)
-    return Motion(
-        grid=grid,
-        times=times,
-        waves=np.array([interior.from_drum, interior.into_carry, interior.into_back, interior.from_off]),
-        belt_speed=belt,
-        drum_speed=rim,
-        run_on=loop.carry.static_end + on,
-        run_off=loop.back.static_start + off,
-        carry_max=carry_max.moved(ahead),
-        carry_min=carry_min.moved(ahead),
-        back_max=back_max,
-        back_min=back_min,
-        slipped=drum.slipped,
-        reversed=bool(min(belt.min(), *interior.tail_speed) < -BACKWARD * max(belt.max(), rim.max())),
-        energy_residual=residual,
-        cell_updates=interior.cell_updates,
-    )
+class _Marched:
+    """A loop carried through the window: the histories, from which the answer is made."""
+
+    def __init__(self, loop: Loop, drive: Drive, window: float, grid: Grid) -> None:
+        self.loop, self.grid = loop, grid
+        self.steps, self.last_share = steps_of(window, grid)
+        self.interior = _Delays(loop, grid, self.steps, self.last_share)
+        times = np.arange(len(self.interior.tail_speed), dtype=np.float64) * grid.step
+        self.times = times[: self.steps + 1]
+        self.drum = _Drum(loop, drive, times, grid)
+        self.tail = _Node(loop.tail_mass, sum(loop.impedances), grid.step, grid.panel)
+        self.interior.run(self.drum, self.tail)
+
+    def motion(self) -> Motion:
+        """What `march` answers."""
+        loop, drum, interior = self.loop, self.drum, self.interior
+        belt, rim, on, off = (one[: self.steps + 1] for one in (drum.belt, drum.drum, drum.on, drum.off))
+        carry_max, carry_min = interior.extremes(loop.carry, carry=True)
+        back_max, back_min = interior.extremes(loop.back, carry=False)
+        ahead = loop.back.length
+        tail = interior.tail_speed[: self.steps + 1]
+        residual = _balance(loop, drum, float(tail[-1]), interior, belt, rim, on, off, self.grid.step)
+        for history in (self.times, belt, rim, on, off):
+            history[-1] = at_end(history, self.last_share)
+        return Motion(
+            grid=self.grid,
+            times=self.times,
+            waves=interior.waves(),
+            belt_speed=belt,
+            drum_speed=rim,
+            run_on=loop.carry.static_end + on,
+            run_off=loop.back.static_start + off,
+            carry_max=carry_max.moved(ahead),
+            carry_min=carry_min.moved(ahead),
+            back_max=back_max,
+            back_min=back_min,
+            slipped=drum.slipped,
+            reversed=bool(min(belt.min(), tail.min()) < -BACKWARD * max(belt.max(), rim.max())),
+            energy_residual=residual,
+            cell_updates=interior.cell_updates,
+        )
 
 
 def _balance(
     loop: Loop,
     drum: _Drum,
-    tail: _Node,
+    tail_speed: float,
     interior: _Delays,
     belt: FloatArray,
     rim: FloatArray,
@@ -459,13 +629,13 @@ def _balance(
     step: float,
 ) -> float:
     """Work put in at the drum against energy of belt, tail and drum and the heat of slip, in dynamic quantities."""
-    stored = interior.stored() + loop.tail_mass * tail.speed**2 / 2
+    stored = interior.stored() + loop.tail_mass * tail_speed**2 / 2
     through = energy.work((on - off) * belt, step)
     scale = energy.work(np.abs((on - off) * belt), step) + loop.least_energy
     belt_part = energy.residual(through, 0.0, stored, scale)
-    if drum.force is None:
+    if drum.forces is None:
         return belt_part
-    put_in = energy.work(np.asarray(drum.force) * rim, step)
+    put_in = energy.work(drum.forces[: len(rim)] * rim, step)
     heat = energy.work((on - off) * (rim - belt), step)
     drum_part = energy.residual(put_in, heat + through, loop.drum_mass * float(rim[-1]) ** 2 / 2, scale)
     return max(belt_part, drum_part)

@@ -6,33 +6,21 @@ a = Z1/m, so that the wave leaving the drum is P = 2 F a/(s (s + a)) sum_j (K A)
 (s - a)^j/(s (s + a)^{j+1}), whose inverse is 1 - e^{-x} L with Laguerre-like polynomials, evaluated by recursion.
 """
 
-from math import comb
-
 import numpy as np
 
 
 def _base(order: int, a: float, t: np.ndarray) -> np.ndarray:
-    """Inverse transform of a (s - a)^n/(s (s + a)^{n+1}) for n = order, by partial fractions in s/(s + a).
+    """Inverse transform of a (s - a)^n/(s (s + a)^{n+1}) for n = order.
 
-    a (s-a)^n/(s (s+a)^{n+1}): residue (-1)^n at 0; the rest is e^{-at} times a polynomial in t, from
-    (s - a)^n = ((s + a) - 2a)^n expanded about s = -a.
+    That of (s - a)^n/(s + a)^{n+1} is the Laguerre function f_n = e^{-at} L_n(2at). As a/(s (s + a)) = 1/s - 1/(s + a),
+    the sought one is h_n - f_n, h_n that of (s - a)^n/(s (s + a)^n): h_0 = 1, h_{n+1} = 2 f_n - h_n. Nothing cancels.
     """
     x = a * np.maximum(t, 0.0)
-    # with u = s + a: a (u - 2a)^n/((u - a) u^{n+1}); expand (u-2a)^n/(u-a) = q(u) + (-a)^n/(u - a)
-    # coefficients of the Taylor series of (u-2a)^n/(u-a) about u = 0 up to u^n, in units of a
-    series = [0.0] * (order + 1)
-    for k in range(order + 1):
-        # (u-2)^n = sum_i comb(n,i) u^i (-2)^(n-i);  1/(u-1) = -sum u^j
-        series[k] = -sum(comb(order, i) * (-2.0) ** (order - i) for i in range(k + 1))
-    total = np.full_like(x, (-1.0) ** order)
-    term = np.exp(-x)
-    power = np.ones_like(x)
-    factorial = 1.0
-    for p in range(order + 1):  # u^{-(p+1)} -> t^p/p! e^{-at}; its coefficient is series[n-p]
-        if p:
-            power = power * x
-            factorial *= p
-        total = total + series[order - p] * power / factorial * term
+    before, now, held = np.zeros_like(x), np.exp(-x), np.ones_like(x)
+    for n in range(order):
+        held = 2 * now - held
+        before, now = now, ((2 * n + 1 - 2 * x) * now - n * before) / (n + 1)
+    total = held - now
     return np.where(t >= 0, total, 0.0)
 
 
@@ -61,10 +49,11 @@ def run_on(
             for extra, gain in tail.items():
                 out = out + gain * (2 * force * coefficient * _base(j, a, t - delay - extra)) / 2
         grown: dict[float, float] = {}
+        kept: dict[float, float] = {}  # sums of the same delays differ by rounding
         for delay, coefficient in power.items():
             for extra, gain in tail.items():
                 if delay + extra <= horizon:
-                    key = round(delay + extra, 12)
+                    key = kept.setdefault(round(delay + extra, 9), delay + extra)
                     grown[key] = grown.get(key, 0.0) + coefficient * gain
         power = grown
         j += 1

@@ -64,14 +64,18 @@ def p1_truth() -> np.ndarray:
     return echoes.run_on(P1_FORCE, (z, z), DRUM, (transit, transit), P1_WHEN)
 
 
-def p1_ours(cells: int) -> Ours:
-    """Delay lines of so many cells a strand."""
+P1_PANEL = 12
+"""Steps a panel, over which the waves are polynomials of that degree."""
+
+
+def p1_ours(panels: int) -> Ours:
+    """Delay lines of so many panels a strand, and of all they answer the history that is asked for."""
     one = loop.Strand(P1_HALF, P1_MASS, STIFFNESS, 0.0, 0.0)
-    grid = loop.match(one.transit, one.transit, cells, 1e-6)
+    grid = loop.panelled(loop.match(one.transit, one.transit, panels, 1e-6), P1_PANEL)
     drive = loop.Drive(force=lambda t: np.full_like(t, P1_FORCE))
-    motion = strand.march(loop.Loop(one, one, DRUM, 0.0, False), drive, P1_WHEN[-1], grid)
-    history = np.interp(P1_WHEN, motion.times, motion.run_on)
-    return Ours(history, motion.waves.size, motion.waves.size + motion.cell_updates)
+    history = strand.run_on(loop.Loop(one, one, DRUM, 0.0, False), drive, P1_WHEN[-1], grid, P1_WHEN)
+    advanced = 4 * (loop.steps_of(P1_WHEN[-1], grid)[0] + 1)
+    return Ours(history, advanced, advanced)
 
 
 P1 = Problem("P1", (Line(2 * P1_HALF, P1_MASS),), lambda t, v: P1_FORCE, P1_WHEN, p1_truth, p1_ours)

@@ -24,7 +24,7 @@ from support.peers import Played, Problem
 
 # -- P1, P2: waves along a belt ----------------------------------------------------------------------------------------
 
-CELLS = {"P1": (5, 20, 80, 320), "P2": (26, 52, 105, 210)}
+CELLS = {"P1": (5, 10, 20, 50), "P2": (26, 52, 105, 210)}
 ELEMENTS = {"P1": 1600, "P2": 300}
 EXPLICIT = ("RK45", "DOP853")
 
@@ -40,7 +40,8 @@ def belt(problem: belts.Problem, title: str, target: float) -> Problem:
         answer = min(played.readings, key=lambda one: float(np.abs(one - problem.truth()).max()))
         return Played(answer, played.evaluations)
 
-    settings = tuple((f"{cells} cells", partial(_run_on, problem, cells)) for cells in CELLS[problem.name])
+    of = "panels of 12 steps" if problem is belts.P1 else "cells"
+    settings = tuple((f"{cells} {of}", partial(_run_on, problem, cells)) for cells in CELLS[problem.name])
     return Problem(problem.name, title, target, settings, problem.truth, peer, (1e-3,), math.inf)
 
 

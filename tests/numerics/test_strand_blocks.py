@@ -1,0 +1,176 @@
+"""A loop advanced in blocks and panels: against one step after the other, all pairs of samples, the echo series."""
+
+import numpy as np
+import pytest
+from support import echoes
+
+from ptmcalc.numerics import strand
+from ptmcalc.numerics.collocation import gauss
+from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, match, panelled, steps_of
+
+SEEDS = range(12)
+
+
+def drawn(seed: int, grip: bool) -> tuple[Loop, Drive, float, Grid]:
+    """A loop, what drives it, a window that ends anywhere in a step, and a grid; unlike in everything."""
+    rng = np.random.default_rng(seed)
+    stiffness, length = 10 ** rng.uniform(6, 8), 10 ** rng.uniform(1, 3)
+    low, middle, high = np.sort(rng.uniform(2e4, 2e5, 3)) if seed % 3 else (5e4, 5e4, 5e4)
+    carry, back = (
+        Strand(length, 10 ** rng.uniform(1, 2.5), stiffness, *ends) for ends in ((middle, high), (low, middle))
+    )
+    loop = Loop(
+        carry,
+        back,
+        10 ** rng.uniform(0, 4.5),
+        rng.choice([0.0, 2e3]),
+        fixed_length=bool(seed % 2),
+        grip=Grip(rng.uniform(0.5, 1.5), 12.0) if grip else None,
+        impedance_jump=bool(seed % 5),
+    )
+    rise, force = rng.uniform(0.05, 2) * carry.transit, rng.uniform(1e4, 8e4)
+    ramp = Drive(force=lambda t: force * np.clip(t / rise, 0, 1))
+    drive = ramp if seed % 4 else Drive(speed=lambda t: 3.0 * np.clip(t / rise, 0, 1))
+    window = rng.uniform(0.02, 6) * carry.transit
+    return loop, drive, window, match(carry.transit, back.transit, int(rng.integers(3, 60)), 1e-3, at_most=200)
+
+
+def by_steps(loop: Loop, drive: Drive, steps: int, grid: Grid) -> np.ndarray:
+    """The waves that leave drum, tail, tail and run-off, one step after the other."""
+    times = np.arange(steps + 1) * grid.step
+    z_carry, z_back = loop.impedances
+    z_off = z_back if loop.fixed_length else 0.0
+
+    def node(mass: float, z: float, v: float, before: float, after: float) -> float:
+        if mass == 0:
+            return after / z
+        x = z / mass * grid.step
+        late = 1 + np.expm1(-x) / x
+        return float(np.exp(-x) * v + (-(np.expm1(-x) + late) * before + late * after) / z)
+
+    waves = np.zeros((4, steps + 1))
+    belt = tail = tail_before = 0.0
+    force = drive.force(times) if drive.force else 0 * times
+    drum_before = force[0]
+    for k in range(1, steps + 1):
+        n_on, p_tail = (waves[i, k - grid.carry] if k >= grid.carry else 0.0 for i in (1, 0))
+        p_off, n_tail = (waves[i, k - grid.back] if k >= grid.back else 0.0 for i in (2, 3))
+        pushed = force[k] - n_on + (p_off if loop.fixed_length else 0.0)
+        if drive.speed:
+            belt = drive.speed(times)[k]
+        else:
+            belt = node(loop.drum_mass, z_carry + z_off, belt, drum_before, pushed)
+        tail = node(loop.tail_mass, z_carry + z_back, tail, tail_before, p_tail - n_tail)
+        drum_before, tail_before = pushed, p_tail - n_tail
+        waves[:, k] = (
+            n_on + 2 * z_carry * belt,
+            p_tail - 2 * z_carry * tail,
+            n_tail + 2 * z_back * tail,
+            p_off - 2 * z_back * belt if loop.fixed_length else -p_off,
+        )
+    return waves
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_blocks_are_the_steps_one_after_the_other(seed: int) -> None:
+    loop, drive, window, grid = drawn(seed, grip=False)
+    motion = strand.march(loop, drive, window, grid)
+    expected = by_steps(loop, drive, steps_of(window, grid)[0], grid)
+    assert motion.waves == pytest.approx(expected, rel=1e-10, abs=1e-10 * np.abs(expected).max())
+
+
+def test_a_belt_that_slips_and_sticks_within_a_block_goes_as_step_by_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    cases = [drawn(seed, grip=True) for seed in range(30)]
+    blocks = [strand.march(*case) for case in cases]
+    monkeypatch.setattr(strand._Drum, "_stuck", lambda *_: 0)
+    steps = [strand.march(*case) for case in cases]
+    assert 5 < sum(one.slipped for one in steps) < 25
+    for one, other in zip(blocks, steps, strict=True):
+        assert one.slipped == other.slipped
+        scale = np.abs(other.waves).max() + np.abs(other.run_on).max()
+        assert one.waves == pytest.approx(other.waves, rel=0, abs=1e-11 * scale)
+        assert one.drum_speed == pytest.approx(other.drum_speed, rel=1e-10, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("grip", [False, True])
+def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
+    """Every place at every time that a sample of either wave meets one of the other, in a table."""
+    loop, drive, window, grid = drawn(seed, grip)
+    motion = strand.march(loop, drive, window, grid)
+    steps, share = steps_of(window, grid)
+    for part, cells, pair, top, bottom, ahead in (
+        (loop.carry, grid.carry, motion.waves[:2], motion.carry_max, motion.carry_min, loop.back.length),
+        (loop.back, grid.back, motion.waves[2:], motion.back_max, motion.back_min, 0.0),
+    ):
+        p, n = np.concatenate([np.zeros((2, cells)), pair], axis=1)
+        seen = []
+        for j in range(2 * cells + 1):
+            static = part.static(np.array([j / (2 * cells)]))[0]
+            count = steps + 1 - j % 2 - (share < 0.5 and j % 2)
+            tension = static + (p[(j + 1) // 2 :][:count] + n[cells - j // 2 :][:count]) / 2
+            if not j % 2:
+                if len(tension) < 3:
+                    tension[-1] = tension[-2] + share * (tension[-1] - tension[-2])
+                else:
+                    a, b, c = tension[-3:]
+                    tension[-1] = b + share * (c - a) / 2 + share**2 * (c - 2 * b + a) / 2
+            seen += [(value, (i + j % 2 / 2) * grid.step, j) for i, value in enumerate(tension)]
+        values = np.array([one[0] for one in seen])
+        rounding = 1e-12 * np.abs(values).max()
+        for found, best in ((top, values.max()), (bottom, values.min())):
+            assert found.value == pytest.approx(best, rel=0, abs=rounding)
+            near = [one for one in seen if abs(one[0] - best) <= rounding]
+            place = (found.position - ahead) / part.length * 2 * cells
+            assert any(abs(when - found.time) < 1e-9 * window + 1e-12 and abs(j - place) < 1e-6 for _, when, j in near)
+
+
+def test_a_tension_that_rests_is_found_where_it_begins_to() -> None:
+    even = Strand(100.0, 100.0, 1e8, 5e4, 5e4)
+    loop = Loop(even, even, 0.0, 0.0, fixed_length=False)
+    motion = strand.march(loop, Drive(force=lambda t: np.full_like(t, 1e4)), 0.15, Grid(1e-3, 100, 100, 0.0))
+    assert motion.carry_max.value == pytest.approx(6e4, rel=1e-12)
+    assert (motion.carry_max.position, motion.carry_max.time) == pytest.approx((100.0, 0.101)), "once it is at the tail"
+
+
+class TestPanels:
+    @pytest.mark.parametrize("x", [1e-9, 1e-3, 0.7, 30.0, 1e3, 1e12, np.inf])
+    @pytest.mark.parametrize("panel", [1, 4, 12])
+    def test_weights_are_exact_for_polynomials(self, x: float, panel: int) -> None:
+        """Of (s/n)^m, m to n: y' = x (g - y) over whole panels, against the integral by parts or its series."""
+        weights, nodes = strand.panel_weights(x, panel), np.arange(panel + 1) / panel
+        for m in range(panel + 1):
+            for i in (1, panel):
+                end = i / panel
+                slow = x * panel
+                if slow < 1e-5:
+                    expected = slow * end ** (m + 1) / (m + 1) - slow**2 * end ** (m + 2) / ((m + 1) * (m + 2))
+                elif slow > 10 * panel:
+                    expected, term = 0.0, end**m
+                    for k in range(m + 1):
+                        expected += term
+                        term *= -(m - k) / (slow * end) if np.isfinite(slow) else 0.0
+                    if m == 0:
+                        expected -= np.exp(-slow * end)
+                else:
+                    at, shares = gauss(60)
+                    expected = float(np.sum(shares * end * slow * np.exp(-slow * end * (1 - at)) * (at * end) ** m))
+                assert weights[i - 1] @ nodes**m == pytest.approx(expected, rel=1e-9, abs=1e-12)
+
+    @pytest.mark.parametrize(("panel", "order"), [(2, 3.5), (4, 5.5), (6, 7.0)])
+    def test_order_through_every_echo(self, panel: int, order: float) -> None:
+        carry, back = Strand(1000.0, 245.0, 138e6, 5e5, 5e5), Strand(1000.0, 0.16 * 245.0, 138e6, 5e5, 5e5)
+        loop = Loop(carry, back, 45_120.0, 0.0, fixed_length=False)
+        errors = []
+        for cells in (10, 20):
+            grid = panelled(match(carry.transit, back.transit, cells, 1e-12, at_most=cells), panel)
+            motion = strand.march(loop, Drive(force=lambda t: np.full_like(t, 6e4)), 9.0, grid)
+            exact = echoes.run_on(6e4, loop.impedances, 45_120.0, (carry.transit, back.transit), motion.times)
+            errors.append(float(np.abs(motion.run_on - 5e5 - exact)[:-1].max()))
+        assert np.log2(errors[0] / errors[1]) > order
+
+    def test_a_history_between_its_samples(self) -> None:
+        when = np.linspace(0.0, 1.3, 77)
+        grid = Grid(0.02, 70, 70, 0.0, 7)
+        samples = np.sin(3 * np.arange(71) * grid.step)
+        assert strand.between(samples, grid, when) == pytest.approx(np.sin(3 * when), abs=1e-11)
