@@ -196,6 +196,8 @@ class TestEqualisingDrive:
         phi = run.sol((x + 0.5) * PITCH / SPEED)[0]
         assert equalising.equalising_angle(x, z) == pytest.approx(phi, abs=1e-8)
         assert equalising.equalising_speed(x, SPEED, PITCH, z) == pytest.approx(SPEED / radius / np.cos(phi), rel=1e-7)
+        for pitches in (-2, 1, 7):
+            assert equalising.equalising_angle(x + pitches, z) == pytest.approx(phi, abs=1e-8)
         ends = equalising.equalising_speed([0.0, 0.4999999999], SPEED, PITCH, z)
         assert equalising.equalising_ratio(z) == pytest.approx(ends[1] / ends[0], rel=1e-8)
         d = 1e-6

@@ -1,5 +1,6 @@
 """Method of characteristics against finite elements, closed forms and brute force."""
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,7 +11,7 @@ from scipy.integrate import solve_ivp
 from support import echoes, fem, slipping
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics import sagging
+from ptmcalc.numerics import sagging, strand
 from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Motion, Strand, match, refined
 from ptmcalc.numerics.strand import march
 
@@ -52,6 +53,23 @@ def step(force: float) -> Drive:
 
 def grid(cells: int = 200, tolerance: float = 1e-6) -> Grid:
     return match(TRANSIT[0], TRANSIT[1], cells, tolerance)
+
+
+@pytest.mark.parametrize("x", [1e-9, 1e-5, 5e-4, 9.99e-4, 1.001e-3, 0.03, 1.0, 30.0])
+def test_weights_of_the_exponential_step(x: float) -> None:
+    """Of a forcing that falls from 1 to 0, and of one that rises: x times int exp(-x (1 - u)) (1 - u or u) du."""
+    terms = [(-x) ** k / math.factorial(k) for k in range(120)]
+    new = -sum(term / (k + 1) for k, term in enumerate(terms[1:], 1)) if x <= 1 else 1 + math.expm1(-x) / x
+    decay, old, rising = strand.weights(x)
+    assert decay == pytest.approx(math.exp(-x), rel=1e-14)
+    assert rising == pytest.approx(new, rel=2e-12)
+    assert old == pytest.approx(-math.expm1(-x) - new, rel=1e-11)
+
+
+def test_inside_a_step_waves_forces_and_speeds_are_straight() -> None:
+    cell = strand._Cell((1.0, 3.0), (2.0, 7.0), (4.0, 10.0), (-1.0, 1.0))
+    assert cell.waves(0.25) == (1.5, 3.25, 5.5)
+    assert cell.speed(0.25) == -0.5
 
 
 class TestMatch:
@@ -291,13 +309,13 @@ class TestSlip:
         small = Loop(
             *(
                 replace(
-                    strand,
-                    line_mass=strand.line_mass * unit,
-                    stiffness=strand.stiffness * unit,
-                    static_start=strand.static_start * unit,
-                    static_end=strand.static_end * unit,
+                    one,
+                    line_mass=one.line_mass * unit,
+                    stiffness=one.stiffness * unit,
+                    static_start=one.static_start * unit,
+                    static_end=one.static_end * unit,
                 )
-                for strand in (real.carry, real.back)
+                for one in (real.carry, real.back)
             ),
             real.drum_mass * unit,
             0.0,
