@@ -191,8 +191,8 @@ class TestPassingBound:
         ("w", "zeta"), [(40.0, z) for z in (0.01, 0.3, 1.0, 1.9, 2.1, 9.0)] + [(4000.0, 1e-4), (4000.0, 1.9)]
     )
     def test_a_fast_mode_by_what_is_left_of_every_jump(self, w: float, zeta: float, passes: float) -> None:
-        """Jumps in a mode far above the teeth, each faded by a matrix exponential of (d, d'/w): the first 64 one by one, behind
-        them as often as they come what the last left, or every 64 of them by the norm of the map over their time."""
+        """Jumps in a mode far above the teeth, faded by a matrix exponential of (d, d'/w): the first 64 one by one,
+        behind them as often as they come what the last left, or every 64 by the norm of the map over their time."""
         speed, e, pitch, teeth = 1.5, 0.3, 0.2, 7
         h = math.pi / teeth
         radius = pitch / 2 / math.sin(h)
@@ -213,7 +213,7 @@ class TestPassingBound:
         assert bound == pytest.approx(expected, rel=1e-10)
 
     def test_many_small_teeth_about_as_fast_as_the_mode(self) -> None:
-        """Half angles h below a thousandth: the ways (phi^3 - h^2 phi)/6 R count beside the jump of speed w_s R h^2/2."""
+        """Half angles h below a thousandth: ways (phi^3 - h^2 phi) R/6 count beside jumps of speed w_s R h^2/2."""
         speed, pitch, teeth = 2.0, 0.2, 4000
         h = math.pi / teeth
         radius, w = pitch / (2 * h), speed / h

@@ -268,7 +268,7 @@ class TestGravity:
 
     @pytest.mark.parametrize("z", [0.3, 0.49, 0.51, 1.2, 1.5, 6.0])
     def test_exact_compliance_against_the_equation_of_a_beam(self, z: float) -> None:
-        """Fourth derivative +-z^2 times the second over a length of 1, a clamped root; at the tip no moment, a force of 1."""
+        """Fourth derivative +-z^2 times the second over a length of 1, a clamped root, a force of 1 at the tip."""
         for attitude, sign in (("hanging", 1.0), ("standing", -1.0)):
             if sign < 0 and z > math.pi / 2:
                 continue

@@ -118,6 +118,7 @@ class TestMotion:
         times = polygon.engagement_times(omega, epsilon, z, 6)
         turned = omega * times + epsilon * times**2 / 2
         assert turned == pytest.approx(2 * math.pi / z * np.arange(7), rel=1e-12, abs=1e-15)
+        assert polygon.engagement_times(omega, 0.0, 40, 6) == pytest.approx(math.pi / 20 / omega * np.arange(7))
         radius, d = sprocket.pitch_radius(PITCH, z), 1e-4
         t = np.linspace(0.01, 0.4, 9)
 

@@ -158,6 +158,17 @@ class TestBound:
         assert largest_possible(radius, SPEED, ROPE) <= 1.2 * found
 
 
+def test_takes_in_three_quarters_of_the_rope_at_once_and_no_more() -> None:
+    for share in (0.747, 0.753):
+        even = Map(np.array([0.0, share * 160.0 / 0.15]), np.array([0.15, 0.15]))
+        if share < 0.75:
+            motion = haul(even, 0.05, ROPE)
+            assert motion.lengths[-1] == pytest.approx((1 - share) * ROPE.length, rel=1e-12)
+            continue
+        with pytest.raises(NumericsError, match="more rope than is free"):
+            haul(even, 0.05, ROPE)
+
+
 def test_refuses_to_take_in_more_rope_than_there_is() -> None:
     with pytest.raises(NumericsError, match="more rope than is free"):
         haul(layer_map(3), SPEED, replace(ROPE, length=2.0))
