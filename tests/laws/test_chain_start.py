@@ -35,6 +35,14 @@ class TestRigidAcceleration:
         assert a / 0.325 * 40.0 == pytest.approx(20.4038, rel=1e-5)
 
 
+def test_what_is_left_of_a_series_is_reached_by_cosines_at_their_lowest() -> None:
+    """sum S_k (1 - cos) over the modes left out, every cosine at -1."""
+    parts = np.array([3.0, 2.0, 1.0, 0.5, 0.25])
+    most = float(np.sum(parts[2:] * (1 - math.cos(math.pi))))
+    assert chain_start.start_series_tail(parts[:2], float(parts.sum())) == pytest.approx(most, rel=1e-14)
+    assert chain_start.start_series_tail(-parts[:2], -float(parts.sum())) == pytest.approx(most, rel=1e-14)
+
+
 def elements(loop: LoopMasses, pieces: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mass and stiffness of the whole chain from the run-on on; rows are the tensions of its elements."""
     strands = (
