@@ -248,7 +248,7 @@ def ramp_swing(acceleration: float, gravity: float, length: float, ramp_time: fl
         across = modulus * math.sqrt((1 - other) * (1 + other)) + other * rest
         half = math.asin(min(modulus**2 * less * (2 - less) / across, 1.0)) if across else 0.0
     else:
-        half = math.asin(modulus) - math.asin(max(modulus * cn / dn, -1.0))
+        half = math.asin(modulus) - math.asin(modulus * cn / dn)
     left = 2 * math.asin(min(math.sqrt(max(acceleration / (2 * gravity) * math.sin(2 * half), 0.0)), 1.0))
     return (max(2 * tilt, left) if phase >= 2 * quarter else max(2 * half, left)), left
 

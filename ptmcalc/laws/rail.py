@@ -195,7 +195,7 @@ def gap_extremes(number: float) -> tuple[float, float]:
     turns = {k for k in (1, 2 * math.floor(number - 0.5) + 1) if 1 <= k <= 2 * number}
     sinks = {k for k in (middle, middle + 2) if 2 <= k <= 2 * number}
     less = max(_turn_near(number, k, end) for k in turns)
-    more = max((-_turn_near(number, k, end) for k in sinks), default=0.0)
+    more = max(-_turn_near(number, k, end) for k in sinks)
     return max(more, rest), max(less, rest)
 
 

@@ -35,6 +35,14 @@ class TestRigidAcceleration:
         assert a / 0.325 * 40.0 == pytest.approx(20.4038, rel=1e-5)
 
 
+def test_what_is_left_of_a_series_is_reached_by_cosines_at_their_lowest() -> None:
+    """sum S_k (1 - cos) over the modes left out, every cosine at -1."""
+    parts = np.array([3.0, 2.0, 1.0, 0.5, 0.25])
+    most = float(np.sum(parts[2:] * (1 - math.cos(math.pi))))
+    assert chain_start.start_series_tail(parts[:2], float(parts.sum())) == pytest.approx(most, rel=1e-14)
+    assert chain_start.start_series_tail(-parts[:2], -float(parts.sum())) == pytest.approx(most, rel=1e-14)
+
+
 def elements(loop: LoopMasses, pieces: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mass and stiffness of the whole chain from the run-on on; rows are the tensions of its elements."""
     strands = (
@@ -187,11 +195,13 @@ class TestPassingBound:
         assert bound == pytest.approx(w * w * (1 + 2 * zeta) * math.hypot(1, 2 * zeta) * (8 * u + jump / w), rel=1e-5)
 
     @pytest.mark.parametrize("passes", [1, 2, 9, 65, 66, 300, math.inf])
-    @pytest.mark.parametrize("zeta", [0.01, 0.3, 1.0, 1.9, 2.1, 9.0])
-    def test_a_fast_mode_by_what_is_left_of_every_jump(self, zeta: float, passes: float) -> None:
-        """Jumps in a mode of 40 rad/s, each faded by a matrix exponential of (d, d'/w): the first 64 one by one, behind
-        them as often as they come what the last left, or every 64 of them by the norm of the map over their time."""
-        w, speed, e, pitch, teeth = 40.0, 1.5, 0.3, 0.2, 7
+    @pytest.mark.parametrize(
+        ("w", "zeta"), [(40.0, z) for z in (0.01, 0.3, 1.0, 1.9, 2.1, 9.0)] + [(4000.0, 1e-4), (4000.0, 1.9)]
+    )
+    def test_a_fast_mode_by_what_is_left_of_every_jump(self, w: float, zeta: float, passes: float) -> None:
+        """Jumps in a mode far above the teeth, faded by a matrix exponential of (d, d'/w): the first 64 one by one,
+        behind them as often as they come what the last left, or every 64 by the norm of the map over their time."""
+        speed, e, pitch, teeth = 1.5, 0.3, 0.2, 7
         h = math.pi / teeth
         radius = pitch / 2 / math.sin(h)
         a = radius * (speed**2 * math.sin(h) + e * (1 - math.cos(h)))
@@ -209,6 +219,16 @@ class TestPassingBound:
         expected = 7 * a + (2 * a + min(2 * a, v / w)) * total
         bound = chain_start.passing_bound(np.array([w]), np.array([zeta]), speed, e, pitch, teeth, passes)[0]
         assert bound == pytest.approx(expected, rel=1e-10)
+
+    def test_many_small_teeth_about_as_fast_as_the_mode(self) -> None:
+        """Half angles h below a thousandth: ways (phi^3 - h^2 phi) R/6 count beside jumps of speed w_s R h^2/2."""
+        speed, pitch, teeth = 2.0, 0.2, 4000
+        h = math.pi / teeth
+        radius, w = pitch / (2 * h), speed / h
+        phi = h * np.linspace(-1.0, 1.0, 20_001)
+        u = radius * np.abs(phi**3 - h**2 * phi).max() / 6
+        bound = chain_start.passing_bound(np.array([w]), np.array([0.0]), speed, 0.0, pitch, teeth, 1)[0]
+        assert bound == pytest.approx(w * w * (8 * u + speed * radius * h * h / 2 / w), rel=1e-5)
 
     def test_nothing_bounds_endless_passes_without_damping(self) -> None:
         bound = chain_start.passing_bound(np.array([30.0]), np.array([0.0]), 1.0, 0.0, 0.2, 12, math.inf)

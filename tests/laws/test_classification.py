@@ -61,6 +61,7 @@ class TestClasses:
         assert classification.use_of_hours(1e12) == 9
         assert classification.load_class(0.0) == 1
         assert classification.load_class_en_13001(0.0) == 0
+        assert (classification.load_class(1.2), classification.load_class_en_13001(1.2)) == (4, 5)
 
     def test_both_standards_number_the_same_spectra(self) -> None:
         for k in np.linspace(0.07, 1.0, 94):

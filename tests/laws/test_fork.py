@@ -121,6 +121,13 @@ def test_bound_of_a_push(seed: int) -> None:
     pushed = one.largest(caught=False)[0]
     assert bound / 3 < pushed <= bound
     least = fork.push_least(one.force, one.stiffness, one.behind, one.drive, one.carriage, one.speed)
+    if least > one.force:  # the balance of energy it stands on
+        ratio, share = one.drive / one.carriage, one.stiffness / one.behind
+        lost = 4 * share * least * (least - one.force)
+        if ratio > 1 - one.force / least:
+            lost = share * (least * (1 + ratio) - one.force) ** 2 / ratio
+        left = least * (least - 2 * one.force) + lost
+        assert left == pytest.approx(one.stiffness * one.drive * one.speed**2, rel=1e-6, abs=1e-9 * least**2)
     assert one.force <= least <= pushed * (1 + 1e-6)
 
 
@@ -128,6 +135,8 @@ def test_limits_of_the_bounds() -> None:
     """A rigid rack and a carriage without mass: the closed form; nothing gives way behind a fork: the same."""
     closed = fork.caught_force(2e4, 1.5e4, 9e5, 9e3, 0.3)
     assert fork.caught_bound(2e4, 1.5e4, 9e5, math.inf, 9e3, 0.0, 0.3) == pytest.approx(closed, rel=1e-14)
+    held = 5e3 + math.hypot(5e3, 0.3 * math.sqrt(7e5 * (9e3 + 4e3)))  # a stiff rope: 5 kN and all masses on the rack
+    assert fork.rack_bound(2e4, 1.5e4, math.inf, 7e5, 9e3, 4e3, 0.3) == pytest.approx(held, rel=1e-14)
     pushed = fork.push_force(4e3, 5e5, 300.0, 0.4)
     assert fork.push_bound(4e3, 5e5, math.inf, 300.0, 0.4) == pytest.approx(pushed, rel=1e-14)
     for carriage in (10.0, 1e4):

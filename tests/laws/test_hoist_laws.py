@@ -98,6 +98,20 @@ class TestDrum:
         for more, layers in ((-1e-6, 1), (0.0, 1), (1e-6, 2)):
             assert rope_drum.turns_for_length(full + more, 0.3, 0.0175, 36.0, 0.0152, "nested")[1] == layers
 
+    @pytest.mark.parametrize("layers", [1.5, 2.5, 5.9, 8.0])
+    def test_rope_on_a_wide_drum(self, layers: float) -> None:
+        length = layers * 360 * math.tau * 0.76
+        found = rope_drum.turns_for_length(length, 1.5, 0.0175, 360.0, 0.0152, "nested")
+        expected = layers_turn_by_turn(length, 0.75875, 0.0152, 360, nested=True)
+        assert found == (pytest.approx(expected[0], rel=1e-12), expected[1])
+
+    @pytest.mark.parametrize("length", [0.3, 5.0, 60.0])
+    def test_rope_on_a_thread(self, length: float) -> None:
+        """A core thinner than the rope: the layers grow faster than their number."""
+        found = rope_drum.turns_for_length(length, 0.001, 0.0175, 2.0, 0.0152, "nested")
+        expected = layers_turn_by_turn(length, 0.00925, 0.0152, 2, nested=True)
+        assert found == (pytest.approx(expected[0], rel=1e-12), expected[1])
+
     @pytest.mark.parametrize("packing", ["nested", "square"])
     def test_what_lies_below_a_layer_is_what_the_layers_below_take(self, packing: str) -> None:
         below = rope_drum.length_below(np.arange(1, 9), 0.3, 0.0175, 36.0, 0.0152, packing)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
-from scipy.linalg import eigh
+from scipy.linalg import eigh, expm
 from support.beams import beam, frame_tip, masted
 
 from ptmcalc.laws import mast, mast_modes
@@ -265,6 +265,20 @@ class TestGravity:
         expected = np.linalg.solve(stiffness, np.eye(len(stiffness))[:, -2])[-2]
         found = mast.weighted_tip_compliance(6.0, 4.2e7, 1 / rotation if rotation else math.inf, weight, attitude)
         assert found == pytest.approx(expected, rel=1e-7)
+
+    @pytest.mark.parametrize("z", [0.3, 0.49, 0.51, 1.2, 1.5, 6.0])
+    def test_exact_compliance_against_the_equation_of_a_beam(self, z: float) -> None:
+        """Fourth derivative +-z^2 times the second over a length of 1, a clamped root, a force of 1 at the tip."""
+        for attitude, sign in (("hanging", 1.0), ("standing", -1.0)):
+            if sign < 0 and z > math.pi / 2:
+                continue
+            rate = np.eye(4, k=1)
+            rate[3, 2] = sign * z * z
+            ends = expm(rate)[:, 2:]  # of the second and third derivative at the root
+            tip = np.array([ends[2], ends[3] - sign * z * z * ends[1]])
+            expected = ends[0] @ np.linalg.solve(tip, [0.0, -1.0])
+            found = mast.weighted_tip_compliance(1.0, 1.0, math.inf, z * z, attitude)
+            assert found == pytest.approx(expected, rel=1e-9)
 
     @pytest.mark.parametrize("attitude", ["hanging", "standing"])
     @pytest.mark.parametrize("rotation", [0.0, 5e-8])

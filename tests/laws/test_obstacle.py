@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
 
 from ptmcalc.laws import buffer, obstacle
 
@@ -86,6 +87,16 @@ class TestBound:
         found = self.most(m1, m2, c, v, push, k)
         assert found > 1.01 * old
         assert found <= obstacle.column_force_bound(m1 + m2, c, v, push, k * 0.01, 0.01, 1.0)
+
+    @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+    def test_what_the_indentation_adds_is_the_work_on_the_way_in(self, exponent: float) -> None:
+        """P goes in by x where the contact pushes back as much, and what it does not store of P x is over."""
+        push, force, deep = 4e3, 3e5, 0.01
+        x = brentq(lambda x: force * (x / deep) ** exponent - push, 0.0, 2 * deep, xtol=1e-16, rtol=1e-14)
+        over = push * x - quad(lambda u: force * (u / deep) ** exponent, 0, x)[0]
+        most = push + math.sqrt(push**2 + 6e5 * (7.1e3 * 0.8**2 + 2 * over))
+        found = obstacle.column_force_bound(7.1e3, 6e5, 0.8, push, force, deep, exponent)
+        assert found == pytest.approx(most, rel=1e-9)
 
     def test_a_rigid_obstacle_and_a_drive_that_is_off(self) -> None:
         same = buffer.collision_force_bound(5e3, 2.1e3, 6e5, 0.8, 4e3)

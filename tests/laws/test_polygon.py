@@ -118,6 +118,7 @@ class TestMotion:
         times = polygon.engagement_times(omega, epsilon, z, 6)
         turned = omega * times + epsilon * times**2 / 2
         assert turned == pytest.approx(2 * math.pi / z * np.arange(7), rel=1e-12, abs=1e-15)
+        assert polygon.engagement_times(omega, 0.0, 40, 6) == pytest.approx(math.pi / 20 / omega * np.arange(7))
         radius, d = sprocket.pitch_radius(PITCH, z), 1e-4
         t = np.linspace(0.01, 0.4, 9)
 
@@ -196,6 +197,8 @@ class TestEqualisingDrive:
         phi = run.sol((x + 0.5) * PITCH / SPEED)[0]
         assert equalising.equalising_angle(x, z) == pytest.approx(phi, abs=1e-8)
         assert equalising.equalising_speed(x, SPEED, PITCH, z) == pytest.approx(SPEED / radius / np.cos(phi), rel=1e-7)
+        for pitches in (-2, 1, 7):
+            assert equalising.equalising_angle(x + pitches, z) == pytest.approx(phi, abs=1e-8)
         ends = equalising.equalising_speed([0.0, 0.4999999999], SPEED, PITCH, z)
         assert equalising.equalising_ratio(z) == pytest.approx(ends[1] / ends[0], rel=1e-8)
         d = 1e-6

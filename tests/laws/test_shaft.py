@@ -1,6 +1,7 @@
 """Laws of the main shaft against integrations, quadratures and each other's inverses that share nothing with them."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -150,6 +151,13 @@ class TestRunOut:
     @pytest.mark.parametrize("given", STOPS)
     def test_a_braked_stop_is_the_integral_of_its_motion(self, given: tuple[float, ...]) -> None:
         assert shaft.braked_stop(*given) == pytest.approx(stopped(*given), rel=1e-9)
+
+    @pytest.mark.parametrize("x", [0.0, 1e-9, 0.4, 1.0, 1.0001, 3.0, 40.0])
+    def test_weights_of_a_fading_motion(self, x: float) -> None:
+        """Integrals of exp(-x (1 - u)) times 1, u and u^2/2 over u from 0 to 1."""
+        parts: list[Callable[[float], float]] = [lambda u: 1.0, lambda u: u, lambda u: u * u / 2]
+        expected = [quad(lambda u, part=part: math.exp(-x * (1 - u)) * part(u), 0, 1)[0] for part in parts]
+        assert shaft._phi(x) == pytest.approx(expected, rel=1e-9)
 
     def test_without_viscous_losses_it_is_the_stop_of_a_brake(self) -> None:
         """The same stop by a law of another module."""

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from ptmcalc.laws import slewing
 
@@ -88,6 +89,16 @@ def test_a_self_locking_gear_with_a_light_rotor_jams_as_the_brake_closes() -> No
     assert slewing.geared_stop(6e4, 9e3, 0.4, -0.5, 0.1, 5e3, 0.0, -3e2, 0.2, 0.1) == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("wind", [-3e2, -2e3])
+def test_a_gear_just_self_locking_is_the_limit_of_one_that_lets_back(wind: float) -> None:
+    """At eta_r = 0 the motor brake stops its own rotor and nothing of the crane comes back to it."""
+    case = (6e4, 9e3, 0.5)
+    rest = (0.1, 5e3, 0.0, wind, 0.0, 0.3)
+    found, near = slewing.geared_stop(*case, 0.0, *rest), slewing.geared_stop(*case, 1e-10, *rest)
+    assert found == pytest.approx(near, rel=1e-6)
+    assert found[0] == pytest.approx(0.15 + 0.1 * 9e3 / 5e3, rel=1e-12)  # half of the rise is lost
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_no_start_throws_a_load_beyond_its_reach(seed: int) -> None:
     """The bound is one of energy: a load that has it all, in a frame that turns with the crane, is just there."""
@@ -97,6 +108,13 @@ def test_no_start_throws_a_load_beyond_its_reach(seed: int) -> None:
     if angle == math.pi:
         assert reach == radius + rope
         return
+    if speed**2 * ((radius + rope) ** 2 + jib / mass) < 2 * 9.81 * rope:
+
+        def beyond(r: float) -> float:
+            return radius + rope * math.sin(math.acos(1 - speed**2 * (r**2 + jib / mass) / (2 * 9.81 * rope))) - r
+
+        furthest = brentq(beyond, radius, radius + rope, xtol=1e-14, rtol=1e-14)
+        assert furthest * (1 - 1e-12) <= reach <= furthest * (1 + 1e-8)
     assert reach >= radius + rope * math.sin(angle) * (1 - 1e-6)
     left = speed**2 * (reach**2 + jib / mass) / 2 - 9.81 * rope * (1 - math.cos(angle))
     assert left <= 1e-6 * speed**2 * (reach**2 + jib / mass)

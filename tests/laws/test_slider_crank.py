@@ -88,6 +88,22 @@ class TestInertia:
             found = float(slider_crank.reduced_inertia(angle, *shape, *MASSES))
             assert found == pytest.approx(energy, rel=1e-7, abs=1e-9)
 
+    def test_a_rod_that_is_a_point_and_one_that_only_turns(self, shape: tuple[float, float, float]) -> None:
+        """Speeds by differences of where the parts are, without a slider that weighs."""
+
+        def point(phi: float) -> complex:
+            return pin(phi, shape) + 0.3 * (slider(phi, shape) - pin(phi, shape))
+
+        def rod(phi: float) -> complex:
+            across = slider(phi, shape) - pin(phi, shape)
+            return complex(math.atan2(across.imag, across.real), 0)
+
+        for angle in ANGLES:
+            moved, turned = abs(slope(point, angle)) ** 2, slope(rod, angle).real ** 2
+            for mass, about in ((9.0, 0.0), (0.0, 2.0), (9.0, 2.0)):
+                found = float(slider_crank.reduced_inertia(angle, *shape, 0.0, mass, 0.3, about))
+                assert found == pytest.approx(mass * moved + about * turned, rel=1e-7, abs=1e-9)
+
     def test_its_slope_is_its_slope(self, shape: tuple[float, float, float]) -> None:
         def value(phi: float) -> complex:
             return complex(float(slider_crank.reduced_inertia(phi, *shape, *MASSES)), 0)

@@ -12,6 +12,12 @@ def test_own_mass() -> None:
     assert standard_factors.hoisting_factors(0.0) == (1.0, 1.0)
 
 
+@pytest.mark.parametrize("spread", [-1e-9, 0.1004, math.inf, math.nan])
+def test_own_mass_spreads_by_a_tenth_at_most(spread: float) -> None:
+    with pytest.raises(ValueError, match="by 0 to"):
+        standard_factors.hoisting_factors(spread)
+
+
 class TestDrive:
     @pytest.mark.parametrize(
         ("change", "factors"), [("centrifugal", (1.0, 1.0)), ("smooth", (1.0, 1.5)), ("sudden", (1.5, 2.0))]

@@ -288,6 +288,28 @@ class TestPhases:
     def test_a_torque_that_rises_at_once_is_a_step(self, shape: str) -> None:
         assert [phase.stray for phase in start_profile.phases(shape, False, 0.0, 3.0)] == [1.0, 1.0]
 
+    def test_bounds_by_hand(self) -> None:
+        """w t_s = 10 for the formulas, hardly any rise for their caps."""
+        b = math.pi / 10
+        for shape, imposed_speed, formulas, caps in (
+            (RAMP, False, (0.1, 0.2), (1, 1)),
+            (RAMP, True, (1, 2), (1, 2)),
+            (PARABOLIC, False, (0.16, 0.16), (1, 1)),
+            (PARABOLIC, True, (0.6, 0.8), (2, 2)),
+            (COSINE, False, (b * b / (1 - b * b),) * 2, (1, 1)),
+            (COSINE, True, (b / (1 - b), 2 * b / (1 - b * b)), (2, 2)),
+        ):
+            for x, expected in ((10.0, formulas), (1e-3, caps)):
+                found = [phase.stray for phase in start_profile.phases(shape, imposed_speed, 2.0, x / 2)]
+                assert found == pytest.approx(expected, rel=1e-12), (shape, imposed_speed)
+
+    def test_a_table_of_two_points_is_a_ramp(self) -> None:
+        """A ramp of speed rings by the same jumps, as a table or by its name; one of torque by both of its corners."""
+        ramp = ((0.0, 0.0), (1.0, 1.0))
+        assert start_profile.phases(ramp, True, RISE, 5.0) == start_profile.phases(RAMP, True, RISE, 5.0)
+        corners = 2 / (RISE * 5.0)
+        assert start_profile.phases(ramp, False, RISE, 5.0) == (Phase(0.0, 1.0, corners), Phase(1.0, 1.0, corners))
+
     def test_a_step_of_speed_is_refused(self) -> None:
         with pytest.raises(ValueError, match="infinite force"):
             start_profile.phases(STEP, True, 0.0, 1.0)

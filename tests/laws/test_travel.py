@@ -148,6 +148,9 @@ class TestWheelByWheel:
             a = skid.slipping_acceleration(pushes, rotors, 4e4, 3e3, 0.14, loads, transfers)
             found = brentq(lambda a: sum(f for f, _ in rails(a)) - 3e3 - 4e4 * a, -30, 30, xtol=1e-14)
             assert a == pytest.approx(found, abs=1e-10)
+            small = [of * 2.0**-30 for of in (pushes, rotors, loads, transfers)]  # a toy of the same crane
+            sizes = (4e4 * 2.0**-30, 3e3 * 2.0**-30, 0.14)
+            assert a == skid.slipping_acceleration(*small[:2], *sizes, *small[2:])
             forces = [
                 float(skid.rail_force(a, *wheel, 0.14, load, transfer))
                 for *wheel, load, transfer in zip(pushes, rotors, loads, transfers, strict=True)

@@ -67,6 +67,8 @@ class TestTakeup:
     def test_both_branches_meet_where_the_load_is_just_not_lifted(self) -> None:
         weak = 0.4 * Q
         needed = np.sqrt(Q * (Q - 2 * weak) / (K * DRIVE))
+        exact = two_mass.takeup(DRIVE, LOAD, K, 2.0**15, 2.0**16, 0.0)  # from rest it just brings twice its force
+        assert (exact.lifted, exact.peak_force, exact.lift_off_speed) == (False, 2.0**16, 0.0)
         above = two_mass.takeup(DRIVE, LOAD, K, weak, Q, needed * (1 + 1e-12))
         below = two_mass.takeup(DRIVE, LOAD, K, weak, Q, needed * (1 - 1e-12))
         assert above.peak_force == pytest.approx(Q, rel=1e-5)

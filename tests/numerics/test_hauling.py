@@ -95,6 +95,25 @@ class TestMotion:
         strain, force = motion.at(np.linspace(0, motion.times[-1], 300))
         assert np.array_equal(strain, force)
 
+    @pytest.mark.parametrize("seed", range(3))
+    def test_what_is_taken_in_is_the_way_of_the_drum(self, seed: int) -> None:
+        radius = random_map(seed)
+        motion = haul(radius, SPEED, replace(ROPE, length=20.0))
+        for time in np.linspace(0, motion.times[-1], 31):
+            corners = [0.0, *(one for one in radius.angles[1:-1] / SPEED if one < time), time]
+            at = np.array(corners)
+            speeds = SPEED * np.interp(SPEED * at, radius.angles, radius.radii)
+            taken = np.trapezoid(speeds, at) / (1 + STATIC)
+            assert motion.rope_length(time) == pytest.approx(20.0 - taken, rel=1e-13)
+
+    def test_an_extreme_at_the_end_has_the_bar_of_the_end(self) -> None:
+        """A climb of half a swing: the force is largest where it ends."""
+        motion = haul(Map(np.array([0.0, 0.5, 0.6]), np.array([0.15, 0.15, 0.165])), SPEED, ROPE)
+        most = motion.extremes()[0]
+        assert most.time == motion.times[-1]
+        assert most.error == pytest.approx(float(motion.bar(most.time)), rel=1e-12)
+        assert most.error > 2 * float(motion.bar(0.0))
+
     def test_an_even_drum_does_nothing(self) -> None:
         motion = haul(Map(np.array([0.0, 5.0]), np.array([0.15, 0.15])), SPEED, ROPE)
         most, least = motion.extremes()
@@ -139,8 +158,24 @@ class TestBound:
         assert largest_possible(radius, SPEED, ROPE) <= 1.2 * found
 
 
+def test_takes_in_three_quarters_of_the_rope_at_once_and_no_more() -> None:
+    for share in (0.747, 0.753):
+        even = Map(np.array([0.0, share * 160.0 / 0.15]), np.array([0.15, 0.15]))
+        if share < 0.75:
+            motion = haul(even, 0.05, ROPE)
+            assert motion.lengths[-1] == pytest.approx((1 - share) * ROPE.length, rel=1e-12)
+            continue
+        with pytest.raises(NumericsError, match="more rope than is free"):
+            haul(even, 0.05, ROPE)
+
+
 def test_refuses_to_take_in_more_rope_than_there_is() -> None:
     with pytest.raises(NumericsError, match="more rope than is free"):
         haul(layer_map(3), SPEED, replace(ROPE, length=2.0))
+    even = Map(np.array([0.0, 1.0]), np.array([1e-9, 1e-9]))
+    speed = math.sqrt(ROPE.rate / ROPE.length) / (2 * math.pi * 1e6)
+    assert haul(even, 1.004 * speed, ROPE).extremes()[0].value == 0.0
+    with pytest.raises(NumericsError, match="swings"):
+        haul(even, 0.996 * speed, ROPE)
     with pytest.raises(NumericsError, match="swings"):
         haul(Map(np.array([0.0, 1.0]), np.array([1e-9, 1e-9])), 1e-6, ROPE)

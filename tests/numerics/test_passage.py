@@ -83,6 +83,19 @@ class TestEnds:
         assert done.end.time == pytest.approx(math.asin(0.999), rel=1e-7)
 
 
+@pytest.mark.parametrize("angle", [1.0, 5.0, 9.0])
+def test_a_coarse_step_still_ends_on_its_event(angle: float) -> None:
+    """A pendulum over the top, in steps whose polynomials stray by some 1e-10 before the last one is made again."""
+    done = follow(Phase(lambda t, a, w: -9.0 * np.sin(a), marks(), until_angle=angle), State(0.0, 0.0, 7.0), 7, 1e-6)
+    assert float(done.steps[-1].at(np.array([1.0]))[1][0]) == pytest.approx(angle, rel=1e-14)
+
+
+def test_a_linear_motion_takes_one_jacobian_and_one_step_of_newton() -> None:
+    """Eleven nodes thrice for the differences, once before, once after the step, and once more to see it stand."""
+    done = follow(Phase(lambda t, a, w: -0.5 * w, marks(), until_time=3.7), State(0.0, 1.0, 8.0), 11, 1e-9)
+    assert done.evaluations <= 6 * 11 * len(done.steps)
+
+
 def test_steps_join_and_know_their_inside() -> None:
     phase = Phase(lambda t, a, w: -9.0 * np.sin(a), marks(), until_time=4.0)
     done = follow(phase, State(0.0, 0.0, 20.0), 11, 1e-11)

@@ -1,5 +1,6 @@
 """Method of characteristics against finite elements, closed forms and brute force."""
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,8 +11,8 @@ from scipy.integrate import solve_ivp
 from support import echoes, fem, slipping
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics import sagging
-from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Motion, Strand, match, refined
+from ptmcalc.numerics import sagging, strand
+from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Motion, Strand, at_end, match, refined
 from ptmcalc.numerics.strand import march
 
 EA = 2.0e7
@@ -52,6 +53,46 @@ def step(force: float) -> Drive:
 
 def grid(cells: int = 200, tolerance: float = 1e-6) -> Grid:
     return match(TRANSIT[0], TRANSIT[1], cells, tolerance)
+
+
+@pytest.mark.parametrize("x", [1e-9, 1e-5, 5e-4, 9.99e-4, 1.001e-3, 0.03, 1.0, 30.0])
+def test_weights_of_the_exponential_step(x: float) -> None:
+    """Of a forcing that falls from 1 to 0, and of one that rises: x times int exp(-x (1 - u)) (1 - u or u) du."""
+    terms = [(-x) ** k / math.factorial(k) for k in range(120)]
+    new = -sum(term / (k + 1) for k, term in enumerate(terms[1:], 1)) if x <= 1 else 1 + math.expm1(-x) / x
+    decay, old, rising = strand.weights(x)
+    assert decay == pytest.approx(math.exp(-x), rel=1e-14)
+    assert rising == pytest.approx(new, rel=2e-12)
+    assert old == pytest.approx(-math.expm1(-x) - new, rel=1e-11)
+
+
+def test_inside_a_step_waves_forces_and_speeds_are_straight() -> None:
+    cell = strand._Cell((1.0, 3.0), (2.0, 7.0), (4.0, 10.0), (-1.0, 1.0))
+    assert cell.waves(0.25) == (1.5, 3.25, 5.5)
+    assert cell.speed(0.25) == -0.5
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_a_history_that_ends_inside_its_last_step(share: float) -> None:
+    assert at_end(np.array([2.0, 5.0]), share) == pytest.approx(2 + 3 * share, rel=1e-14)
+    places = np.array([-2.0, -1.0, 0.0, 1.0])
+    parabola = np.polynomial.Polynomial([3.0, -1.0, 0.7])
+    assert at_end(parabola(places), share) == pytest.approx(parabola(share), rel=1e-14)
+
+
+@pytest.mark.parametrize("off", [0.0, 3e-5, -3e-5, 1e-3, 0.3, 20.0])
+def test_tension_of_a_sagging_cell_is_a_root_of_its_cubic(off: float) -> None:
+    """S^3 - target S^2 = lump, from wherever the last steps point."""
+    target, lump = np.array([-4e3, 0.0, 900.0, 3e4]), np.array([2e11, 5e9, 3e8, 1e10])
+    roots = np.array([max(np.roots([1.0, -t, 0.0, -c]).real) for t, c in zip(target, lump, strict=True)])
+    last = roots * (1 + off)
+    assert sagging._tension(target, lump, last, last) == pytest.approx(roots, rel=2e-13)
+
+
+@pytest.mark.parametrize("power", [1, 2, 3, 9])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_event_inside_a_step_is_a_root(power: int, sign: float) -> None:
+    assert strand._root(lambda x: sign * (x**power - 0.2), 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
 
 
 class TestMatch:
@@ -134,6 +175,17 @@ class TestAgainstFiniteElements:
         assert motion.carry_min.value == pytest.approx(carry.min(), abs=0.02 * force)
         assert motion.back_max.value == pytest.approx(back.max(), abs=0.02 * force)
         assert motion.back_min.value == pytest.approx(back.min(), abs=0.02 * force)
+        line = loop(rigid=rigid, on=60e3, off=60e3, tail_tension=60e3)
+        for other, static in (motion, 0.0), (sagging.march(line, step(force), window, sagging.grid_of(line, 60)), 60e3):
+            for begin, tensions, found in (
+                (LENGTHS[1], carry[::-1], (other.carry_max, other.carry_min)),
+                (0.0, back[::-1], (other.back_max, other.back_min)),
+            ):
+                for extreme in found:  # they are where and when they are said to be
+                    row = int((extreme.position - begin) / 400.0 * (len(tensions) - 1))
+                    column = round(extreme.time / window * 1600)
+                    near = tensions[max(row - 8, 0) : row + 9, max(column - 20, 0) : column + 21]
+                    assert np.abs(near + static - extreme.value).min() < 0.02 * force, extreme
 
     @pytest.mark.parametrize("rigid", [False, True])
     def test_imposed_cosine(self, rigid: bool) -> None:
@@ -291,13 +343,13 @@ class TestSlip:
         small = Loop(
             *(
                 replace(
-                    strand,
-                    line_mass=strand.line_mass * unit,
-                    stiffness=strand.stiffness * unit,
-                    static_start=strand.static_start * unit,
-                    static_end=strand.static_end * unit,
+                    one,
+                    line_mass=one.line_mass * unit,
+                    stiffness=one.stiffness * unit,
+                    static_start=one.static_start * unit,
+                    static_end=one.static_end * unit,
                 )
-                for strand in (real.carry, real.back)
+                for one in (real.carry, real.back)
             ),
             real.drum_mass * unit,
             0.0,

@@ -94,15 +94,17 @@ def test_a_sum_never_rises_above_what_its_modes_followed() -> None:
 @pytest.mark.parametrize("group", [200_000, 500])
 def test_the_work_is_the_places_looked_at_of_every_mode(group: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "_GROUP", group)
-    looked = []
+    looked, inside = [], []
 
     def seen(times: np.ndarray, middles: np.ndarray) -> np.ndarray:
         looked.append(times.size)
+        inside.extend(middles.tolist())
         return direct(times, middles)
 
     found = tooth_passes(edges(), inputs, W, ZETA, GAINS, seen)
     assert found.work == len(W) * sum(looked)
     assert (len(looked) > 1) == (group == 500)
+    assert inside == pytest.approx((edges()[1:] + edges()[:-1]) / 2, rel=1e-14)
 
 
 def test_too_many_teeth_say_so() -> None:
