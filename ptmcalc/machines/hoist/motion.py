@@ -44,7 +44,7 @@ _UNSEEN = FADED + 3e-12
 _CLOSES = 1e-9
 _MOST_EVENTS = 2000
 """Events after which a load or a gear is said to chatter: without damping it never ends."""
-_LEAST_WORK, _MOST_TIMES = 5e4, 10.0
+_LEAST_WORK, _MOST_TIMES = 2e4, 5.0
 """Panels that any run may take, and how many times the predicted ones."""
 _LONGER = 4
 """How often a stop that is not over is looked at twice as long."""

@@ -29,7 +29,7 @@ _SECONDS = 8e-4
 """Of a panel."""
 _EVENTS = 12
 """Corners that go to and fro along a rope with mass, in a prediction."""
-_LEAST_PANELS, _MOST_TIMES = 400, 10.0
+_LEAST_PANELS, _MOST_TIMES = 200, 5.0
 """Panels that any run may take, and how many times the predicted ones."""
 
 

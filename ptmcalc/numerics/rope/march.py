@@ -49,6 +49,8 @@ _LEFT = 1e-2
 what the panels were made for."""
 _MOST_PANELS = 40_000
 _MOST_AT_ONCE = 40
+_VAIN = 4
+"""Panels whose time one that does not converge takes beside its own."""
 _NOISE = 1e-11
 _SHORTEST = 1e-5
 
@@ -424,6 +426,7 @@ class March:
             panel, fired = self._panel(done, h)
             if panel is None:
                 length = h / 2
+                tried += _VAIN
                 self._runs_out(done)
                 if length < _SHORTEST * self.longest:
                     raise NumericsError("NUM102", "the motion of drive and rope does not converge")
