@@ -10,6 +10,7 @@ from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
 from ptmcalc.machines.hoist.moving import Case, Moving, case_of
 from ptmcalc.machines.hoist.reduced import (
+    hook_brake_force,
     hook_speed,
     motor_torque,
     moving_inertia,
@@ -336,9 +337,15 @@ def _falls(case: Case) -> bool:
 
 
 def _fastest(spec: Hoist, scene: Moving) -> float:
-    """Of the hook [m/s]; that of a load which its brake does not hold grows as fast as it falls at most."""
+    """Of the hook [m/s]; that of a load its brake does not hold grows as it falls with the drive: freely
+    until the brake has its torque, then by what is left of the weight."""
     case, speed = case_of(spec, scene, ALWAYS), hook_speed(spec, scene)
-    return speed + spec.gravity * case.window if _falls(case) else speed
+    if not _falls(case) or spec.brake is None:
+        return speed
+    one = reduced(spec, scene)
+    freely = one.weight / (one.load_mass + one.drive_mass)
+    left = max(1 - hook_brake_force(spec, scene) / one.weight, 0.0)
+    return speed + freely * (spec.brake.delay + spec.brake.rise_time + left * case.window)
 
 
 def _length(spec: Hoist, scene: Moving) -> float:
@@ -370,7 +377,7 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     frequency, (l_0/l_1)^(1/2): those of lifting off with the length until then.
 
     **Range** a drive of constant speed; twice the change of length is allowed for one that swings. A load that its
-    brake does not hold falls: V comes to v + g T at most and the change of length to that of the drop.
+    brake does not hold falls: V is what that adds to it and the change of length to that of the drop.
     **Error** an upper bound for a constant speed and one frequency. In a structure the beat of two
     frequencies shifts with the rope's: its forces are given four times as much, calibrated on a seeded sample (2.0).
     **Source** derived from the equation of `laws.rope_rod.hauling_gain`.
