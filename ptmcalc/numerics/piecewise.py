@@ -20,7 +20,7 @@ from ptmcalc.numerics.flow import MOST_PANELS, RESOLVED, Chunk, Flow
 from ptmcalc.numerics.glide import Glide
 from ptmcalc.numerics.motion import Mode, System
 from ptmcalc.numerics.panels import FloatArray
-from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.record import CROSSING, LONG, Record
 from ptmcalc.numerics.stretch import Piece
 
 JAMMED = "jammed"
@@ -36,6 +36,8 @@ _STEADY = 8
 """Long panels after which a length that was too long is tried again."""
 _SHOWN = 1e-3
 """Share of a signal that a curve over time must not leave out."""
+_LOOK = 10.0
+"""Panels that a look at some in a row takes beside them."""
 _MOST_AT_ONCE = 200
 """Events in a row without any progress in time."""
 
@@ -50,6 +52,7 @@ def march(
     refined: float = 1.0,
     keep: bool = False,
     most_events: int = MOST_EVENTS,
+    most_work: float = math.inf,
 ) -> Record:
     """The motion from a state at time 0 to `end`, through all events.
 
@@ -62,16 +65,18 @@ def march(
         refined: panels over the usual ones; two runs of unlike panels share no rounding.
         keep: whether signals are kept over time.
         most_events: where a chattering contact is given up.
+        most_work: where the march is given up, in panels; looks that come to nothing count too.
 
     Raises:
-        NumericsError: NUM101, too many events or a nonlinear input that no stretch resolves.
+        NumericsError: NUM101, too many events or steps or a nonlinear input that no stretch resolves.
     """
-    return _March(system, tolerance, refined, most_events).go(mode, state, end, keep)
+    return _March(system, tolerance, refined, most_events, most_work).go(mode, state, end, keep)
 
 
 class _March:
-    def __init__(self, system: System, tolerance: float, refined: float, most_events: int) -> None:
+    def __init__(self, system: System, tolerance: float, refined: float, most_events: int, most_work: float) -> None:
         self.system, self.tolerance, self.most_events = system, tolerance, most_events
+        self.most_work, self.work = most_work, 0.0
         self.resolved = RESOLVED * refined
         self.unheard: int | None = None
         """guard that crosses without changing anything: too flat for its sign to be told; not heard for one panel"""
@@ -87,6 +92,7 @@ class _March:
         reaction = replace(reaction, events=first)  # how it starts is no event
         record = Record.starting(self._piece(reaction.mode).now(reaction.state), self.products, keep)
         record.began = reaction.mode
+        record.most_looks = min(record.most_looks, self.most_work / LONG)
         still = 0
         while True:
             record.mode, record.state = reaction.mode, reaction.state
@@ -104,11 +110,18 @@ class _March:
                 record.time = stop
             else:
                 record.crossings += 1
+                self._pay(record, CROSSING)
             still = still + 1 if record.time <= before else 0
             if still > _MOST_AT_ONCE:
                 raise NumericsError("NUM101", f"contacts change without end at {record.time:.6g} s")
             reaction = system.react(record.mode, record.time, record.state, fired)
             self.unheard = fired if still and reaction.mode == record.mode else None
+
+    def _pay(self, record: Record, work: float) -> None:
+        """Take account of work before it is done, and give up where it is too much."""
+        self.work += work
+        if self.work > self.most_work:
+            raise NumericsError("NUM101", f"more than {self.most_work:.2g} steps by {record.time:.3g} s: given up")
 
     def _piece(self, mode: Mode) -> "Piece":
         piece = self.pieces.get(mode)
@@ -126,6 +139,7 @@ class _March:
             return fired
         self.reach, entering = (piece.entry if math.isfinite(piece.entry) else self.reach), True
         while record.time < stop:
+            self._pay(record, CROSSING)
             flow, state, span = piece.stretch(record.state / scale, self.reach, stop - record.time, self.tolerance)
             self.reach = piece.reach
             if entering:
@@ -152,6 +166,7 @@ class _March:
                     continue
             soon = math.inf
             wanted = max(1, min(count, int(left / panel)))
+            self._pay(record, _LOOK + wanted)
             chunk = flow.chunk(panel)
             starts = chunk.starts(state, wanted)
             hit = _first_hit(flow, chunk, starts, unheard)
@@ -177,6 +192,7 @@ class _March:
         glide = self.glides.setdefault(flow, Glide(flow))
         length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
         while length >= _GLIDES * panel:
+            self._pay(record, LONG * tries)
             if length > min(stop - record.time, longest):
                 length /= 2
                 continue

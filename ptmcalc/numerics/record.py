@@ -19,7 +19,9 @@ _BATCH = 256
 """Panels that are worked off at once."""
 _PARTS = 4
 """A long panel that tells too little is looked at in so many."""
-_LOOKS_ONE_BY_ONE, _MOST_LOOKS = 4_000, 1_000_000
+_LOOKS_ONE_BY_ONE, _MOST_LOOKS, _ROUND = 4_000, 1_000_000, 40
+PANEL, LONG, CROSSING = 4e-6, 15.0, 60.0
+"""Seconds of a panel; how many of them a long panel and a crossing take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +97,8 @@ class Record:
     long: int = 0
     """of the steps, the long ones"""
     crossings: int = 0
+    most_looks: float = _MOST_LOOKS
+    """where looks for the summits within long panels are given up"""
     """guards that were crossed, also where that is no event worth a name"""
     _waiting: list["_Panels"] = field(default_factory=list)
     _count: int = 0
@@ -155,6 +159,11 @@ class Record:
         self._waiting.clear()
         self._count = self._sized = 0
 
+    @property
+    def work(self) -> float:
+        """What it took, in panels: a long one takes as long as fifteen, a crossing as sixty."""
+        return self.steps - self.long + LONG * self.long + CROSSING * self.crossings
+
     # -- long panels --------------------------------------------------------------------------------------------
 
     def see_long(self, glide: "Glide", panel: float, states: FloatArray, bands: list["Band"]) -> None:
@@ -206,7 +215,7 @@ class Record:
         """The extremes in long panels, best first: of each signal the panel that promises most is divided, until none
         promises more than what has been found; all of them where that takes long."""
         self._look()
-        looks = 0
+        looks = rounds = 0
         while self._kept:
             self.top.settle()
             self.bottom.settle()
@@ -219,7 +228,8 @@ class Record:
             self._kept = [kept[k] for k in np.flatnonzero(np.any(beyond, axis=1) & ~chosen)]
             looks += len(self._passed)
             self._look()
-            if looks > _MOST_LOOKS:
+            rounds += 1
+            if looks + _ROUND * rounds > self.most_looks:
                 raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be told apart")
 
     def _watched(self, lengths: FloatArray) -> FloatArray:

@@ -15,21 +15,18 @@ from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
-from ptmcalc.numerics.train.modes import damped, frequencies
+from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth
-from ptmcalc.numerics.train.signals import FloatArray
 from ptmcalc.numerics.train.system import TrainSystem
 
 _CLOSES = 1e-9
 _LONGEST, _FIRST = 4096.0, 0.25
 _CHATTER, _LAST_PART = 60, 0.05
 _PERIODS = 10
-_FADES = 25.0
-_GLIDED = 200.0
-_RADIAN, _LONG_RADIAN, _EVENTS, _ROUNDS = 2e-5, 5e-5, 5e-3, 3.0
-"""Seconds a radian takes that is followed, one that is passed over by long panels, and the events of a play; what a
-smooth torque curve costs over a linear motion."""
+_EVENTS, _ROUNDS = 5e-3, 3.0
+"""Seconds that the events of a play take; what a smooth torque curve costs over a linear motion."""
 BESIDE = 0.3
 """Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
 _DUST = 1e-11
@@ -277,30 +274,6 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
 def seconds(case: Case, end: float) -> float:
     """Predicted seconds of one run and of that it is compared with: what rings, and a few events for every play."""
     smooth = is_smooth(case)
-    ringing = _RADIAN * _fastest(case, end) if smooth else _linear(case, end)
+    ringing = price.RADIAN * price.radians(case.train, end) if smooth else price.linear(case.train, end)
     plays = 1 + sum(spring.play > 0 for spring in case.train.springs)
     return 2 * (_ROUNDS if smooth else 1.0) * (ringing + _EVENTS * plays)
-
-
-def _fastest(case: Case, end: float) -> float:
-    """Radians of the fastest vibration to the end or until it has faded: a smooth curve has to follow it."""
-    values, seen = _seen(case, end)
-    return float((values * seen).max(initial=1.0))
-
-
-def _linear(case: Case, end: float) -> float:
-    """Seconds of what rings in a linear motion.
-
-    It goes over what rings beside something slower by long panels, so that no more than some hundred radians of it
-    are looked at; the slowest vibration that is left is followed until it has faded.
-    """
-    values, seen = _seen(case, end)
-    before = np.concatenate([[0.0], np.maximum.accumulate(seen)])[: len(seen)]
-    alone = values * np.maximum(seen - before, 0.0)
-    return float((_RADIAN * alone + _LONG_RADIAN * np.minimum(values * seen, _GLIDED)).sum())
-
-
-def _seen(case: Case, end: float) -> tuple[FloatArray, FloatArray]:
-    """Frequencies of the vibrations, rising, and how long each is seen [s]."""
-    values, fading = damped(case.train)
-    return values, np.minimum(end, np.divide(_FADES, fading, out=np.full_like(fading, math.inf), where=fading > 0))

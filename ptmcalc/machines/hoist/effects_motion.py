@@ -8,8 +8,9 @@ from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
-from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist.moving import Case, Moving, case_of
 from ptmcalc.machines.hoist.reduced import (
+    hook_brake_force,
     hook_speed,
     motor_torque,
     moving_inertia,
@@ -325,7 +326,26 @@ def _shortening(spec: Hoist, scene: Moving) -> float:
     """Part of the rope's length that runs onto the drum or off it while the scene is looked at."""
     if isinstance(scene, Release):
         return 0.0
-    return hook_speed(spec, scene) * case_of(spec, scene, ALWAYS).window / _length(spec, scene)
+    case = case_of(spec, scene, ALWAYS)
+    way = _fastest(spec, scene) * case.window
+    return (min(way, case.drop) if _falls(case) else way) / _length(spec, scene)
+
+
+def _falls(case: Case) -> bool:
+    """Whether the load goes down through a brake that does not hold it."""
+    return case.stops and not case.holds
+
+
+def _fastest(spec: Hoist, scene: Moving) -> float:
+    """Of the hook [m/s]; that of a load its brake does not hold grows as it falls with the drive: freely
+    until the brake has its torque, then by what is left of the weight."""
+    case, speed = case_of(spec, scene, ALWAYS), hook_speed(spec, scene)
+    if not _falls(case) or spec.brake is None:
+        return speed
+    one = reduced(spec, scene)
+    freely = one.weight / (one.load_mass + one.drive_mass)
+    left = max(1 - hook_brake_force(spec, scene) / one.weight, 0.0)
+    return speed + freely * (spec.brake.delay + spec.brake.rise_time + left * case.window)
 
 
 def _length(spec: Hoist, scene: Moving) -> float:
@@ -356,7 +376,8 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     what the cosine adds never comes to more than one of its halves. Paid out A falls as much. Times go with the
     frequency, (l_0/l_1)^(1/2): those of lifting off with the length until then.
 
-    **Range** a drive of constant speed; twice the change of length is allowed for one that swings.
+    **Range** a drive of constant speed; twice the change of length is allowed for one that swings. A load that its
+    brake does not hold falls: V is what that adds to it and the change of length to that of the drop.
     **Error** an upper bound for a constant speed and one frequency. In a structure the beat of two
     frequencies shifts with the rope's: its forces are given four times as much, calibrated on a seeded sample (2.0).
     **Source** derived from the equation of `laws.rope_rod.hauling_gain`.
@@ -369,8 +390,9 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     turn = math.sqrt(one.stiffness / one.load_mass)
     if "natural_frequency" in loads and math.isfinite(loads["natural_frequency"].value):
         turn = min(turn, loads["natural_frequency"].value)
-    beside = hook_speed(spec, scene) / (2 * _length(spec, scene) * (1 - part) * turn)
-    rise = min(math.expm1(beside - math.log1p(-part) / 4), gain) * _dynamic_share(loads, one.weight)
+    beside = _fastest(spec, scene) / (2 * _length(spec, scene) * (1 - part) * turn)
+    growth = min(beside - math.log1p(-part) / 4, math.log1p(gain))
+    rise = math.expm1(growth) * _dynamic_share(loads, one.weight)
     if rise == 0:
         return {}
     found = _around_forces(loads, one.weight, rise)

@@ -18,6 +18,7 @@ from ptmcalc.machines.hoist.moving import (
     HOOK,
     LEAST_LEFT,
     LOAD,
+    LONGEST,
     MOTOR,
     ROPE,
     SHAFT,
@@ -29,7 +30,8 @@ from ptmcalc.machines.hoist.moving import (
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.record import PANEL, Record
+from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.system import TrainSystem
@@ -42,9 +44,8 @@ _UNSEEN = FADED + 3e-12
 _CLOSES = 1e-9
 _MOST_EVENTS = 2000
 """Events after which a load or a gear is said to chatter: without damping it never ends."""
-_FADES = 25.0
-_GLIDED = 200.0
-"""Radians of a vibration beyond which long panels go over it."""
+_LEAST_WORK, _MOST_TIMES = 2e4, 5.0
+"""Panels that any run may take, and how many times the predicted ones."""
 _LONGER = 4
 """How often a stop that is not over is looked at twice as long."""
 _FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
@@ -81,7 +82,16 @@ def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0
     system = TrainSystem(case.train)
     start = system.start()
     end = end or case.window
-    record = march(system, *start, end, tolerance=tolerance, refined=refined, keep=keep, most_events=_MOST_EVENTS)
+    record = march(
+        system,
+        *start,
+        end,
+        tolerance=tolerance,
+        refined=refined,
+        keep=keep,
+        most_events=_MOST_EVENTS,
+        most_work=_most_work(case, tolerance),
+    )
     return Course(case, system, record, ledger(system, start, record))
 
 
@@ -286,25 +296,23 @@ def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> floa
 
 
 def cost(case: Case, level: int) -> float:
-    """Seconds predicted: the panels of each vibration over the window or until it has faded, and a few events.
-
-    A linear motion goes over what rings fast by long panels, so that no vibration takes more than some hundred; a
-    smooth torque curve has to follow the fastest one.
-    """
-    values = frequencies(case.train)
-    if not len(values):
-        return 4e-3
-    damped = min((one.damping / one.stiffness for one in case.train.springs if one.stiffness), default=0.0)
-    radians = values * np.minimum(case.window, _FADES / (values**2 * damped / 2) if damped else case.window)
+    """Seconds predicted of a run and those it is compared with: what rings, as long as it has to be looked at, and a
+    few events."""
     if case.smooth:
-        return 4e-3 + 2 * (2e-5 * float(radians.max()) + 5e-3) * (1 + level / 2)
-    return 4e-3 + 2 * (5e-5 * float(np.minimum(radians, _GLIDED).sum()) + 5e-3)
+        ringing = price.RADIAN * price.radians(case.train, case.window)
+        return 4e-3 + 2 * (ringing + 5e-3) * (1 + level / 2)
+    return 4e-3 + 2 * (price.linear(case.train, case.window) + 5e-3)
+
+
+def _most_work(case: Case, tolerance: float) -> float:
+    """Panels after which a run is given up: many times what was predicted, so that no run takes far longer."""
+    return _LEAST_WORK + _MOST_TIMES * cost(case, TOLERANCES.index(tolerance)) / PANEL
 
 
 def spent(course: Course) -> float:
     """Seconds of a run by its panels and crossings: a load that jumps on its rope has hundreds."""
     record = course.record
-    return 1e-2 + 4e-6 * (record.steps - record.long) + 6e-5 * record.long + 2.4e-4 * record.crossings
+    return 1e-2 + PANEL * record.work
 
 
 # -- a whole solver run ---------------------------------------------------------------------------------------------
@@ -325,6 +333,8 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         found = _with_a_hook(found, case)
     if isinstance(scene, Release) and scene.manner == "slow":
         found = _slowly(found, case)
+    if isinstance(scene, Lift) and outlasts(case) and not math.isfinite(lift_off_time(course)):
+        found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
     found["natural_frequency"] = Found(Estimate.exact(float(frequencies(case.train).min(initial=math.inf))))
     findings = list(_remarks(scene, course))
     closes = 10 * tolerance if case.smooth else _CLOSES
@@ -410,10 +420,25 @@ def tripped(scene: Moving, time: float) -> Finding:
     )
 
 
+def outlasts(case: Case) -> bool:
+    """Whether a lift by a drive that is strong enough may take longer than anything is looked at."""
+    return case.window >= LONGEST and not case.weak
+
+
 def stalls(scene: Lift, case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Finding]:
     """A drive that stalls in a lift, with its phase; `largest` is the largest force of the rope and its time."""
     if lifted and not case.weak:
         return []
+    if not lifted and outlasts(case):
+        return [
+            Finding(
+                "NUM103",
+                f"scene `{scene.label}`: the load still stands on the ground as the longest window of"
+                f" {case.window:.3g} s ends; what comes later is not looked at",
+                ("speed",),
+                "a larger speed",
+            )
+        ]
     force, time = largest[0], largest[1] or 0.0
     phase = "taking up the slack" if force <= 0 else "tensioning the rope"
     if lifted:

@@ -60,7 +60,8 @@ SHAFT, FLANK = "gear shaft", "gear shaft, back of the teeth"
 BRAKE, DRIVE = "brake", "drive"
 _STEEL = 7850.0
 _PERIODS = 6
-_LONGEST = 600.0
+LONGEST = 600.0
+"""No scene is looked at for longer [s]."""
 _PIECES = 64
 _LOOKED_AT = 2001
 _SLOPES = 2.5
@@ -443,7 +444,7 @@ class _Builder:
         free = math.sqrt(self._hook_stiffness / self.mass)
         ringing = _PERIODS * 2 * math.pi / min(slowest, free)
         before = self._until_lift_off() if self.lifts else self._rigid_time()
-        return min(before + ringing, _LONGEST)
+        return min(before + ringing, LONGEST)
 
     def _until_lift_off(self) -> float:
         """Time in which the slack is run out and the rope tightened [s], or the drive has come to rest."""

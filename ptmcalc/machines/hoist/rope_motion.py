@@ -29,6 +29,8 @@ _SECONDS = 8e-4
 """Of a panel."""
 _EVENTS = 12
 """Corners that go to and fro along a rope with mass, in a prediction."""
+_LEAST_PANELS, _MOST_TIMES = 200, 5.0
+"""Panels that any run may take, and how many times the predicted ones."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,7 @@ def play(spec: Hoist, scene: Moving, rope: Rod | Hauled, window: float, finer: f
     """One run over a window."""
     haul = rope_case.haul(spec, scene)
     march = March(haul, rope, finer)
-    played = march.play(window)
+    played = march.play(window, _LEAST_PANELS + _MOST_TIMES * _panels(march, window))
     left, scale = energy(march, played)
     return Course(haul, rope, travel(spec, scene), played, left / scale)
 
@@ -252,8 +254,11 @@ def histories(course: Course) -> Mapping[str, History]:
 def cost(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> float:
     """Seconds predicted: the panels of two runs, each as long as approximation or the corners of a rod allow, which go
     to and fro for ever, those of the drive's own course from both ends."""
-    haul = rope_case.haul(spec, scene)
-    longest = March(haul, rope, FINENESS[level]).longest
-    panels = rope_case.case(spec, scene).window / longest * (1 + _COMPARED)
-    corners = _EVENTS + 2 * len(haul.breaks) if isinstance(rope, Rod) else 1
-    return 1e-3 + _SECONDS * panels * corners
+    march = March(rope_case.haul(spec, scene), rope, FINENESS[level])
+    return 1e-3 + _SECONDS * _panels(march, rope_case.case(spec, scene).window) * (1 + _COMPARED)
+
+
+def _panels(march: March, window: float) -> float:
+    """Panels predicted of one run."""
+    corners = _EVENTS + 2 * len(march.haul.breaks) if isinstance(march.rope, Rod) else 1
+    return window / march.longest * corners

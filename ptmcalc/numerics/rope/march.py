@@ -44,8 +44,13 @@ _COARSE = 1e-3
 """Share of the longest panel below which the tail is rounding."""
 _CRUSHED = 1e-3
 """Strained over unstrained rope below which only a step that does not converge leads: the rope is slack long before."""
+_LEFT = 1e-2
+"""Share of its length below which a rope is hauled in: its stiffness, which goes with what is left, is a hundred times
+what the panels were made for."""
 _MOST_PANELS = 40_000
 _MOST_AT_ONCE = 40
+_VAIN = 4
+"""Panels whose time one that does not converge takes beside its own."""
 _NOISE = 1e-11
 _SHORTEST = 1e-5
 
@@ -396,29 +401,42 @@ class March:
             mode = mode._replace(piece=haul.stages[0].law.piece(haul.speed))
         return mode, y
 
-    def play(self, end: float) -> Played:
-        """The motion until a time."""
+    def play(self, end: float, most_panels: float = _MOST_PANELS) -> Played:
+        """The motion until a time; it is given up after so many panels, those that did not converge among them.
+
+        Raises:
+            NumericsError: NUM102, too many panels, or one that converges at no length.
+        """
         mode, y = self.begin()
         done = Played([], [], mode, 0.0, y, 0.0)
         breaks = [time for time in self.haul.breaks if time < end]
         done.mode, done.state = self._settled(done, mode, y, 0.0, "start")
-        at_once, length = 0, self.longest
+        at_once, length, tried = 0, self.longest, 0
         while done.time < end * (1 - 1e-14):
             stop = min([end, *(time for time in breaks if time > done.time * (1 + 1e-14) + 1e-15)])
             stop = min(stop, self._next_end(done.time))
             h = min(length, stop - done.time)
             full = h >= stop - done.time
+            tried += 1
+            if tried > most_panels:
+                raise NumericsError(
+                    "NUM102",
+                    f"drive and rope take more than {most_panels:.2g} steps by {done.time:.3g} s: given up",
+                )
             panel, fired = self._panel(done, h)
             if panel is None:
                 length = h / 2
+                tried += _VAIN
+                self._runs_out(done)
                 if length < _SHORTEST * self.longest:
                     raise NumericsError("NUM102", "the motion of drive and rope does not converge")
                 continue
             if panel.length > 0:
                 self._take(done, panel)
+                self._runs_out(done)
                 if full and fired is None:
                     done.time = stop
-                length, at_once = self.longest, 0
+                length, at_once = min(self.longest, 2 * length), 0
             else:
                 at_once += 1
                 if at_once > _MOST_AT_ONCE:
@@ -431,9 +449,12 @@ class March:
                 done.mode, done.state = self._settled(done, done.mode, done.state, done.time, fired)
                 if done.mode.trip != trip:
                     breaks += [done.time + one for one in self.haul.breaks_after_the_trip]
-            if len(done.panels) > _MOST_PANELS:
-                raise NumericsError("NUM102", "the waves of this rope take too many steps")
         return done
+
+    def _runs_out(self, done: Played) -> None:
+        """With next to nothing left of the rope the load hangs on the drum: nothing elastic can be followed."""
+        if self.hauled is not None and self.hauled.length - done.state[S] < _LEFT * self.hauled.length:
+            raise NumericsError("NUM104", f"the drum has hauled in all of the rope by {done.time:.3g} s")
 
     def _next_end(self, time: float) -> float:
         """The next time at which a corner arrives, a transit after it left."""
