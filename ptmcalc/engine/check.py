@@ -35,6 +35,7 @@ from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
+from ptmcalc.engine.unknown import why_open
 from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
@@ -317,6 +318,8 @@ class _Assembly:
         check, scene = ruling.check, self.settled.plan.scene
         verdict, reason = ruling.verdict, ruling.reason
         blame = ruling.blame
+        if verdict is Verdict.UNDECIDED and not (ruling.value is not None and ruling.value.bounded):
+            reason = why_open(self.kind, self.spec, self.settled, check.loads) or reason
         flip = self.flips.get((scene.label, check.code, check.element))
         if flip and verdict in (Verdict.PASS, Verdict.FAIL):
             assumed, end, other = flip

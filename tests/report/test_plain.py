@@ -64,7 +64,7 @@ def test_the_worst_come_first(path: str) -> None:
             "open_bar",
             [
                 "toy.yaml:2:7: undecided TOY101 too much weight on the hook [hang]: 8 kN (no bound), at most 10 kN is"
-                " sound; the error bar straddles the limit"
+                " sound; `pull` has no bound while `hanging` leaves out `waves`"
             ],
         ),
         (

@@ -233,7 +233,8 @@ def _no_interval(one: Estimate) -> Iterator[str]:
 
 def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
     """A verdict without a number that bears it, an open one without a reason; `told` whether the report says why some
-    numbers are not known."""
+    numbers are not known, which the reason of a check may do as well: by the load, and who leaves out or rules out
+    what."""
     value, limit = judgement.value, judgement.limit
     if judgement.verdict in (Verdict.PASS, Verdict.FAIL):
         if value is None or limit is None or any(_no_interval(value)):
@@ -248,7 +249,7 @@ def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
         if not judgement.reason:
             yield "is undecided without a reason"
         unknown = value is None or not (value.bounded or value.low == value.high)
-        if unknown and not told:
+        if unknown and not told and not any(f"`{load}`" in judgement.reason for load in judgement.loads):
             yield f"is undecided for {value} and no finding says why"
 
 
