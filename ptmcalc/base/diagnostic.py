@@ -60,7 +60,7 @@ BROKEN = "BUG101"
 
 CODES: Mapping[str, CodeText] = MappingProxyType(
     {
-        BROKEN: CodeText(
+        "BUG101": CodeText(
             "an error of ptmcalc itself",
             "The program broke down on this file; the other files of the run are not touched by it.",
             "Please report it with the file and the output of the same command under PTMCALC_TRACEBACK=1.",

@@ -58,7 +58,7 @@ class Run:
             named = part(named, shard)
             told = told if shard.startswith("1/") else []
         if len(named) < FEW and not self.store and self.jobs is None:
-            return (*engine.check_paths(named, self.options), *told)
+            return (*told, *engine.check_paths(named, self.options))
         return self._batch(named, told)
 
     def _batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:

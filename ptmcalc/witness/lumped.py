@@ -114,8 +114,8 @@ def eigenvalues(train: Train) -> list[complex]:
 
 
 def compared(coarse: Mapping[str, float], fine: Mapping[str, float]) -> dict[str, Found]:
-    """Loads of the finer of two runs, each with three times what it differs by from the coarser one."""
-    return {name: Found(estimate(coarse[name], value)) for name, value in fine.items()}
+    """Loads that both of two runs tell, by the finer one, each with three times what it differs by from the coarser."""
+    return {name: Found(estimate(coarse[name], value)) for name, value in fine.items() if name in coarse}
 
 
 def estimate(coarse: float, fine: float, margin: float = _MARGIN) -> Estimate:

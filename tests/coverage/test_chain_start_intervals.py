@@ -294,6 +294,8 @@ def hold_trial(number: int) -> Trial:
     rng = np.random.default_rng((SEED, 7, number))
     data = random_chain(rng)
     data["layout"]["resistance"] |= {"turn_factor": 1.0}
+    if number % 2 == 0:  # steep enough to run back
+        data["layout"] |= {"lift": f"{0.7 * float(str(data['layout']['length']).split()[0])} m"}
     data |= {"scenes": [{"type": "backstop"}], "backstop": {"torque": "1 kN*m"}}
     number_of = {key: float(str(data["layout"][key]).split()[0]) for key in ("length", "lift", "load")}
     chain, resistance = float(data["chain"]["mass"].split()[0]), data["layout"]["resistance"]

@@ -29,7 +29,7 @@ LIMITS = (
 FINER = 16
 MOST_CONTOURS = 8  # longer scenes cost more and say no more
 EFFECTS = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers"})
-SEEDS = range(36)
+SEEDS = range(42)
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ MOST_EVALUATIONS = {
     "conveyor/hollow_conveyor.yaml": 18_000_000,
     "conveyor/two_drive_conveyor.yaml": 20_000_000,
     "conveyor/screw_takeup_conveyor.yaml": 8_000_000,
-    "conveyor/overland_conveyor.yaml": 10_000_000,
+    "conveyor/overland_conveyor.yaml": 25_000_000,
     "conveyor/grain_conveyor.yaml": 20_000_000,
     "chain_drive.yaml": 100_000,
     "chain_drive/roller_drive.yaml": 10_000,

@@ -329,6 +329,8 @@ def contradictions(runs: Iterable[Run], dust: Mapping[str, float] | None = None)
             a, b = one.estimates[name], other.estimates[name]
             if math.isnan(a.value + b.value) and not (math.isinf(a.value) and math.isinf(b.value)):
                 continue  # `faulty` says so
+            if name == "tension_min" and max(a.high, b.high) < 0:
+                continue  # both say that it goes slack; how far below 0 a tension would be is a number of no chain
             rounding = ROUNDING * (abs(a.value) + abs(b.value)) if math.isfinite(a.value + b.value) else 0.0
             rounding += (dust or {}).get(name, 0.0)
             if max(a.low, b.low) > min(a.high, b.high) + rounding:

@@ -434,9 +434,10 @@ def moved(
         U' = (U x + change e)/(x - change),   e = exp(-mu alpha) of the drum's `grips`
 
     with x the least tension at a drum less the centrifugal one; its reserve, without that one, from the ratio of
-    tensions that it stands for. Where a drum then still holds, nothing slips. The mean of all that moves follows
-    Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
-    rest by what a wave of that size makes of its speed:
+    tensions that it stands for. The run-off is the slack side, or the tight one and the slack side as many times less
+    as the ratio of both says: so x is no less than its least tension over the largest ratio. Where a drum then still
+    holds, nothing slips. The mean of all that moves follows Newton's law whatever the waves are, so the head's way is
+    off by no more than the belt is stretched, and its time to rest by what a wave of that size makes of its speed:
 
     An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
 
@@ -449,8 +450,6 @@ def moved(
     delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
     slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
-    lowest = min((one.low for name, one in loads.items() if family(name) == "tension_min"), default=np.inf)
-    slack = min(slack, lowest)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
@@ -490,14 +489,18 @@ def _moved_grip(
 ) -> Interval:
     """How far the grip of a drum, or the least of several, may be off."""
     reserve = family(name) == "slip_reserve_min"
-    grip = slack if reserve else slack - line.centrifugal_at_speed
     _, _, drum = name.partition("[")
     exponents = [grips[drum[:-1]]] if drum and drum[:-1] in grips else list(grips.values())
-    if not exponents or not grip > change or not np.isfinite(load.value):
+    if not exponents or not np.isfinite(load.value):
         return ANYTHING
     ends = []
     for exponent in exponents:
         squeeze = float(np.exp(-exponent))
+        most = capstan.slip_ratio(load.low, exponent) if reserve else load.high
+        lift = 0.0 if reserve else line.centrifugal_at_speed
+        grip = (slack - lift) / max(most / squeeze, 1.0) if squeeze > 0 else 0.0
+        if not grip > change:
+            return ANYTHING
         ratio = capstan.slip_ratio(load.value, exponent) if reserve else load.value
         ratios = (
             (ratio * grip + change * squeeze) / (grip - change),

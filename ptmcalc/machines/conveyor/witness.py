@@ -246,7 +246,8 @@ def _of_drive(case: Moving, name: str, on: FloatArray, off: FloatArray, speed: F
     used = (tight - lift) / (slack - lift) * math.exp(-exponent)
     at_rest = float((tight / slack).max()) - 1  # centrifugal tension has no part in what the drum transmits
     found[of("slip_utilisation_max", name)] = float(used.max())
-    found[of("slip_reserve_min", name)] = math.expm1(exponent) / at_rest if at_rest > 0 else math.inf
+    held = at_rest * math.exp(-exponent)  # over e^(mu alpha), which is beyond all numbers for a rope of many turns
+    found[of("slip_reserve_min", name)] = -math.expm1(-exponent) / held if held > 0 else math.inf
     return found
 
 

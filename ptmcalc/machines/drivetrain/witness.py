@@ -16,6 +16,9 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, Train
 from ptmcalc.witness import lumped
 from ptmcalc.witness.lumped import History
 
+_AS_GOOD_AS_STILL = 1e-6
+"""Share of the largest speed."""
+
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
     """Loads of a scene with all links elastic, by eighth-order steps (DOP853) from event to event.
@@ -70,6 +73,9 @@ def _readings(spec: Drivetrain, case: Case, history: History) -> dict[str, float
         group = history.mechanism.of[case.main]
         rests = history.times("turning", group, lambda turn: turn == 0)
         stopped = history.turning[group] == 0
+        nearly = abs(history.last["speed", case.main]) <= _AS_GOOD_AS_STILL * history.largest("speed", case.main)
+        if not stopped and nearly:
+            return found  # it comes to rest as the scene ends: these steps cannot tell whether just before
         found["stop_time"] = (rests[-1] if rests else 0.0) if stopped else math.inf
         way = abs(history.last["position", case.main] - history.first["position", case.main])
         found["stop_angle"] = way if stopped else math.inf

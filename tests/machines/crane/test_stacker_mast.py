@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.bars import claim_of
 from support.machines import changed, load_of, loaded, report_of, scene_of
 from support.stacker_masts import OVERHEAD, RACK
 from support.stopped_mast import stop, stopped
@@ -14,7 +15,7 @@ from ptmcalc.contract.report import SceneReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.laws.mast_modes import Mast, mast_frequency
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL, MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 TYPES = {one.type: one for one in load_kind("crane").types}
@@ -194,7 +195,12 @@ class TestCollision:
         assert squares[1] - squares[0] == pytest.approx(6e5 * 1.0**2 * (1800 + 0.375 * 1200), rel=1e-9)
 
     def test_a_limit_inside_the_bar_of_the_weights_is_told_by_a_run_with_them(self) -> None:
-        plain = load_of(scene_of(report_of(HIT), ""), "collision_force").estimate
+        spec = loaded(HIT).spec
+        assert isinstance(spec, Stacker)
+        plan = plan_scene(
+            next(one for one in load_kind("crane").types if one.type == "overhead_stacker"), spec, spec.all_scenes[0]
+        )
+        plain = claim_of(plan, spec, COLLISION_MODAL, COLLISION_MODAL.always)["collision_force"]
         assert plain.bar > 5e-3 * plain.value
         inside = f"{plain.value * 1.002:.7g} N"
         scene = scene_of(report_of(changed(HIT, checks={"column_force": inside})), "")
