@@ -435,9 +435,10 @@ def moved(
 
     with x the least tension at a drum less the centrifugal one; its reserve, without that one, from the ratio of
     tensions that it stands for. The run-off is the slack side, or the tight one and the slack side as many times less
-    as the ratio of both says: so x is no less than its least tension over the largest ratio. Where a drum then still
-    holds, nothing slips. The mean of all that moves follows Newton's law whatever the waves are, so the head's way is
-    off by no more than the belt is stretched, and its time to rest by what a wave of that size makes of its speed:
+    as the ratio of both says: so x is no less than its least tension over the largest ratio, nor than the least
+    anywhere. Where a drum then still holds, nothing slips. The mean of all that moves follows Newton's law whatever the
+    waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by what a wave of
+    that size makes of its speed:
 
     An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
 
@@ -450,12 +451,13 @@ def moved(
     delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
     slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
+    lowest = min((one.low for name, one in loads.items() if family(name) == "tension_min"), default=-np.inf)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
         grip = name.replace(family(name), "slip_utilisation_max", 1)
         used = loads.get(grip)
-        return used is not None and used.high + _moved_grip(line, grip, used, change, slack, grips).high < 1
+        return used is not None and used.high + _moved_grip(line, grip, used, change, slack, lowest, grips).high < 1
 
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
@@ -470,7 +472,7 @@ def moved(
             weakest = line.breaking_force / (tension - change) if tension > change else np.inf
             found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
         elif kind in GRIP:
-            found[name] = _moved_grip(line, name, estimate, change, slack, grips)
+            found[name] = _moved_grip(line, name, estimate, change, slack, lowest, grips)
         elif kind == "sag_relative_max":
             found[name] = _moved_sag(line, loads, change)
         elif kind in DRIVE and asked:
@@ -485,7 +487,7 @@ def moved(
 
 
 def _moved_grip(
-    line: BeltLine, name: str, load: Estimate, change: float, slack: float, grips: Mapping[str, float]
+    line: BeltLine, name: str, load: Estimate, change: float, slack: float, lowest: float, grips: Mapping[str, float]
 ) -> Interval:
     """How far the grip of a drum, or the least of several, may be off."""
     reserve = family(name) == "slip_reserve_min"
@@ -498,7 +500,7 @@ def _moved_grip(
         squeeze = float(np.exp(-exponent))
         most = capstan.slip_ratio(load.low, exponent) if reserve else load.high
         lift = 0.0 if reserve else line.centrifugal_at_speed
-        grip = (slack - lift) / max(most / squeeze, 1.0) if squeeze > 0 else 0.0
+        grip = max((slack - lift) / max(most / squeeze, 1.0) if squeeze > 0 else 0.0, min(slack, lowest) - lift)
         if not grip > change:
             return ANYTHING
         ratio = capstan.slip_ratio(load.value, exponent) if reserve else load.value
