@@ -22,20 +22,8 @@ from pathlib import Path
 
 import pytest
 from support.command import ROOT, environment
+from support.libraries import LIBRARIES, READY
 
-LIBRARIES = "import typer, pydantic, yaml, rich, numpy"
-READY = f"""{LIBRARIES}
-class Model(pydantic.BaseModel):
-    size: int = 1
-Model()
-app = typer.Typer(rich_markup_mode=None)
-@app.command()
-def command(size: int = 1) -> None: ...
-try:
-    app([])
-except SystemExit:
-    pass
-"""
 CLOSED = "specs/hoist/winding_paper/height_25_rope_17_5.yaml"
 PROCESSES = {
     "libraries": ("-c", LIBRARIES),

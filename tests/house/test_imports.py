@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from support.command import ROOT, environment, python
+from support.libraries import READY
 
 PROBE = """
 import json, sys
@@ -89,19 +90,6 @@ def test_the_probe_sees_what_is_imported(tmp_path: Path) -> None:
 
 CLOSED = "specs/hoist/winding_paper/height_25_rope_17_5.yaml"
 """A file that closed forms decide."""
-LIBRARIES = "import typer, pydantic, yaml, rich, numpy"
-READY = """
-class Model(pydantic.BaseModel):
-    size: int = 1
-Model()
-app = typer.Typer(rich_markup_mode=None)
-@app.command()
-def command(size: int = 1) -> None: ...
-try:
-    app([])
-except SystemExit:
-    pass
-"""
 COUNT = "\nimport sys; print(len(sys.modules))"
 
 
@@ -116,7 +104,7 @@ def test_a_check_that_closed_forms_decide_imports_few_modules(tmp_path: Path) ->
     found = modules(tmp_path / "modules.json", "check", CLOSED, "--format", "plain")
     ours = {name for name in found if name.partition(".")[0] == "ptmcalc"}
     assert not [name for name in found if name.startswith(("rich.console", "rich.table", "numpy.ma."))]
-    assert len(found) - len(ours) <= count_of(LIBRARIES + "\n" + READY) + 25
+    assert len(found) - len(ours) <= count_of(READY) + 25
     assert len(ours) <= 150
     assert not [name for name in ours if name.startswith("ptmcalc.machines.") and ".hoist" not in name]
 
