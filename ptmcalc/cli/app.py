@@ -100,6 +100,14 @@ StoreOption = Annotated[
         "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
     ),
 ]
+ExecutorOption = Annotated[
+    str,
+    typer.Option(
+        "--executor",
+        metavar="local|dask://HOST:PORT",
+        help="Who works: processes here, or a cluster of dask.",
+    ),
+]
 ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
 
 
@@ -215,6 +223,7 @@ def check(
     jobs: JobsOption = "auto",
     shard: ShardOption = "",
     store: StoreOption = "",
+    executor: ExecutorOption = "local",
 ) -> None:
     """Check design files: loads, verdicts, and what would make a failed check pass.
 
@@ -232,7 +241,7 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     in_json = Format.JSON in {chosen, *(target for target, _ in files)}
-    with Run(options, jobs, store, in_json) as run:
+    with Run(options, jobs, store, in_json, executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
         for target, name in files if not run.interrupted else ():
             write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
@@ -249,6 +258,8 @@ def check(
     status = status_of(tallies)
     if status in (0, 3) and any(one.loudest and Severity(one.loudest).rank >= fail_level.rank for one in tallies):
         status = 1
+    if run.broken_off is not None:
+        raise run.broken_off
     if run.interrupted:
         raise typer.Exit(130)
     raise typer.Exit(0 if exit_zero and status in (1, 3) else status)
