@@ -72,9 +72,10 @@ class Run:
             told = told if shard.startswith("1/") else []
         if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
             return (*told, *engine.check_paths(named, self.options))
-        return self._batch(named, told)
+        return self.batch(named, told)
 
-    def _batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
+    def batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
+        """The reports of files, as far as the run gets."""
         from ptmcalc.cli.worker import pool, with_text, without_text
         from ptmcalc.engine.batch import ALONE, Batch, GoneError
         from ptmcalc.engine.store import Store
