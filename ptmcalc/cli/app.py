@@ -522,6 +522,37 @@ def sweep(
 
 
 @app.command()
+def tolerances(
+    path: Annotated[str, typer.Argument(help="A design file with `tolerances:`.")],
+    samples: Annotated[int, typer.Option("--samples", help="Machines to draw.")] = 10_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the machines that are drawn.")] = 0,
+    confidence: Annotated[
+        str, typer.Option("--confidence", help="Of the intervals, and share of machines that have the margin shown.")
+    ] = "95 %",
+    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    effects: EffectsOption = None,
+    budget: StudyBudgetOption = "60 s",
+    jobs: JobsOption = "auto",
+    store: StoreOption = "",
+    executor: ExecutorOption = "local",
+) -> None:
+    """Draw machines by the tolerances of a file: how often each check fails, by what, and what margin is left.
+
+    Probabilities come with the interval of Clopper and Pearson, margins with that of order statistics; a machine whose
+    verdict is undecided counts as neither, and the upper end says what if they all failed. Exit status: 0 every machine
+    is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
+    """
+    from ptmcalc.cli.study import Means, show_tolerances
+    from ptmcalc.engine.check import Options
+
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
+    means = Means(jobs, store, executor, _budget(budget))
+    raise typer.Exit(show_tolerances(path, options, means, samples, seed, confidence, form.value))
+
+
+@app.command()
 def scale(
     path: Annotated[str, typer.Argument(help="A design file.")],
     length: Annotated[str, typer.Option("--length", help="Model to prototype, e.g. 1:10 or 0.1.")],

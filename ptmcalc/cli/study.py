@@ -1,4 +1,4 @@
-"""What `ptmcalc sweep` does: points by lanes, the rest as design files of their own through the batch."""
+"""What `ptmcalc sweep` and `tolerances` do: points by lanes, the rest as files of their own through the batch."""
 
 import sys
 from collections.abc import Iterable, Sequence
@@ -9,12 +9,13 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.batch import Run
 from ptmcalc.cli.output import say
 from ptmcalc.contract.report import FileReport, exit_status
 from ptmcalc.contract.study import Points, Said
-from ptmcalc.engine import sweep
+from ptmcalc.engine import sweep, tolerances
 from ptmcalc.engine.batch import predicted
 from ptmcalc.engine.check import Options, chosen_scenes
 from ptmcalc.engine.load import Loaded, load_file
@@ -72,6 +73,38 @@ def told(points: Points) -> None:
     """What has to be said of how it was computed, beside a document."""
     for note in points.notes:
         say(f"ptmcalc: {note}\n", err=True)
+
+
+def show_tolerances(
+    path: str, options: Options, means: Means, count: int, seed: int, confidence: str, form: str
+) -> int:
+    """Draw machines by the tolerances of a file and print how often they fail; the exit status."""
+    sure = _confidence(confidence)
+    loaded = loaded_or_told(path, options)
+    if isinstance(loaded, int):
+        return loaded
+    points = tolerances.drawn(loaded, count, seed)
+    status = computed(Study(loaded, points, options), means)
+    found = tolerances.risks(points, sure)
+    if form == "json":
+        say(report.risk_json(points, found, sure, seed))
+    elif form == "csv":
+        say(report.risk_csv(found))
+    else:
+        say(report.risk_table(path, points, found, sure, seed, get_terminal_size((120, 40)).columns))
+    if form != "table":
+        told(points)
+    return status
+
+
+def _confidence(text: str) -> float:
+    try:
+        value = units.read(text, units.SHARE)
+    except units.UnitError as error:
+        raise UsageError(f"--confidence: {error.reason}", error.hint) from None
+    if not 0.5 <= value < 1:
+        raise UsageError(f"--confidence: `{text}` is not from 50 % to below 100 %", "e.g. --confidence 95%")
+    return round(value, 12)  # 95 %, not 95 times a hundredth
 
 
 def loaded_or_told(path: str, options: Options) -> Loaded | int:

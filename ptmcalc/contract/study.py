@@ -131,3 +131,46 @@ class Turning:
     above: int
     below: int
     lines: int
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """How often something was seen, and the interval of its probability."""
+
+    hits: int
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Driver:
+    """Rank correlation of an input with a margin, and what one of no influence exceeds once in 370 studies."""
+
+    key: VariedKey
+    correlation: float
+    noise: float
+
+    @property
+    def clear(self) -> bool:
+        """Whether it is more than chance."""
+        return abs(self.correlation) > self.noise
+
+
+@dataclass(frozen=True, slots=True)
+class Risk:
+    """One check over machines drawn at random: `size` of them were looked at.
+
+    `fails_or_undecided` says what the probability is at most where the undecided ones would all fail. The margin is the
+    one that so many machines have as the confidence says, with the interval of that number.
+    """
+
+    track: Track
+    size: int
+    fails: Share
+    undecided: Share
+    fails_or_undecided: Share
+    margin: float
+    margin_low: float
+    margin_high: float
+    drivers: Sequence[Driver]

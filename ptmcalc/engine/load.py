@@ -16,6 +16,7 @@ from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
+from ptmcalc.engine.spread import tolerance_problems
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.problems import problems_of
@@ -98,6 +99,7 @@ def _read(
     problems = list(_open_key_problems(kind, data, document))
     open_keys = {found.path for found in problems}
     problems += _unknown_waivers(kind, data, document)
+    problems += tolerance_problems(kind.spec, data, document)
     spec = None
     try:
         spec = kind.spec.model_validate(data)

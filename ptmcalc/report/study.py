@@ -1,4 +1,4 @@
-"""How a sweep is told: a table of what its checks say and where they turn, JSON, and a line for each point in CSV."""
+"""How sweeps and tolerances are told: a table for one screen, JSON, and CSV, a line for each point or check."""
 
 import csv
 import math
@@ -6,12 +6,16 @@ from collections.abc import Iterator, Sequence
 from io import StringIO
 from typing import Any
 
-from ptmcalc.base.units import Quantity, show
-from ptmcalc.contract.study import Points, Said, Track, Turning
+import numpy as np
+
+from ptmcalc.base.units import SHARE, Quantity, digits, show
+from ptmcalc.contract.study import Points, Risk, Said, Share, Track, Turning
 from ptmcalc.report import json
 from ptmcalc.report.table import listing
 
 Row = dict[str, Any]
+
+_NAMED = 2
 
 
 def part_of(track: Track) -> str:
@@ -177,3 +181,110 @@ def _csv(rows: Sequence[Sequence[Any]]) -> str:
     out = StringIO()
     csv.writer(out, lineterminator="\n").writerows(rows)
     return out.getvalue()
+
+
+# -- tolerances -----------------------------------------------------------------------------------------------------
+
+
+def risk_table(name: str, points: Points, found: Sequence[Risk], confidence: float, seed: int, width: int) -> str:
+    """What machines drawn at random say, on one screen."""
+    sure = show(confidence, SHARE)
+    text = f"{name}: {len(points)} machines, seed {seed}\n"
+    for number, key in enumerate(points.keys):
+        column = points.values[:, number]
+        low, middle, high = (show(float(np.quantile(column, q)), key.quantity) for q in (0.025, 0.5, 0.975))
+        text += f"  {name}:{key.span.line}  {key.name}: {middle} in the middle, 95 % from {low} to {high}\n"
+    columns = ("check", "scene", "is there ...?", "fails", "open", f"margin of {sure}", "driven by")
+    rows = [
+        (
+            part_of(one.track),
+            one.track.scene,
+            one.track.title,
+            _shares(one),
+            f"{one.undecided.hits} of {one.size}" if one.undecided.hits or one.size < len(points) else "",
+            _margin(one),
+            ", ".join([f"{d.key.name} {d.correlation:+.2f}" for d in one.drivers if d.clear][:_NAMED]),
+        )
+        for one in found
+    ]
+    text += listing(columns, rows, width=width)
+    text += f"in brackets: where that surely lies (at {sure}); behind a key: its rank correlation with the margin\n"
+    return text + "".join(f"note: {note}\n" for note in points.notes)
+
+
+def _shares(one: Risk) -> str:
+    """How often a check fails, and where the probability lies: up to where the undecided machines would all fail."""
+    if not one.size:
+        return ""
+    ends = f"{_percent(one.fails.low)} to {_percent(one.fails_or_undecided.high)}"
+    return f"{_percent(one.fails.value)} % ({ends})"
+
+
+def _percent(share: float) -> str:
+    return digits(100 * share, 3)
+
+
+def _margin(one: Risk) -> str:
+    if math.isnan(one.margin):
+        return ""
+    ends = (present(end, one.track.quantity) for end in (one.margin_low, one.margin_high))
+    return f"{present(one.margin, one.track.quantity)} ({' to '.join(ends)})"
+
+
+def risk_rows(found: Sequence[Risk]) -> list[Row]:
+    """A row for each check."""
+    return [
+        {
+            "scene": one.track.scene,
+            "code": one.track.code,
+            "element": one.track.element,
+            "title": one.track.title,
+            "samples": one.size,
+            "fail": _share_row(one.fails),
+            "undecided": _share_row(one.undecided),
+            "fail_or_undecided": _share_row(one.fails_or_undecided),
+            "margin": {
+                "value": json.finite(one.margin),
+                "low": json.finite(one.margin_low),
+                "high": json.finite(one.margin_high),
+                "unit": one.track.quantity.si,
+            },
+            "drivers": [
+                {"path": list(d.key.path), "rank_correlation": d.correlation, "noise": d.noise, "clear": d.clear}
+                for d in one.drivers
+            ],
+        }
+        for one in found
+    ]
+
+
+def _share_row(share: Share) -> Row:
+    return {"hits": share.hits, "value": json.finite(share.value), "low": share.low, "high": share.high}
+
+
+def risk_json(points: Points, found: Sequence[Risk], confidence: float, seed: int) -> str:
+    """The document."""
+    about = {"samples": len(points), "seed": seed, "confidence": confidence, "keys": keys_of(points)}
+    return json.dump({"schema_version": json.SCHEMA_VERSION, **about, "notes": points.notes, "rows": risk_rows(found)})
+
+
+def risk_csv(found: Sequence[Risk]) -> str:
+    """A line for each check; SI units."""
+    heads = (
+        *("scene", "code", "part", "samples", "fails", "fail", "fail_low", "fail_high", "undecided"),
+        *("fail_or_undecided_high", "margin", "margin_low", "margin_high", "unit", "driver", "rank_correlation"),
+    )
+    rows: list[Sequence[Any]] = [heads]
+    for one in found:
+        first = next(iter(one.drivers), None)
+        rows.append(
+            (
+                *(one.track.scene, one.track.code, one.track.element, one.size, one.fails.hits),
+                *map(json.finite, (one.fails.value, one.fails.low, one.fails.high)),
+                *(one.undecided.hits, one.fails_or_undecided.high),
+                *map(json.finite, (one.margin, one.margin_low, one.margin_high)),
+                one.track.quantity.si,
+                *((first.key.name, first.correlation) if first else ("", None)),
+            )
+        )
+    return _csv(rows)

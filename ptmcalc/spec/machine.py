@@ -13,6 +13,7 @@ from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import Day, Efficiency, Measure, PositiveAcceleration
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.tolerance import Tolerance
 
 Accuracy = Efficiency
 """A relative error asked for: above 0, at most 1."""
@@ -66,6 +67,9 @@ class MachineSpec(Fragment):
     verdict needs it"""
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect says so"""
+
+    tolerances: dict[str, Tolerance] = Field(default_factory=dict)
+    """how far values may really be off, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
 
     waive: tuple[Waiver, ...] = ()
     """checks that may fail for a while, each with its reason and its last day"""

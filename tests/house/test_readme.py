@@ -97,7 +97,10 @@ OPTIONS = sorted(
 
 @pytest.mark.parametrize("option", OPTIONS)
 def test_an_option_the_readme_names_exists(option: str) -> None:
-    helps = [unpainted(ptmcalc(command, "--help").out) for command in ("check", "cost", "solve", "scale")]
+    helps = [
+        unpainted(ptmcalc(command, "--help").out)
+        for command in ("check", "cost", "solve", "scale", "sweep", "tolerances")
+    ]
     assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)
 
 
