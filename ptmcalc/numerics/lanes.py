@@ -128,8 +128,12 @@ def number(value: Any) -> float:
 
 def value(law: Callable[..., Any], *given: Any) -> float:
     """`float(law(*given))` of a law that works on floats or arrays alike; lane by lane where lanes are given."""
-    size = next((one.values.size for one in given if isinstance(one, Lanes)), None)
-    if size is None:
+    size = 0
+    for one in given:  # most often there are none, and this is asked for every number of a machine
+        if type(one) is Lanes:
+            size = one.values.size
+            break
+    else:
         return float(law(*given))
     if any(isinstance(one, np.ndarray) for one in given):
         raise LanesError("a law of lanes takes no other arrays")

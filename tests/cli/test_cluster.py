@@ -224,3 +224,13 @@ def test_processes_of_a_cluster_do_one_chunk_at_a_time() -> None:
 
     assert ours._alone(ours.edition(), work, [], Options()) == []
     assert not ours._AT_WORK.locked()
+
+
+def test_a_sweep_uses_the_same_door(two_workers: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Points that need a run of their own, on the workers that are left and here."""
+    monkeypatch.chdir(tmp_path)
+    Path("yard.yaml").write_bytes(PASSING)
+    vary = ("--vary", "takeup.tension=25 kN:35 kN:3", "--format", "json")
+    here = ptmcalc("sweep", "yard.yaml", *vary)
+    assert here.status == 0
+    assert ptmcalc("sweep", "yard.yaml", *vary, "--executor", two_workers.executor) == here

@@ -2,6 +2,8 @@
 
 import csv
 import json
+import re
+import shlex
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -9,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy import stats
-from support.command import Done, ptmcalc
+from support.command import ROOT, Done, ptmcalc
 
 from ptmcalc.contract.study import Points, Said
 from ptmcalc.engine import tolerances as engine
@@ -263,3 +265,17 @@ def test_tolerances_change_nothing_of_a_check() -> None:
         Path("yard.yaml").write_text(text, encoding="utf-8")
         found.append(ptmcalc("check", "yard.yaml", *RUN, "--format", "json"))
     assert found[0] == found[1]
+
+
+def test_the_commands_and_the_block_of_the_documentation_are_true() -> None:
+    text = (ROOT / "docs" / "studies.md").read_text("utf-8")
+    ((command,), (block,)) = (re.findall(rf"```{form}\n(.*?)```", text, re.DOTALL) for form in ("sh", "yaml"))
+    words = shlex.split(command)
+    Path("specs").mkdir()
+    Path("specs/conveyor.yaml").write_bytes((ROOT / "specs" / "conveyor.yaml").read_bytes())
+    assert words[0] == "ptmcalc"
+    assert ptmcalc(*words[1:]).status == 0
+    with Path("specs/conveyor.yaml").open("a", encoding="utf-8") as file:
+        file.write(block)
+    done = ptmcalc("tolerances", "specs/conveyor.yaml", *RUN, "--samples", "1000", "--seed", "1", "--confidence", "95%")
+    assert (done.status, done.err) == (0, "")
