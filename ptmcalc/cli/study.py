@@ -1,6 +1,5 @@
 """What `ptmcalc sweep` and `tolerances` do: points by lanes, the rest as files of their own through the batch."""
 
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,7 +24,7 @@ from ptmcalc.report import study as report
 
 _TRIED = 3
 """Points that are planned to see what one of them may take."""
-_OPEN = 3
+_OPEN, _INTERRUPTED = 3, 130
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +52,7 @@ def show_sweep(
     axes = sweep.axes(loaded, vary, counted=not drawn)
     values = sweep.hypercube(axes, count or 0, seed) if drawn else sweep.grid(axes)
     points = Points([one.key for one in axes], values)
-    status = computed(Study(loaded, points, options), means)
+    status, broken_off = computed(Study(loaded, points, options), means)
     turnings = [] if drawn else sweep.turnings(points, axes)
     if form == "json":
         pieces: Iterable[str] = report.sweep_json(points, turnings)
@@ -64,15 +63,16 @@ def show_sweep(
         pieces = [report.sweep_table(path, points, list(sweep.lowest(points)), turnings, width)]
     for piece in pieces:
         say(piece)
-    if form != "table":
-        told(points)
-    return status
+    return told(points, status, broken_off, form)
 
 
-def told(points: Points) -> None:
-    """What has to be said of how it was computed, beside a document."""
-    for note in points.notes:
+def told(points: Points, status: int, broken_off: UsageError | None, form: str) -> int:
+    """What has to be said of how it was computed, beside a document; the exit status."""
+    for note in points.notes if form != "table" else ():
         say(f"ptmcalc: {note}\n", err=True)
+    if broken_off is not None:
+        raise broken_off
+    return status
 
 
 def show_tolerances(
@@ -84,7 +84,7 @@ def show_tolerances(
     if isinstance(loaded, int):
         return loaded
     points = tolerances.drawn(loaded, count, seed)
-    status = computed(Study(loaded, points, options), means)
+    status, broken_off = computed(Study(loaded, points, options), means)
     found = tolerances.risks(points, sure)
     if form == "json":
         say(report.risk_json(points, found, sure, seed))
@@ -92,9 +92,7 @@ def show_tolerances(
         say(report.risk_csv(found))
     else:
         say(report.risk_table(path, points, found, sure, seed, get_terminal_size((120, 40)).columns))
-    if form != "table":
-        told(points)
-    return status
+    return told(points, status, broken_off, form)
 
 
 def _confidence(text: str) -> float:
@@ -118,8 +116,8 @@ def loaded_or_told(path: str, options: Options) -> Loaded | int:
     return loaded
 
 
-def computed(study: Study, means: Means) -> int:
-    """Compute all points, as far as the budget goes; the exit status."""
+def computed(study: Study, means: Means) -> tuple[int, UsageError | None]:
+    """Compute all points, as far as the budget goes; the exit status, and what broke it off for good."""
     study.run_by_lanes()
     left, points = means.budget, study.points
     for labels, where in study.open_points():
@@ -134,12 +132,17 @@ def computed(study: Study, means: Means) -> int:
                 f" predicted to take {seconds:.2g} s, all {seconds * len(where):.3g} s; --budget says how much"
             )
         if chosen.size:
-            _by_files(study, labels, chosen, options, means)
+            interrupted, broken_off = _by_files(study, labels, chosen, options, means)
+            if interrupted:
+                return _INTERRUPTED, broken_off
     verdicts = points.worst()
-    return _OPEN if np.any((verdicts == Said.UNDECIDED) | (verdicts == Said.NOT_COMPUTED)) else 0
+    return _OPEN if np.any((verdicts == Said.UNDECIDED) | (verdicts == Said.NOT_COMPUTED)) else 0, None
 
 
-def _by_files(study: Study, labels: tuple[str, ...], where: Iterable[int], options: Options, means: Means) -> None:
+def _by_files(
+    study: Study, labels: tuple[str, ...], where: Iterable[int], options: Options, means: Means
+) -> tuple[bool, UsageError | None]:
+    """Points as design files of their own; whether that was interrupted, and what broke it off for good."""
     with TemporaryDirectory(prefix="ptmcalc-") as folder:
         files = []
         for index in where:
@@ -148,7 +151,4 @@ def _by_files(study: Study, labels: tuple[str, ...], where: Iterable[int], optio
         with Run(options, means.jobs, means.store, in_json=False, executor=means.executor) as run:
             for one in run.batch(files, ()):
                 study.take(int(Path(one.path).stem), one, labels)
-            if run.broken_off is not None:
-                raise run.broken_off
-            if run.interrupted:
-                sys.exit(130)
+            return run.interrupted, run.broken_off

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support.command import Done, ptmcalc
 
+from ptmcalc.cli import worker
 from ptmcalc.engine import sweep as engine
 from ptmcalc.engine.load import load_file
 
@@ -211,3 +212,21 @@ def test_the_ends_of_a_range_are_its_values(file: Path) -> None:
         assert (values[0], values[-1], values.size) == (pytest.approx(one.start), pytest.approx(one.end), one.count)
         assert min(values) >= min(one.start, one.end)
         assert max(values) <= max(one.start, one.end), "rounding leads out of no range"
+
+
+def test_an_interrupt_prints_what_is_done(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two of four points that need a run of their own, then Ctrl-C."""
+    done_so_far, work = [], worker.without_text
+
+    def interrupted(texts: Any, options: Any) -> Any:
+        if len(done_so_far) == 2:
+            raise KeyboardInterrupt
+        done_so_far.append(texts)
+        return work(texts, options)
+
+    monkeypatch.setattr(worker, "without_text", interrupted)
+    monkeypatch.setattr("ptmcalc.engine.batch.CHUNK", 0.0)
+    done = swept("--vary", "takeup.tension=25 kN:35 kN:4", "--jobs", "1", scene=())
+    assert done.status == 130
+    assert "interrupted after 2 of 4 files" in done.err
+    assert [row["verdict"] for row in document(done)["rows"]] == ["pass", "pass", "not_computed", "not_computed"]
