@@ -105,11 +105,12 @@ class SolverReport:
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """The value of a key at which the check just passes."""
+    """The value of a key at which the check just passes; `other` is the one at the far edge of a forbidden band."""
 
     path: KeyPath
     value: float
     quantity: Quantity
+    other: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -101,7 +101,9 @@ def remark(judgement: Judgement) -> str:
     parts = [judgement.reason]
     if judgement.repair:
         value = number(judgement.repair.value, judgement.repair.quantity)
-        parts.append(f"passes with {dotted(judgement.repair.path)} = {value}")
+        other = judgement.repair.other
+        beyond = f" or {number(other, judgement.repair.quantity)}" if other is not None else ""
+        parts.append(f"passes with {dotted(judgement.repair.path)} = {value}{beyond}")
     if judgement.without:
         parts.append(f"without {', '.join(judgement.without)}")
     return "; ".join(filter(None, parts))
