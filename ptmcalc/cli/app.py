@@ -66,6 +66,21 @@ class CostFormat(StrEnum):
     MARKDOWN = "markdown"
 
 
+class StudyFormat(StrEnum):
+    """Formats of the commands that compute many points."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+
+
+class Sample(StrEnum):
+    """How the points of a sweep are chosen."""
+
+    GRID = "grid"
+    LHS = "lhs"
+
+
 class Law(StrEnum):
     """Laws of similarity of `scale`."""
 
@@ -99,6 +114,17 @@ StoreOption = Annotated[
     typer.Option(
         "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
     ),
+]
+ExecutorOption = Annotated[
+    str,
+    typer.Option(
+        "--executor",
+        metavar="local|dask://HOST:PORT",
+        help="Who works: processes here, or a cluster of dask.",
+    ),
+]
+StudyBudgetOption = Annotated[
+    str, typer.Option("--budget", help="Predicted time of all points that need a run of their own, e.g. 5min.")
 ]
 ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
 
@@ -215,6 +241,7 @@ def check(
     jobs: JobsOption = "auto",
     shard: ShardOption = "",
     store: StoreOption = "",
+    executor: ExecutorOption = "local",
 ) -> None:
     """Check design files: loads, verdicts, and what would make a failed check pass.
 
@@ -232,7 +259,7 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     in_json = Format.JSON in {chosen, *(target for target, _ in files)}
-    with Run(options, jobs, store, in_json) as run:
+    with Run(options, jobs, store, in_json, executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
         for target, name in files if not run.interrupted else ():
             write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
@@ -249,6 +276,8 @@ def check(
     status = status_of(tallies)
     if status in (0, 3) and any(one.loudest and Severity(one.loudest).rank >= fail_level.rank for one in tallies):
         status = 1
+    if run.broken_off is not None:
+        raise run.broken_off
     if run.interrupted:
         raise typer.Exit(130)
     raise typer.Exit(0 if exit_zero and status in (1, 3) else status)
@@ -450,6 +479,46 @@ def solve(
     from ptmcalc.cli.listing import show_solution
 
     raise typer.Exit(show_solution(path, code, vary, scene, form == ListFormat.JSON))
+
+
+@app.command()
+def sweep(
+    path: Annotated[str, typer.Argument(help="A design file.")],
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            metavar="KEY=FROM:TO:N",
+            help="A key and its values, e.g. 'takeup.tension=20 kN:60 kN:21'; `:log` behind it for equal ratios; may be"
+            " repeated. With --sample lhs KEY=FROM:TO.",
+        ),
+    ] = None,
+    sample: Annotated[
+        Sample, typer.Option("--sample", help="All combinations, or a Latin hypercube of --points points.")
+    ] = Sample.GRID,
+    points: Annotated[int | None, typer.Option("--points", help="Points of a Latin hypercube.")] = None,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the points that are drawn.")] = 0,
+    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    scene: ScenesOption = None,
+    accuracy: AccuracyOption = "",
+    effects: EffectsOption = None,
+    budget: StudyBudgetOption = "60 s",
+    jobs: JobsOption = "auto",
+    store: StoreOption = "",
+    executor: ExecutorOption = "local",
+) -> None:
+    """Vary keys of a machine: verdicts, margins and loads at every point, and where verdicts turn.
+
+    What closed forms decide is computed for all points at once; the rest goes through the batch as far as the budget
+    goes, and what is open then is told so. Exit status: 0 every point is decided, 2 wrong usage or an invalid file, 3
+    points are open, 4 a bug of ours.
+    """
+    from ptmcalc.cli.study import Means, show_sweep
+    from ptmcalc.engine.check import Options
+
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
+    means = Means(jobs, store, executor, _budget(budget))
+    raise typer.Exit(show_sweep(path, options, means, vary or [], sample.value, points, seed, form.value))
 
 
 @app.command()

@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from shutil import get_terminal_size
@@ -19,12 +19,18 @@ from ptmcalc.engine.files import Chosen, Excludes, chosen_files, part
 from ptmcalc.report import Format, csv, json, render
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from rich.console import Console
 
-    from ptmcalc.engine.batch import Batch
+    from ptmcalc.engine.batch import Batch, GoneError
 
 FEW = 8
 """Files below which they are checked one after the other without being predicted, unless somebody asks for more."""
+LOCAL = "local"
+"""The executor that is no cluster."""
+_AHEAD = 8
+"""Chunks a cluster is given at a time at least: it may grow while it works."""
 _WORTH_SHOWING = 2.0
 """Predicted seconds from which progress is shown."""
 
@@ -32,9 +38,16 @@ _WORTH_SHOWING = 2.0
 class Run:
     """One run of `check`: its results are there until it is left."""
 
-    def __init__(self, options: Options, jobs: str, store: str, in_json: bool) -> None:
+    def __init__(self, options: Options, jobs: str, store: str, in_json: bool, executor: str = LOCAL) -> None:
         self.options, self.jobs, self.store, self.in_json = options, _jobs(jobs), store, in_json
+        self.executor = executor
+        if executor != LOCAL and self.jobs is not None:
+            raise UsageError(
+                "`--jobs` counts processes here, `--executor` has the work done elsewhere", "leave one out"
+            )
         self.interrupted = False
+        self.broken_off: GoneError | None = None
+        """what ended the run before its end; what was done by then is in its results"""
         self._open = ExitStack()
 
     def __enter__(self) -> Self:
@@ -57,24 +70,31 @@ class Run:
         if shard:
             named = part(named, shard)
             told = told if shard.startswith("1/") else []
-        if len(named) < FEW and not self.store and self.jobs is None:
+        if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
             return (*told, *engine.check_paths(named, self.options))
-        return self._batch(named, told)
+        return self.batch(named, told)
 
-    def _batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
+    def batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
+        """The reports of files, as far as the run gets."""
         from ptmcalc.cli.worker import pool, with_text, without_text
-        from ptmcalc.engine.batch import ALONE, Batch
+        from ptmcalc.engine.batch import ALONE, Batch, GoneError
         from ptmcalc.engine.store import Store
 
         kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
         batch = Batch(files, self.options, kept, with_text if self.in_json else without_text, told=told)
-        jobs = self.jobs or (_cores() if sum(batch.seconds) >= ALONE else 1)
-        jobs = min(jobs, len(batch.missing))
-        executor = pool(jobs, batch.kinds) if jobs > 1 else None
+        executor: Callable[[], Executor] | None
+        if self.executor != LOCAL:
+            executor, jobs = self._cluster()
+        else:
+            jobs = self.jobs or (_cores() if sum(batch.seconds) >= ALONE else 1)
+            jobs = min(jobs, len(batch.missing))
+            executor = pool(jobs, batch.kinds) if jobs > 1 else None
         try:
             follow(batch, batch.run(executor, jobs))
         except KeyboardInterrupt:
             self.interrupted = True
+        except GoneError as error:
+            self.interrupted, self.broken_off = True, error
         results = batch.results(whole=not self.interrupted)
         if self.interrupted:
             rest = "the same command goes on from there" if self.store else "with --store the next run would go on"
@@ -82,6 +102,15 @@ class Run:
         elif self.store:
             say(f"ptmcalc: {batch.reused} of {len(files)} files known from `{self.store}`\n", err=True)
         return results
+
+    def _cluster(self) -> "tuple[Callable[[], Executor], int]":
+        """A cluster, and how many chunks it takes at a time."""
+        from ptmcalc.cli.cluster import Cluster
+
+        cluster = Cluster(self.executor)
+        if not (threads := cluster.threads):
+            say(f"ptmcalc: the scheduler at `{cluster.place}` has no worker yet; waiting for one\n", err=True)
+        return cluster, max(threads, _AHEAD)
 
 
 def follow(batch: "Batch", steps: Iterable[tuple[int, float]], console: "Console | None" = None) -> None:

@@ -47,6 +47,8 @@ class Solver(Generic[S, C]):
     levels: int = 1
     decides: bool = True
     method: str = ""
+    by_lanes: bool = False
+    """whether it takes machines whose numbers are many at once (`numerics.lanes`)"""
 
     @property
     def way(self) -> str:

@@ -73,6 +73,14 @@ def edition() -> bytes:
     return digest.digest()
 
 
+class LostError(BrokenExecutor):
+    """What was under way is gone with the connection to those who did it; it killed nobody, and is done again."""
+
+
+class GoneError(UsageError):
+    """Those who did the work are gone for good; what came back from them is kept."""
+
+
 class Keys:
     """The keys under which results are kept: of the text, the options, and the program."""
 
@@ -223,6 +231,7 @@ class Batch:
         here. A chunk that breaks an executor is tried again file by file, each on its own, so that a file that kills
         its worker is found and told, and stops no other.
         """
+        self.options = replace(self.options, today=self.today)  # one day for all, whatever the clock of a worker says
         if executor is None:
             for chunk in self._chunks(CHUNK):
                 yield self._keep(chunk, self.work([raw for _, _, raw in chunk.items], self.options))
@@ -257,7 +266,7 @@ class Batch:
                 if not running:
                     return
                 done, _ = wait(running, return_when=FIRST_COMPLETED)
-                for future in done:
+                for future in sorted(done, key=_failed):  # what is there is kept before anything is raised
                     chunk = running.pop(future)
                     try:
                         yield self._keep(chunk, future.result())
@@ -283,6 +292,9 @@ class Batch:
                     ((index, key, raw),) = chunk.items
                     try:
                         records = pool.submit(self.work, [raw], self.options).result()
+                    except LostError:
+                        waiting.appendleft(chunk)
+                        break
                     except BrokenExecutor:
                         name = self.entries[index].name
                         self.broken[key] = broken(name, "the process that worked on it was ended")
@@ -332,9 +344,15 @@ def _works(pool: Executor, work: Work, options: Options) -> bool:
     """Whether an executor begins at all."""
     try:
         pool.submit(work, [], options).result()
+    except LostError:
+        return True  # it did; another one is asked for
     except BrokenExecutor:
         return False
     return True
+
+
+def _failed(future: Future[list[Record]]) -> bool:
+    return future.cancelled() or future.exception() is not None
 
 
 def predicted(raw: bytes, options: Options) -> float:

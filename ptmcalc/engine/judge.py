@@ -1,6 +1,6 @@
 """Loads -> verdicts: a margin smaller than its error bar is not a pass."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from ptmcalc.base.diagnostic import Verdict
@@ -34,12 +34,14 @@ class Ruling:
 
 def judge(kind: AnyKind, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> tuple[Ruling, ...]:
     """The rulings of every check that applies to this scene and is not switched off by the file."""
-    return tuple(
-        rule(one, spec, scene, loads)
-        for check in kind.checks
-        if check.applies_to(scene) and not spec.settings.switched_off(check.code)
-        for one in check.on(spec, scene)
-    )
+    return tuple(rule(one, spec, scene, loads) for one in checks_of(kind, spec, scene))
+
+
+def checks_of(kind: AnyKind, spec: MachineSpec, scene: Scene) -> Iterator[AnyCheck]:
+    """Every check that applies to a scene and is not switched off by the file."""
+    for check in kind.checks:
+        if check.applies_to(scene) and not spec.settings.switched_off(check.code):
+            yield from check.on(spec, scene)
 
 
 def rule(check: AnyCheck, spec: MachineSpec, scene: Scene, loads: Mapping[str, Estimate]) -> Ruling:
@@ -60,8 +62,12 @@ def rule(check: AnyCheck, spec: MachineSpec, scene: Scene, loads: Mapping[str, E
 
 def decide(value: Estimate, limit: Estimate, sense: Sense) -> Verdict:
     """Pass or fail when the whole bar lies on one side; a value that equals the limit without a bar passes."""
-    if sense is Sense.AT_LEAST:
-        sound, bad = value.low >= limit.high, value.high < limit.low
-    else:
-        sound, bad = value.high <= limit.low, value.low > limit.high
+    sound, bad = sides(value, limit, sense)
     return Verdict.PASS if sound else Verdict.FAIL if bad else Verdict.UNDECIDED
+
+
+def sides(value: Estimate, limit: Estimate, sense: Sense) -> tuple[bool, bool]:
+    """Whether the whole bar lies on the sound side, and whether on the other."""
+    if sense is Sense.AT_LEAST:
+        return value.low >= limit.high, value.high < limit.low
+    return value.high <= limit.low, value.low > limit.high

@@ -62,7 +62,7 @@ def secondary_resistance(main_resistance: float, length: float) -> float:
     Raises:
         ValueError: below 80 m.
     """
-    return (length_factor(length) - 1) * main_resistance
+    return (float(length_factor(length)) - 1) * main_resistance
 
 
 def loading_resistance(throughput: ArrayLike, speed: ArrayLike, feed_speed: ArrayLike) -> FloatArray:
@@ -384,8 +384,9 @@ def mean_tension(lengths: FloatArray, tensions: FloatArray) -> float:
     **Error** exact for that; waves need the integral over time as well.
     **Source** trapezium.
     """
-    at, run = np.asarray(tensions, float), np.asarray(lengths, float)
-    return float(np.average((at[:-1] + at[1:]) / 2, weights=run))
+    at, run = np.asarray(tensions), np.asarray(lengths)  # of floats, or of whatever adds up
+    mean: float = np.sum((at[:-1] + at[1:]) / 2 * run) / np.sum(run)
+    return mean
 
 
 def takeup_mass(tension: ArrayLike, falls: int, gravity: float) -> FloatArray:

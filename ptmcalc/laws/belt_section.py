@@ -257,7 +257,7 @@ def transition_strains(
     edge = side_width * (side_width * bend - rise)
     dip = min(side_width, rise / (2 * bend)) if bend > 0 else 0.0
     most, least = max(edge, 0.0) - mean, mean - dip * (dip * bend - rise)
-    return float(most / length / length), float(least / length / length)
+    return most / length / length, least / length / length
 
 
 def transition_length(

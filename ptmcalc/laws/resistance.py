@@ -1,6 +1,9 @@
 """Resistance to motion of a belt conveyor (ISO 5048, DIN 22101)."""
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
 
 _LENGTHS = (80, 100, 150, 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1500, 2000)
 _FACTORS = (1.92, 1.78, 1.58, 1.45, 1.31, 1.25, 1.20, 1.17, 1.14, 1.12, 1.10, 1.09, 1.06, 1.05)
@@ -33,7 +36,7 @@ def main_resistance_per_length(
     return coefficient * gravity * (line_load * slope_cosine + idler_line_mass)
 
 
-def length_factor(length: float) -> float:
+def length_factor(length: ArrayLike) -> FloatArray:
     """Secondary resistances as a factor on the main resistances of a long conveyor.
 
         C = C(L), table from 80 m (1.92) to 2000 m (1.05), interpolated over log L
@@ -52,6 +55,6 @@ def length_factor(length: float) -> float:
     Raises:
         ValueError: below 80 m.
     """
-    if length < SHORTEST_FOR_LENGTH_FACTOR:
+    if np.any(np.less(length, SHORTEST_FOR_LENGTH_FACTOR)):
         raise ValueError(f"the table of C starts at {SHORTEST_FOR_LENGTH_FACTOR:g} m")
-    return float(np.interp(np.log(length), np.log(_LENGTHS), _FACTORS))
+    return np.asarray(np.interp(np.log(length), np.log(_LENGTHS), _FACTORS))

@@ -243,4 +243,4 @@ def loading_envelope(
 def _signed(values: FloatArray, sense: str) -> FloatArray:
     if sense not in (MOST, LEAST):
         raise ValueError(f"the sense of a loading is {MOST} or {LEAST}")
-    return np.asarray(values, float) * (1.0 if sense == MOST else -1.0)
+    return np.asarray(values) * (1.0 if sense == MOST else -1.0)

@@ -148,7 +148,7 @@ def trough_heights(centre_width: float, side_width: float, trough_angle: float) 
     """
     depth = side_width * np.sin(trough_angle)
     share = side_width / (centre_width + 2 * side_width)
-    return float(depth * (1 - share)), float(depth * share)
+    return depth * (1 - share), depth * share
 
 
 def radius_for_largest(

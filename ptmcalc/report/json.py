@@ -88,6 +88,11 @@ def dump(document: Mapping[str, Any]) -> str:
     return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
+def line(value: Any) -> str:
+    """JSON on one line."""
+    return _encode(value)
+
+
 def finite(value: float | None) -> float | None:
     """A float, or null where there is no finite one."""
     return float(value) if value is not None and math.isfinite(value) else None

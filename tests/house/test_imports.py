@@ -27,7 +27,21 @@ with open(result, "w", encoding="utf-8") as file:
 
 HEAVY = {"scipy", "matplotlib", "jinja2", "dask", "distributed", "numba", "pint"}
 OF_A_MACHINE = {"numpy", "pydantic", "yaml"}
-COMMANDS = ("check", "diff", "merge", "plan", "cost", "solve", "scale", "new", "explain", "schema", "kinds", "solvers")
+COMMANDS = (
+    "check",
+    "diff",
+    "merge",
+    "plan",
+    "cost",
+    "solve",
+    "scale",
+    "sweep",
+    "new",
+    "explain",
+    "schema",
+    "kinds",
+    "solvers",
+)
 
 
 def modules(result: Path, *arguments: str) -> set[str]:
@@ -53,6 +67,7 @@ def packages(result: Path, *arguments: str) -> set[str]:
         ("solve", "specs/conveyor.yaml", "--check", "CNV101", "--vary", "takeup.tension", "--scene", "run_loaded"),
         ("scale", "specs/conveyor.yaml", "--length", "1:10", "--law", "geometric", "--scene", "run_loaded"),
         ("cost", "specs/hoist/winding_paper/height_25_rope_17_5.yaml"),
+        ("sweep", "specs/conveyor.yaml", "--vary", "speed=3 m/s:4 m/s:3", "--scene", "run_loaded"),
         ("schema",),
         ("explain", "belt_wave"),
         ("solvers",),

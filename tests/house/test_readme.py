@@ -35,6 +35,7 @@ TOP = {
     "CHANGELOG.md",
     "LICENSE",
     "README.md",
+    "docs",
     "ptmcalc",
     "pyproject.toml",
     "specs",

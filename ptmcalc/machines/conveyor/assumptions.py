@@ -11,6 +11,7 @@ from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
 from ptmcalc.machines.conveyor.spec import Conveyor, Drive
+from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
 _ROUGH_TAIL_SHARE = 0.01
@@ -22,12 +23,12 @@ _TABLE_ENDS = 2000.0  # m, of C(L)
 def _secondary(spec: Conveyor) -> float | None:
     if spec.resistance.secondary_force is not None or spec.resistance.cema is not None:
         return None
-    return resistance.length_factor(spec.route.span)
+    return value(resistance.length_factor, spec.route.span)
 
 
 def _secondary_interval(spec: Conveyor) -> Interval:
     """Beyond the table C - 1 falls as 1/L when the secondary resistances stay what they are."""
-    extra = resistance.length_factor(spec.route.span) - 1
+    extra = value(resistance.length_factor, spec.route.span) - 1
     return Interval(1 + 0.75 * extra * min(_TABLE_ENDS / spec.route.span, 1.0), 1 + 1.25 * extra)
 
 

@@ -18,6 +18,7 @@ from ptmcalc.laws import capstan, loop_bounds, sag, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
+from ptmcalc.numerics.lanes import value
 
 FloatArray = NDArray[np.float64]
 
@@ -305,11 +306,12 @@ def _enclosed_slip(line: BeltLine, enclosure: Enclosure) -> dict[str, Interval]:
 
 def slip_loads(exponent: float, states: list[Sides]) -> dict[str, float]:
     """Worst utilisation and reserve of grip over some states of the drum, in whichever sense it is loaded."""
-    on, off, lift = (np.array([getattr(state, part) for state in states]) for part in ("on", "off", "lift"))
-    tight, slack = np.maximum(on, off), np.minimum(on, off)
+    sides = [(max(state.on, state.off), min(state.on, state.off), state.lift) for state in states]
     return {
-        "slip_utilisation_max": float(capstan.slip_utilisation(tight, slack, lift, exponent).max()),
-        "slip_reserve_min": float(capstan.slip_reserve_force(tight, slack, exponent).min()),
+        "slip_utilisation_max": max(
+            value(capstan.slip_utilisation, tight, slack, lift, exponent) for tight, slack, lift in sides
+        ),
+        "slip_reserve_min": min(value(capstan.slip_reserve_force, tight, slack, exponent) for tight, slack, _ in sides),
     }
 
 
@@ -325,7 +327,7 @@ def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...
     }
     if line.breaking_force is not None:
         loads["belt_safety_min"] = line.breaking_force / tension_max if tension_max > 0 else np.inf
-    sags = [float(sag.sag_ratio(span, low)) for span, low in zip(spans, smallest, strict=True) if span is not None]
+    sags = [value(sag.sag_ratio, span, low) for span, low in zip(spans, smallest, strict=True) if span is not None]
     if len(sags) == len(spans):
         loads["sag_relative_max"] = max(sags)
     return loads

@@ -14,6 +14,7 @@ from ptmcalc.machines.conveyor.safety import safety_limit, safety_needs
 from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 from ptmcalc.machines.conveyor.static_loads import bent, has_drum_data, hollows
+from ptmcalc.numerics.lanes import value
 
 Checks = Iterable[AnyCheck]
 
@@ -218,8 +219,8 @@ def _lift_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
 
 def _lift_off(spec: Conveyor, curve: Curve) -> float:
-    return float(
-        vertical_curve.lift_off_tension(curve.radius, spec.belt.mass, 0.0, spec.gravity, curve.steepest_cosine)
+    return value(
+        vertical_curve.lift_off_tension, curve.radius, spec.belt.mass, 0.0, spec.gravity, curve.steepest_cosine
     )
 
 

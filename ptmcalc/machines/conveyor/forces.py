@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from ptmcalc.laws import belt_resistance, resistance
 from ptmcalc.machines.conveyor.resisting import Cema, ExtraForce
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.numerics.lanes import value
 
 _CEMA_RETURN = 0.015
 """Share of the belt's weight that the return strand takes by CEMA's formula (`cema_effective_tension`)."""
@@ -77,21 +78,20 @@ def _force(spec: Conveyor, one: ExtraForce, stream: float) -> float:
     """A special resistance at a stream of material [kg/s]."""
     if one.skirt is not None:
         plates = one.skirt
-        return float(
-            belt_resistance.skirt_resistance(
-                stream,
-                filled(spec.load.density),
-                spec.speed,
-                plates.width,
-                plates.length,
-                filled(plates.friction),
-                spec.gravity,
-            )
+        return value(
+            belt_resistance.skirt_resistance,
+            stream,
+            filled(spec.load.density),
+            spec.speed,
+            plates.width,
+            plates.length,
+            filled(plates.friction),
+            spec.gravity,
         )
     if one.scraper is not None:
         blade = one.scraper
         area = blade.count * blade.width * blade.thickness
-        return float(belt_resistance.scraper_resistance(area, blade.pressure, filled(blade.friction)))
+        return value(belt_resistance.scraper_resistance, area, blade.pressure, filled(blade.friction))
     if one.loading is not None:
-        return float(belt_resistance.loading_resistance(stream, spec.speed, one.loading.speed))
+        return value(belt_resistance.loading_resistance, stream, spec.speed, one.loading.speed)
     return filled(one.force)

@@ -20,6 +20,7 @@ from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.sections import Section
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
+from ptmcalc.numerics import lanes
 
 FloatArray = NDArray[np.float64]
 
@@ -61,7 +62,7 @@ class Strand:
     def mean_rise(self) -> float:
         """Mean over the strand of what the static tension has risen [N]."""
         rises = self.rises
-        return float(np.sum(np.diff(self.marks) * (rises[1:] + rises[:-1]) / 2)) / self.length
+        return lanes.number(np.sum(np.diff(self.marks) * (rises[1:] + rises[:-1]) / 2)) / self.length
 
     @property
     def even(self) -> bool:
@@ -72,7 +73,8 @@ class Strand:
 @kept_for(256)
 def _even(strand: Strand) -> bool:
     rises = strand.rise * np.array(strand.marks) / strand.length
-    return len(set(strand.masses)) == 1 and bool(np.allclose(strand.rises, rises, rtol=1e-12, atol=0))
+    straight = (abs(one - other) <= 1e-12 * abs(other) for one, other in zip(strand.rises, rises, strict=True))
+    return lanes.alike(strand.masses) and all(straight)
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,8 +135,8 @@ class BeltLine:
         start, end = self.static_ends(strand)
         part = self.strand(strand)
         if part.even:
-            return start + (end - start) * np.asarray(x, float)
-        return start + np.interp(np.asarray(x, float) * part.length, part.marks, part.rises)
+            return start + (end - start) * np.asarray(x)
+        return start + lanes.interpolated(np.asarray(x) * part.length, part.marks, part.rises)
 
     def strand(self, which: int) -> Strand:
         """The return or the carry strand."""
@@ -204,7 +206,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
                 spans.append(on_it * cosine * g * pitch)
         mean = sum(mass * part.length for mass, part in zip(masses, parts[::uphill], strict=True)) / marks[-1]
         known = len(spans) == len(parts)
-        masses_all_one = len(set(masses)) == 1
+        masses_all_one = lanes.alike(masses)
         return Strand(
             masses[0] if masses_all_one else mean,
             max(spans) if known else None,

@@ -1,6 +1,5 @@
 """The route as a designer writes it: sections from the tail to the head, and the vertical curves between them."""
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
@@ -9,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base.memory import kept_for
+from ptmcalc.numerics import lanes
 from ptmcalc.spec.fields import Height, PositiveLength, PositiveSpan
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 
@@ -33,12 +33,12 @@ class Section(Fragment):
     @property
     def slope(self) -> float:
         """Uphill positive [rad]."""
-        return math.asin(self.lift / self.length)
+        return lanes.asin(self.lift / self.length)
 
     @property
     def cosine(self) -> float:
         """Cosine of the slope [1]."""
-        return math.sqrt(1 - (self.lift / self.length) ** 2)
+        return lanes.sqrt(1 - (self.lift / self.length) ** 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,12 +60,12 @@ class Curve:
     @property
     def steepest_cosine(self) -> float:
         """Cosine of the steepest slope in it [1]."""
-        return math.cos(max(abs(self.before), abs(self.after)))
+        return lanes.cos(max(abs(self.before), abs(self.after)))
 
     @property
     def tangent(self) -> float:
         """How far it reaches to either side of the break [m]."""
-        return self.radius * math.tan(abs(self.after - self.before) / 2)
+        return self.radius * lanes.tan(abs(self.after - self.before) / 2)
 
 
 class Route(Fragment):

@@ -16,6 +16,7 @@ from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
 from ptmcalc.machines.conveyor.sections import Curve
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
+from ptmcalc.numerics.lanes import number, value
 
 STATIC_LOADS = (
     LoadInfo("power_motor_empty", "power at the motors, empty", units.POWER, headline=False),
@@ -69,13 +70,15 @@ def _fill(spec: Conveyor) -> dict[str, float]:
     load, trough, width = spec.load, spec.idlers.carry.trough, spec.belt.width
     if load.density is None or trough is None or width is None:
         return {}
-    bed = float(belt_section.usable_width(width)), trough.middle_roll, trough.angle
+    bed = value(belt_section.usable_width, width), trough.middle_roll, trough.angle
     surcharge = filled(load.surcharge_angle)
     steepest = max(abs(part.slope) for part in spec.route.parts)
-    above = belt_section.surcharge_section(*bed, surcharge) * belt_section.slope_reduction(steepest, surcharge)
-    most = belt_section.capacity(belt_section.water_section(*bed) + above, spec.speed, load.density)
+    heaped = value(belt_section.surcharge_section, *bed, surcharge)
+    section = value(belt_section.water_section, *bed)
+    section += heaped * value(belt_section.slope_reduction, steepest, surcharge)
+    most = value(belt_section.capacity, section, spec.speed, load.density)
     stream = load_line_mass(spec) * spec.speed
-    return {"capacity_max": float(most), "section_fill": float(belt_section.fill_share(stream, most))}
+    return {"capacity_max": most, "section_fill": value(belt_section.fill_share, stream, most)}
 
 
 def has_drum_data(spec: Conveyor) -> bool:
@@ -106,14 +109,14 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
             continue
         ends = line.static_ends(which)[0] + part.rises
         lows = np.minimum(ends[1:], ends[:-1])
-        sags = [float(sag.sag_ratio(span, low)) for span, low in zip(part.span_weights, lows, strict=True)]
+        sags = [value(sag.sag_ratio, span, low) for span, low in zip(part.span_weights, lows, strict=True)]
         if which == RETURN:
             sags.reverse()  # sections are counted from the tail
         ratios.append(np.array(sags))
         if spec.route.sections is not None:
             found |= {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
     if len(ratios) == 2:
-        found["sag_relative_max"] = float(max(part.max() for part in ratios))
+        found["sag_relative_max"] = number(max(part.max() for part in ratios))
     return found
 
 
@@ -157,15 +160,14 @@ def fillings(spec: Conveyor, scene: Run) -> Fillings:
     count = len(spec.route.parts)
     empty, full = (running(spec, scene, [loaded] * count) for loaded in (False, True))
     pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
-    everywhere = np.zeros(count)
-    everywhere[0] = full.tail_force - empty.tail_force
+    everywhere = np.array([full.tail_force - empty.tail_force] + [0.0] * (count - 1))
     shares = share(spec)
     at_tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
-    everywhere -= at_tail * (pulls + everywhere)
+    everywhere = everywhere - at_tail * (pulls + everywhere)
     marks, whole = np.array(full.carry.marks), full.carry.length
     if full.fixed_length:
         rest = np.diff(marks) / 2 + whole - marks[1:]
-        everywhere -= (pulls * rest + everywhere * whole) / (whole + full.back.length)
+        everywhere = everywhere - (pulls * rest + everywhere * whole) / (whole + full.back.length)
     return Fillings(empty, pulls, everywhere, marks)
 
 
@@ -182,7 +184,7 @@ def _curves(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     found = {}
     for curve in hollows(spec):
         _, most = loads.at(_places(spec, curve, ""))
-        found[of("tension_curve_max", str(curve.number))] = float(most.max())
+        found[of("tension_curve_max", str(curve.number))] = number(most.max())
     return found
 
 
@@ -209,8 +211,8 @@ def _fibres(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     for name, place in bent(spec).items():
         least, most = loads.at(_places(spec, place, name))
         more, less = _strains(spec, place)
-        found[of("fibre_tension_max", name)] = (float(most.max()) + stiffness * more) / width
-        found[of("fibre_tension_min", name)] = (float(least.min()) - stiffness * less) / width
+        found[of("fibre_tension_max", name)] = number(most.max() + stiffness * more) / width
+        found[of("fibre_tension_min", name)] = number(least.min() - stiffness * less) / width
     return found
 
 

@@ -1,7 +1,5 @@
 """Steady running: tensions strand by strand, power, and what tension the belt asks for."""
 
-import math
-
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
@@ -16,6 +14,7 @@ from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.machines.conveyor.static_loads import OF_STATICS, static_loads
+from ptmcalc.numerics.lanes import exp, expm1, number, value
 
 _OF_RUNNING = frozenset(
     {
@@ -53,16 +52,16 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         "static_resistance": line.static_resistance,
         "tension_run_on_max": line.run_on,
         "tension_run_off_min": line.run_off,
-        "tension_max": float(tensions[high]),
-        "tension_min": float(tensions[low]),
+        "tension_max": number(tensions[high]),
+        "tension_min": number(tensions[low]),
     }
     back = len(line.back.marks)
-    lows = float(tensions[:back].min()), float(tensions[back:].min())
-    loads |= bounds.derived_loads(line, float(tensions[high]), lows)
+    lows = number(tensions[:back].min()), number(tensions[back:].min())
+    loads |= bounds.derived_loads(line, number(tensions[high]), lows)
     loads |= _of_drives(spec, line)
     loads |= _of_running(spec, scene, line, places, tensions)
     loads |= static_loads(spec, scene, line)
-    at = {"tension_max": {"position": float(places[high])}, "tension_min": {"position": float(places[low])}}
+    at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
     return Result({name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}, work=1)
 
 
@@ -117,32 +116,31 @@ def _of_running(
     loads = {
         "effective_tension": pull,
         "effective_tension_worst": nothing + _worst_load(spec, scene, empty),
-        "power_drive_running": float(belt_resistance.shaft_power(pull, line.speed)),
-        "power_drive_empty": float(belt_resistance.shaft_power(nothing, line.speed)),
+        "power_drive_running": value(belt_resistance.shaft_power, pull, line.speed),
+        "power_drive_empty": value(belt_resistance.shaft_power, nothing, line.speed),
         "power_motor_running": _motor_power(spec, pull * line.speed),
         "power_motor_empty": _motor_power(spec, nothing * line.speed),
         "belt_cycle_time": belt_resistance.cycle_time(line.back.length + line.carry.length, line.speed),
-        "takeup_travel": float(
-            belt_resistance.takeup_travel(
-                line.back.length + line.carry.length,
-                mean,
-                mounting,
-                line.stiffness,
-                spec.takeup.permanent_elongation,
-                2,
-            )
+        "takeup_travel": value(
+            belt_resistance.takeup_travel,
+            line.back.length + line.carry.length,
+            mean,
+            mounting,
+            line.stiffness,
+            spec.takeup.permanent_elongation,
+            2,
         ),
     }
     if not line.fixed_length:
-        loads["takeup_mass"] = float(belt_resistance.takeup_mass(mounting, 2, spec.gravity))
+        loads["takeup_mass"] = value(belt_resistance.takeup_mass, mounting, 2, spec.gravity)
     spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span is not None]
     if len(spans) == 2:
-        loads["sag_tension_required"] = max(float(sag.tension_at_sag(span, spec.checks.sag)) for span in spans)
+        loads["sag_tension_required"] = max(number(sag.tension_at_sag(span, spec.checks.sag)) for span in spans)
     at_head = [drive.drum for drive in spec.all_drives.values() if drive.at == "head"]
     grips = [drum.friction * drum.wrap for drum in at_head if drum.friction is not None]
     if len(grips) == len(at_head):
         needed, grip = max(line.static_resistance, 0.0) * spec.checks.slip.reserve, sum(grips)
-        loads["slack_side_tension_required"] = needed * math.exp(-grip) / -math.expm1(-grip)  # any grip, however large
+        loads["slack_side_tension_required"] = needed * exp(-grip) / -expm1(-grip)  # any grip, however large
     return loads
 
 
@@ -150,7 +148,7 @@ def _motor_power(spec: Conveyor, power: float) -> float:
     """Power of all motors for a power on the drum shafts [W], each through its own gear."""
     shares = share(spec)
     return sum(
-        float(belt_resistance.motor_power(shares[name] * power, filled(drive.gear.efficiency)))
+        value(belt_resistance.motor_power, shares[name] * power, filled(drive.gear.efficiency))
         for name, drive in spec.all_drives.items()
     )
 
@@ -160,7 +158,7 @@ def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
     full = running(spec, scene, [True] * len(spec.route.parts))
     pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
     pulls[0] += full.tail_force - empty.tail_force
-    return float(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
+    return number(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
 
 
 STATICS: Solver[Conveyor, Run] = Solver(
@@ -173,4 +171,5 @@ STATICS: Solver[Conveyor, Run] = Solver(
     run=run,
     cost=lambda spec, scene, carried, level: 5e-4,
     source="ISO 5048:1989; DIN 22101",
+    by_lanes=True,
 )

@@ -1,0 +1,137 @@
+"""Work on a cluster: the workers of a scheduler of dask.distributed, through the door that a pool of processes uses.
+
+Texts go out and records come back, so a worker needs this very program and no file system. dask gives what a worker
+had under way when it was killed to another one; what comes back from nobody is done again.
+"""
+
+import logging
+import re
+import socket
+import threading
+from asyncio import CancelledError
+from collections.abc import Callable, Sequence
+from concurrent.futures import BrokenExecutor, Executor, Future
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+from ptmcalc.base.errors import UsageError
+from ptmcalc.engine.batch import GoneError, LostError, Work, edition
+from ptmcalc.engine.check import Options
+from ptmcalc.engine.store import Record
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+_ADDRESS = re.compile(r"dask://(?P<place>[^/\s@]+:[0-9]{1,5})/?")
+_PATIENCE = 10.0
+"""Seconds that a scheduler may take to answer."""
+_SAME = "install the same ptmcalc, and the same numpy, for the scheduler and its workers (docs/cluster.md)"
+_AT_WORK = threading.Lock()
+"""A process does one chunk at a time, however many threads its worker has: what is remembered of a machine between two
+runs is not made for several."""
+
+
+class Cluster:
+    """What makes executors of a scheduler's workers.
+
+    Raises:
+        UsageError: nobody answers at the address, or dask.distributed is not installed.
+    """
+
+    def __init__(self, text: str) -> None:
+        found = _ADDRESS.fullmatch(text)
+        if found is None:
+            raise UsageError(f"`--executor {text}` is no executor", "write local, or dask://HOST:PORT of a scheduler")
+        self.place = found["place"]
+        client = self._client()
+        if client is None:
+            hint = "start `dask scheduler`, and name where it runs"
+            raise UsageError(f"no scheduler of dask answers at `{self.place}`", hint)
+        self._ready: _OnCluster | None = _OnCluster(client)
+
+    @property
+    def threads(self) -> int:
+        """How many tasks its workers take at a time, as far as they are there by now."""
+        return sum(self._ready.client.nthreads().values()) if self._ready else 0
+
+    def __call__(self) -> Executor:
+        """An executor: the one that is there, or one of a connection made anew where that was lost.
+
+        Raises:
+            GoneError: nobody answers any more.
+        """
+        ready, self._ready = self._ready, None
+        if ready is not None:
+            return ready
+        client = self._client()
+        if client is None:
+            raise GoneError(f"the scheduler of dask at `{self.place}` is gone", "what came back by then is kept")
+        return _OnCluster(client)
+
+    def _client(self) -> "Client | None":
+        try:
+            from distributed import Client
+        except ImportError:
+            raise UsageError(
+                "a cluster needs dask.distributed, which is not installed", 'python -m pip install "ptmcalc[dask]"'
+            ) from None
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is said by us
+        host, _, port = self.place.rpartition(":")
+        try:
+            socket.create_connection((host.strip("[]"), int(port)), _PATIENCE).close()  # dask would try on and on
+            return Client(f"tcp://{self.place}", timeout=_PATIENCE, set_as_default=False)
+        except (OSError, OverflowError, ValueError):
+            return None
+
+
+class _OnCluster(Executor):
+    """An executor of a connection to a scheduler, which ends with it."""
+
+    def __init__(self, client: "Client") -> None:
+        self.client, self._executor = client, client.get_executor(pure=False)
+
+    def submit(self, work: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        outer: Future[T] = Future()
+        try:
+            inner = self._executor.submit(_alone, edition(), work, *args, **kwargs)
+        except Exception as error:  # the connection is closed: dask has no one word for it
+            raise LostError(str(error)) from None
+        inner.add_done_callback(lambda inner: _pass_on(inner, outer))
+        return outer
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        if cancel_futures:
+            self._executor.shutdown(wait=False)
+        with suppress(Exception, CancelledError):  # a connection that is lost already has its own troubles
+            self.client.close(timeout=_PATIENCE)
+
+
+def _pass_on(inner: "Future[Any]", outer: "Future[Any]") -> None:
+    """What became of a task, in the words of a batch."""
+    if inner.cancelled():
+        outer.set_exception(LostError("the scheduler lost it"))
+        return
+    error = inner.exception()
+    if error is None:
+        outer.set_result(inner.result())
+    elif type(error).__name__ == "KilledWorker":
+        outer.set_exception(BrokenExecutor(str(error)))
+    elif isinstance(error, ImportError) or "deserialization of the task graph" in str(error):
+        outer.set_exception(UsageError("the cluster cannot run ptmcalc", _SAME))
+    else:
+        outer.set_exception(error)
+
+
+def _alone(program: bytes, work: Work, texts: Sequence[bytes], options: Options) -> list[Record]:
+    """On a worker: the work, by the program that asks for it and no other.
+
+    Raises:
+        UsageError: the worker has another one, whose results might be others.
+    """
+    if edition() != program:
+        raise UsageError("the cluster has another version of ptmcalc, or of numpy", _SAME)
+    with _AT_WORK:
+        return work(texts, options)
