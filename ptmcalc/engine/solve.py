@@ -96,7 +96,13 @@ def solve(
 
 
 def boundary(
-    loaded: Loaded, check: AnyCheck, path: KeyPath, along: KeyPath, values: Sequence[float], scene_name: str = ""
+    loaded: Loaded,
+    check: AnyCheck,
+    path: KeyPath,
+    along: KeyPath,
+    values: Sequence[float],
+    scene_name: str = "",
+    spare: Spare = lambda limit: 0.0,
 ) -> Iterator[tuple[float, Solution | None]]:
     """The solution for `path` at each value (SI) of a second key: the curve on which the check just passes.
 
@@ -105,7 +111,7 @@ def boundary(
     """
     for value in values:
         other = changed(loaded, along, value)
-        yield value, solve(other, check, path, scene_name) if other.spec is not None else None
+        yield value, solve(other, check, path, scene_name, spare=spare) if other.spec is not None else None
 
 
 class _SpentError(Exception):

@@ -11,14 +11,11 @@ from rich.text import Text
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
-from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, LoadReport, SceneReport, count
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.report import details, ledger, pick, tables, words
 from ptmcalc.report.drawing import GAP, STYLE, new_table, printed, put
 from ptmcalc.report.pick import Row
-
-_SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -221,9 +218,8 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
     for index, (scene, judgement) in enumerate((row.scene, row.judgement) for row in rows):
         verdict = Text(judgement.verdict.value.replace("_", " "), style=STYLE[judgement.verdict.value])
         value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
-        limit = (
-            f"{_SIGN[judgement.sense]} {words.amount(judgement.limit, judgement.quantity)}" if judgement.limit else ""
-        )
+        limit = words.amount(judgement.limit, judgement.quantity) if judgement.limit else ""
+        limit = f"{words.SIGN[judgement.sense]} {limit}" if limit else ""
         title = f"{judgement.code} {words.subject(judgement)}"
         table.add_row(verdict, title, scene, value, limit, words.margin(judgement), *beside[index : index + 1])
         remark = words.remark(judgement)

@@ -8,8 +8,12 @@ from typing import Any
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import TIME, Quantity, digits, display_unit, show, unit_of
+from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSolver, SceneReport
+
+SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
+"""What a value is to be against its limit."""
 
 
 def printable(node: Any) -> Any:
