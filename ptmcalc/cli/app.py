@@ -254,10 +254,13 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
+    shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
+    options = Options(
+        tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, budget=_budget(budget), repairs=repairs
+    )
     in_json = Format.JSON in {chosen, *(target for target, _ in files)}
     with Run(options, jobs, store, in_json, executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))

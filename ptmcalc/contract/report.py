@@ -45,6 +45,8 @@ class LoadReport:
     formulas: tuple[FormulaValue, ...] = ()
     history: History | None = None
     note: str = ""
+    course: tuple[float, ...] = ()
+    """the shape of its history in a few numbers"""
 
     @property
     def formula(self) -> FormulaValue | None:

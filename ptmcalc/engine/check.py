@@ -42,6 +42,9 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
 
+_PARTS = 12
+"""Numbers that the shape of a history has."""
+
 
 @dataclass(frozen=True, slots=True)
 class Options:
@@ -52,6 +55,8 @@ class Options:
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
+    courses: bool = False
+    """whether reports show the shapes of histories"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     today: date | None = None
@@ -290,6 +295,7 @@ class _Assembly:
             best = self.settled.loads.get(info.name)
             if best is None:
                 continue
+            history = histories.get(info.name)
             yield LoadReport(
                 info=info,
                 estimate=best.estimate,
@@ -298,14 +304,15 @@ class _Assembly:
                 at=best.found.at,
                 window=best.result.window,
                 formulas=self._formulas(info.name, best.estimate.value),
-                history=histories.get(info.name),
+                history=history if self.options.histories else None,
+                course=history.course(_PARTS) if history and self.options.courses else (),
                 note=best.found.note,
             )
 
     def _histories(self) -> Mapping[str, History]:
         """Courses of loads over time, each from the richest run that knows it."""
         found: dict[str, History] = {}
-        for run in self.settled.runs if self.options.histories else ():
+        for run in self.settled.runs if self.options.histories or self.options.courses else ():
             found |= run.result.histories()
         return found
 
@@ -363,7 +370,9 @@ class _Assembly:
 
     def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck) -> bool:
         """Whether the file with another value at a key passes a check in this scene."""
-        options = replace(self.options, scenes=(self.settled.plan.scene.label,), histories=False, repairs=False)
+        options = replace(
+            self.options, scenes=(self.settled.plan.scene.label,), histories=False, courses=False, repairs=False
+        )
         again = check(changed(self.loaded, path, value), options)
         name = (wanted.code, wanted.element)
         verdicts = [one.verdict for _, one in again.judgements if (one.code, one.element) == name]

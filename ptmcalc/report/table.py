@@ -133,8 +133,10 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...], names: frozenset[s
         )
         for info in infos
     }
-    columns = [_columns(scene, own, infos, units) for scene, own in zip(scenes, loads, strict=True)]
+    columns = [_columns(scene, own, infos, units, courses=True) for scene, own in zip(scenes, loads, strict=True)]
     labels = min(max((len(info.title) + len(units[info.name]) for info in infos), default=0) + 2 * GAP, _LABELS)
+    if sum(_width(column) for part in columns for column in part) > console.width - labels:
+        columns = [_columns(scene, own, infos, units, courses=False) for scene, own in zip(scenes, loads, strict=True)]
     title = "Loads"
     for group in _side_by_side([sum(map(_width, part)) for part in columns], console.width - labels):
         shown = [column for index in group for column in columns[index]]
@@ -172,12 +174,19 @@ _LABELS = 32
 
 
 def _columns(
-    scene: SceneReport, own: Mapping[str, LoadReport], infos: Sequence[LoadInfo], units: Mapping[str, str]
+    scene: SceneReport,
+    own: Mapping[str, LoadReport],
+    infos: Sequence[LoadInfo],
+    units: Mapping[str, str],
+    *,
+    courses: bool,
 ) -> list[_Column]:
-    """The columns of one scene: its values, and the textbook's where there are any."""
+    """The columns of one scene: its values, their courses over time, and the textbook's, where there are any."""
     found = [own.get(info.name) for info in infos]
     values = [words.amount(load.estimate, load.info.quantity, units[load.info.name]) if load else "" for load in found]
     columns = [(scene.name, "", values)]
+    if courses and any(load and load.course for load in found):
+        columns.append(("course", "dim", [words.sparkline(load.course) if load else "" for load in found]))
     if any(load and load.formula for load in found):
         columns.append(("textbook", "dim", [_formula(load, units[load.info.name]) if load else "" for load in found]))
     return columns

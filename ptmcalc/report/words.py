@@ -15,6 +15,8 @@ from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSo
 SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 """What a value is to be against its limit."""
 
+_BARS = "▁▂▃▄▅▆▇█"
+
 
 def printable(node: Any) -> Any:
     """Reports, or texts in lists, in which what a terminal would obey or not show is written as an escape.
@@ -85,6 +87,14 @@ def margin(judgement: Judgement) -> str:
     if judgement.limit.value == 0:
         return f"{'+' if judgement.margin >= 0 else ''}{number(judgement.margin, judgement.quantity)}"
     return f"{100 * judgement.margin / abs(judgement.limit.value) + 0.0:+.1f} %"  # a limit just kept has no minus
+
+
+def sparkline(course: tuple[float, ...]) -> str:
+    """A curve one line high, from its least to its largest value."""
+    if not course:
+        return ""
+    least, span = min(course), max(course) - min(course)
+    return "".join(_BARS[min(int(len(_BARS) * (value - least) / span), len(_BARS) - 1)] for value in course)
 
 
 def relative_margin(judgement: Judgement) -> float:
