@@ -254,10 +254,13 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
+    shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
+    options = Options(
+        tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, budget=_budget(budget), repairs=repairs
+    )
     in_json = Format.JSON in {chosen, *(target for target, _ in files)}
     with Run(options, jobs, store, in_json, executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
@@ -468,17 +471,28 @@ def solvers(
 def solve(
     path: Annotated[str, typer.Argument(help="A design file.")],
     code: Annotated[str, typer.Option("--check", help="The check that is to pass, e.g. CNV101.")],
-    vary: Annotated[str, typer.Option("--vary", help="The key that may move, e.g. takeup.tension.")],
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            "--vary",
+            metavar="KEY",
+            help="The key that may move, e.g. takeup.tension. A second one with values, e.g. 'belt.mass=10 kg/m:30"
+            " kg/m:5', gives the curve on which the check just passes.",
+        ),
+    ],
+    margin: Annotated[
+        str, typer.Option("--margin", help="What is wanted beside the limit: a share of it, e.g. 10%, or in its unit.")
+    ] = "",
     scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """Find the value of one key at which a check just passes, its error bar included.
+    """Find the value of one key at which a check just passes, its error bar included, and what the others say there.
 
     Exit status 1 when no value within three decades changes the verdict.
     """
-    from ptmcalc.cli.listing import show_solution
+    from ptmcalc.cli.solution import show_solution
 
-    raise typer.Exit(show_solution(path, code, vary, scene, form == ListFormat.JSON))
+    raise typer.Exit(show_solution(path, code, vary, scene, margin, as_json=form == ListFormat.JSON))
 
 
 @app.command()

@@ -12,7 +12,6 @@ from typing import Any
 
 from ptmcalc.base.diagnostic import CODES, CodeText
 from ptmcalc.base.errors import UsageError
-from ptmcalc.base.span import dotted, key_path
 from ptmcalc.base.units import TIME, show
 from ptmcalc.cli.output import say
 from ptmcalc.contract.check import AnyCheck
@@ -25,7 +24,6 @@ from ptmcalc.engine.load import Loaded, load_file, load_text
 from ptmcalc.engine.plan import ScenePlan, plan
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.engine.run import Foreseen, foresee
-from ptmcalc.engine.solve import solve
 from ptmcalc.report import Format, json, render, words
 from ptmcalc.report.table import listing
 from ptmcalc.spec.shape import did_you_mean
@@ -36,7 +34,7 @@ _DIGITS_ALIKE = str.maketrans("OIL", "011")
 """Letters that are written for a digit of a code."""
 
 
-def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def listed(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return listing(columns, rows, width=get_terminal_size((120, 40)).columns)
 
 
@@ -66,18 +64,18 @@ def show_plan(paths: Sequence[str], options: Options, as_json: bool) -> int:
         for scene, coming in zip(made.scenes, foresee(made), strict=True):
             found = list(_plan_rows(scene, coming))
             rows += [{"path": path} | row | {"criterion": json.criterion(row["criterion"])} for row in found]
-            tables.append(_plan_table(path, found))
+            tables.append(_planlisted(path, found))
     say(json.rows(rows) if as_json else "\n".join(tables))
     return status
 
 
-def _plan_table(path: str, rows: Sequence[Row]) -> str:
+def _planlisted(path: str, rows: Sequence[Row]) -> str:
     """The effects of one scene under the solver it comes to."""
     first = rows[0]
     about = show(first["predicted_seconds"], TIME, 2)
     title = f"{path}  {first['scene']}: {first['solver']}, predicted {about}\n"
     columns = ("effect", "will be", "number", "what it says")
-    return title + (_table(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
+    return title + (listed(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
 
 
 def _plan_rows(scene: ScenePlan, coming: Foreseen) -> Iterator[Row]:
@@ -227,7 +225,7 @@ def show_kinds(as_json: bool) -> str:
     if as_json:
         return json.rows(rows)
     cells = [(kind.name, ", ".join(one.type for one in kind.types), kind.title) for kind in kinds]
-    return _table(("kind", "types", "what it checks"), cells)
+    return listed(("kind", "types", "what it checks"), cells)
 
 
 def starting_file(kind: str, type_of_it: str) -> str:
@@ -278,7 +276,7 @@ def show_solvers(kind: str, as_json: bool) -> str:
         ]
         for row in rows
     ]
-    return _table(columns, cells)
+    return listed(columns, cells)
 
 
 def _solver_rows(kind: AnyKind) -> Iterator[Row]:
@@ -311,33 +309,3 @@ def _part(function: Any, name: str) -> str:
     """One marked paragraph of a docstring on one line."""
     match = re.search(rf"\*\*{name}\*\*(.*?)(?=\*\*[A-Z]|\Z)", _doc(function), re.DOTALL)
     return " ".join(match[1].split()) if match else ""
-
-
-# -- solve ----------------------------------------------------------------------------------------------------------
-
-
-def show_solution(path: str, code: str, key: str, scene: str, as_json: bool) -> int:
-    """Print the value at which a check just passes; the exit status."""
-    loaded = _loaded(path, Options())
-    if loaded.kind is None or loaded.spec is None:
-        return _reported(loaded)
-    check = next((check for check in loaded.kind.checks if check.code == code.upper()), None)
-    if check is None:
-        codes = ", ".join(check.code for check in loaded.kind.checks)
-        raise UsageError(f"a {loaded.kind.label} has no check `{code}`", f"checks: {codes}")
-    if loaded.spec.settings.switched_off(check.code):
-        raise UsageError(f"{check.code} is switched off in this file", f"delete `{check.code}` under `checks`")
-    if scene:
-        chosen_scenes(loaded.spec, (scene,))
-    solution = solve(loaded.kind, loaded.spec, check, key_path(key), scene, loaded.assumed)
-    if solution is None:
-        say(f"ptmcalc: within three decades no value of `{key}` changes the verdict of {check.code}\n", err=True)
-        return 1
-    if as_json:
-        found = {"path": list(solution.path), "value": solution.value, "unit": solution.quantity.si}
-        say(json.dump(found))
-    else:
-        where = f" in {scene}" if scene else ""
-        value = show(solution.value, solution.quantity, 6)
-        say(f"{dotted(solution.path)}: {value}   {check.code} just passes{where}\n")
-    return 0

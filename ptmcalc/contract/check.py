@@ -49,6 +49,8 @@ class Check(Generic[S, C]):
     each: "Callable[[S, C], Iterable[Check[S, C]]] | None" = None
     element: str = ""
     repairs_blame: bool = False
+    forbids_band: bool = False
+    """whether values of the repair's key on both sides of those that fail pass"""
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether this type of scene is held against the check."""

@@ -45,6 +45,8 @@ class LoadReport:
     formulas: tuple[FormulaValue, ...] = ()
     history: History | None = None
     note: str = ""
+    course: tuple[float, ...] = ()
+    """the shape of its history in a few numbers"""
 
     @property
     def formula(self) -> FormulaValue | None:
@@ -105,11 +107,12 @@ class SolverReport:
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """The value of a key at which the check just passes."""
+    """The value of a key at which the check just passes; `other` is the one at the far edge of a forbidden band."""
 
     path: KeyPath
     value: float
     quantity: Quantity
+    other: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

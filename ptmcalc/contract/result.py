@@ -1,5 +1,6 @@
 """What a solver hands back."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -78,6 +79,24 @@ class History:
     times: Sequence[float]
     values: Sequence[float]
     over: Quantity = TIME
+
+    def course(self, parts: int) -> tuple[float, ...]:
+        """Its shape in a few numbers: in each of so many equal parts of the time the value farthest from the mean, or
+        the one before where a part has none; nothing where it stays as it is."""
+        finite = [(time, value) for time, value in zip(self.times, self.values, strict=True) if math.isfinite(value)]
+        if not finite:
+            return ()
+        begin, end = min(finite)[0], max(finite)[0]
+        mean = sum(value for _, value in finite) / len(finite)
+        found = [math.nan] * parts
+        for time, value in finite:
+            part = min(int(parts * (time - begin) / (end - begin)), parts - 1) if end > begin else 0
+            if not abs(value - mean) <= abs(found[part] - mean):
+                found[part] = value
+        for part in range(1, parts):
+            if math.isnan(found[part]):
+                found[part] = found[part - 1]
+        return tuple(found) if max(found) > min(found) else ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,15 +3,16 @@
 import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date
 from functools import partial
 from pathlib import Path
 
 from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import UsageError
-from ptmcalc.base.span import Span, dotted
+from ptmcalc.base.span import KeyPath, Span, dotted
 from ptmcalc.base.units import show
+from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import (
@@ -30,7 +31,7 @@ from ptmcalc.contract.report import (
 )
 from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.judge import Ruling
-from ptmcalc.engine.load import Loaded, load_file
+from ptmcalc.engine.load import Loaded, changed, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
@@ -40,6 +41,9 @@ from ptmcalc.engine.waive import about_waivers, waived
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
+
+_PARTS = 12
+"""Numbers that the shape of a history has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +55,8 @@ class Options:
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
+    courses: bool = False
+    """whether reports show the shapes of histories"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     today: date | None = None
@@ -174,15 +180,15 @@ def _flips(
     """
     base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
-    for value, end, changed in variants(spec, assumed):
+    for value, end, other in variants(spec, assumed):
         left: dict[str, set[tuple[str, str]]] = {}
         for (label, *check), verdict in base.items():
             if verdict in (Verdict.PASS, Verdict.FAIL) and (label, *check) not in found:
                 left.setdefault(label, set()).add((check[0], check[1]))
         if not left:
             break
-        again = plan(kind, changed, [scene for scene in changed.all_scenes if scene.label in left])
-        ends = [settle(kind, changed, one, budget=budget, verdicts=left[one.scene.label]) for one in again.scenes]
+        again = plan(kind, other, [scene for scene in other.all_scenes if scene.label in left])
+        ends = [settle(kind, other, one, budget=budget, verdicts=left[one.scene.label]) for one in again.scenes]
         found |= {
             key: (value, end, ruling.verdict) for key, ruling in _by_key(again, ends) if ruling.verdict is not base[key]
         }
@@ -289,6 +295,7 @@ class _Assembly:
             best = self.settled.loads.get(info.name)
             if best is None:
                 continue
+            history = histories.get(info.name)
             yield LoadReport(
                 info=info,
                 estimate=best.estimate,
@@ -297,14 +304,15 @@ class _Assembly:
                 at=best.found.at,
                 window=best.result.window,
                 formulas=self._formulas(info.name, best.estimate.value),
-                history=histories.get(info.name),
+                history=history if self.options.histories else None,
+                course=history.course(_PARTS) if history and self.options.courses else (),
                 note=best.found.note,
             )
 
     def _histories(self) -> Mapping[str, History]:
         """Courses of loads over time, each from the richest run that knows it."""
         found: dict[str, History] = {}
-        for run in self.settled.runs if self.options.histories else ():
+        for run in self.settled.runs if self.options.histories or self.options.courses else ():
             found |= run.result.histories()
         return found
 
@@ -348,26 +356,27 @@ class _Assembly:
         )
 
     def _repair(self, ruling: Ruling) -> Repair | None:
+        """The value of the repair's key at which the check was seen to pass, in a check of the changed file."""
         scene = self.settled.plan.scene
         path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
+        seconds = min(REPAIR_SECONDS, self.options.budget)
         try:
-            solution = (
-                solve(
-                    self.kind,
-                    self.spec,
-                    ruling.check,
-                    path,
-                    scene.label,
-                    self.loaded.assumed,
-                    digits=3,
-                    seconds=min(REPAIR_SECONDS, self.options.budget),
-                )
-                if path
-                else None
-            )
+            found = solve(self.loaded, ruling.check, path, scene.label, finest=0, seconds=seconds) if path else None
         except UsageError:
             return None
-        return Repair(solution.path, solution.value, solution.quantity) if solution else None
+        edges = (found.value, found.other) if found else ()
+        passing = [value for value in edges if value is not None and self._passes_with(path, value, ruling.check)]
+        return Repair(path, passing[0], found.quantity, *passing[1:]) if found and passing else None
+
+    def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck) -> bool:
+        """Whether the file with another value at a key passes a check in this scene."""
+        options = replace(
+            self.options, scenes=(self.settled.plan.scene.label,), histories=False, courses=False, repairs=False
+        )
+        again = check(changed(self.loaded, path, value), options)
+        name = (wanted.code, wanted.element)
+        verdicts = [one.verdict for _, one in again.judgements if (one.code, one.element) == name]
+        return bool(verdicts) and all(verdict is Verdict.PASS for verdict in verdicts)
 
     def _health(self) -> Mapping[str, float]:
         """The health of the richest run, and the work of all of them."""

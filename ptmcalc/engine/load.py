@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import KeyPath, dotted
+from ptmcalc.base.units import RATIO
 from ptmcalc.base.words import quote
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
@@ -35,6 +36,8 @@ class Loaded:
     spec: MachineSpec | None = None
     assumed: tuple[AssumedReport, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
+    asked: Mapping[str, Any] = field(default_factory=dict)
+    """what the command line says instead of the file, by its key there"""
 
 
 def load_file(path: Path, name: str, effects: Mapping[str, str] | None = None, accuracy: str = "") -> Loaded:
@@ -52,7 +55,8 @@ def load_file(path: Path, name: str, effects: Mapping[str, str] | None = None, a
 def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, accuracy: str = "") -> Loaded:
     """Read a design file from its bytes."""
     document = parse(raw, name)
-    kind, spec, problems = _read(document, effects or {}, accuracy)
+    asked = _asked(document, effects or {}, accuracy)
+    kind, spec, problems = _read(document, asked)
     problems = _in_file_order([*document.problems, *problems])
     if kind is None or spec is None or problems:
         return Loaded(document, kind, diagnostics=tuple(problems))
@@ -68,7 +72,37 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
         )
         for finding in kind.inspect(spec)
     )
-    return Loaded(document, kind, spec, assumed, notes)
+    return Loaded(document, kind, spec, assumed, notes, asked)
+
+
+def changed(loaded: Loaded, path: KeyPath, value: float) -> Loaded:
+    """The machine as it is read where the file says another number (SI) at one key; without a spec where that would
+    not be a valid file. What was assumed is assumed anew; a key that the file does not write is simply given."""
+    kind, spec = loaded.kind, loaded.spec
+    if kind is None or spec is None:
+        return loaded
+    if not loaded.document.holds(path):
+        others = tuple(one for one in loaded.assumed if one.path != path)
+        return replace(loaded, spec=spec.with_value(path, value), assumed=others)
+    measure = measure_at(spec, path)
+    bare = measure is None or measure.quantity.dimension == RATIO.dimension
+    written = value if bare or measure is None else f"{value!r} {measure.quantity.si}"
+    data = _with(loaded.document.data, path, written)
+    document = replace(loaded.document, data=data)
+    try:
+        spec, assumed = fill(kind, kind.spec.model_validate({**data, **loaded.asked}))
+    except ValidationError:
+        return replace(loaded, document=document, spec=None)
+    return replace(loaded, document=document, spec=spec, assumed=assumed)
+
+
+def _with(node: Any, path: KeyPath, value: object) -> Any:
+    """Data with another value at a key."""
+    if not path:
+        return value
+    copy = node.copy()
+    copy[path[0]] = _with(node[path[0]], path[1:], value)
+    return copy
 
 
 def _with_lines(finding: Finding, document: Document) -> str:
@@ -80,22 +114,23 @@ def _with_lines(finding: Finding, document: Document) -> str:
     return f"{finding.message} ({keys[0]} in line {lines[0]}, {keys[1]} in line {lines[1]})"
 
 
-def _read(
-    document: Document, effects: Mapping[str, str], accuracy: str
-) -> tuple[AnyKind | None, MachineSpec | None, list[Diagnostic]]:
+def _asked(document: Document, effects: Mapping[str, str], accuracy: str) -> Mapping[str, Any]:
+    """Keys of the file that the command line replaces."""
+    own = document.data.get("effects", {}) if isinstance(document.data, dict) else {}
+    asked: dict[str, Any] = {"accuracy": accuracy} if accuracy else {}
+    return asked | {"effects": {**own, **effects}} if effects and isinstance(own, dict) else asked
+
+
+def _read(document: Document, asked: Mapping[str, Any]) -> tuple[AnyKind | None, MachineSpec | None, list[Diagnostic]]:
     """The machine as the file alone describes it, and what is wrong with it."""
     if not isinstance(document.data, dict):
         return None, None, []
-    data = dict(document.data)
+    data = {**document.data, **asked}
     kind, problems = _kind_of(document, data)
     if kind is not None and kind.types:
         kind, problems = _type_of(kind, document, data)
     if kind is None:
         return None, None, problems
-    if effects and isinstance(data.get("effects", {}), dict):
-        data["effects"] = {**data.get("effects", {}), **effects}
-    if accuracy:
-        data["accuracy"] = accuracy
     problems = list(_open_key_problems(kind, data, document))
     open_keys = {found.path for found in problems}
     problems += _unknown_waivers(kind, data, document)

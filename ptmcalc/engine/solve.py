@@ -1,55 +1,48 @@
 """The value of one key at which a check just passes, by bracketing on the clearance of its verdict."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath, dotted
-from ptmcalc.base.units import Quantity, display_unit, unit_of
+from ptmcalc.base.units import RATIO, Quantity, display_unit, unit_of
 from ptmcalc.contract.check import AnyCheck, Sense
-from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
 from ptmcalc.engine.judge import Ruling
-from ptmcalc.engine.load import measure_at
+from ptmcalc.engine.load import Loaded, changed, measure_at
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.run import settle
-from ptmcalc.spec.fields import Measure
 from ptmcalc.spec.machine import MachineSpec
 
-_DECADES = 3
-_STEPS_PER_DECADE = 4
+_DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
+"""How far from the present value others are tried, in decades on either side."""
 _MOST_STEPS = 60
 REPAIR_SECONDS = 6.0
 """Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
 
 Clearance = Callable[[float], float]
-"""How far the whole error bar lies on the sound side of the limit; the check passes from 0 up."""
+"""How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the
+check passes from 0 up."""
+Spare = Callable[[Estimate], float]
+"""The margin wanted beside a limit."""
+_Bracket = tuple[float, float]
+"""A value that fails and one that passes, neighbours among those tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """A value of a key, SI, at which the check passes in every scene it applies to."""
+    """A value of a key, SI, at which the check passes in every scene it applies to.
+
+    `other` is the value at the far edge of the band, where that is what the check forbids.
+    """
 
     path: KeyPath
     value: float
     quantity: Quantity
-
-
-@dataclass(frozen=True, slots=True)
-class _Wanted:
-    """How closely a value is looked for: digits, the bracket they need, and the finest setting a run may have (near
-    the limit every refinement would run, which no digit of the value is worth)."""
-
-    digits: int
-
-    @property
-    def width(self) -> float:
-        return 3 * 10.0**-self.digits
-
-    @property
-    def finest(self) -> int:
-        return max(self.digits - 3, 0)
+    other: float | None = None
 
 
 def variants(spec: MachineSpec, assumed: Iterable[AssumedReport]) -> Iterator[tuple[AssumedReport, float, MachineSpec]]:
@@ -61,49 +54,64 @@ def variants(spec: MachineSpec, assumed: Iterable[AssumedReport]) -> Iterator[tu
 
 
 def solve(
-    kind: AnyKind,
-    spec: MachineSpec,
+    loaded: Loaded,
     check: AnyCheck,
     path: KeyPath,
     scene_name: str = "",
-    assumed: Iterable[AssumedReport] = (),
     *,
     digits: int = 4,
+    finest: int = 1,
     seconds: float = math.inf,
+    spare: Spare = lambda limit: 0.0,
 ) -> Solution | None:
     """The value nearest to the present one at which the check just passes, or None when there is none within 3 decades.
 
     Values at growing distances on both sides of the present one are tried, the first change between pass and fail is
-    narrowed down, and the value is rounded to so many digits of its unit towards the passing side. It is a value at
-    which the check was seen to pass, error bar included, with every assumed value at both ends of its interval. None
-    too when the search is predicted to take more than `seconds`.
+    narrowed down, and the value is rounded to so many digits of its unit (a count to a whole number) towards the
+    passing side. It is a value at which the check was seen to pass by `spare`, error bar included, with every assumed
+    value at both ends of its interval, and which the file may have. Near the limit every refinement would run, which
+    no digit of the value is worth: `finest` is the most a run has. None too when the search is predicted to take more
+    than `seconds`.
 
     Raises:
         UsageError: the key is not a number of this file.
     """
-    present, measure = spec.value_at(path), measure_at(spec, path)
-    if measure is None or not isinstance(present, int | float) or isinstance(present, bool) or present == 0:
+    spec = loaded.spec
+    assert spec is not None, "only a machine can be solved for"
+    present = spec.value_at(path)
+    measure = measure_at(spec, path)
+    counts = measure is None and isinstance(present, int) and not isinstance(present, bool) and present > 0
+    known = measure is not None and isinstance(present, int | float) and present != 0
+    if not (counts or known):
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    wanted = _Wanted(digits)
-    decisive = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
-    machines = [decisive, *(machine for value, _, machine in variants(decisive, assumed) if value.path != path)]
-    purse = _Purse(seconds)
-    clearances = [_clearance(kind, one, check, path, measure, scene_name, wanted.finest, purse) for one in machines]
-    clearance: Clearance | None = clearances[0]
+    search = _Search(loaded, check, path, scene_name, spare, finest, _Purse(seconds))
+    grid = _Grid(measure.quantity if measure else RATIO, digits, counts)
     try:
-        for _ in clearances:
-            if clearance is None:
-                break
-            bracket = _bracket(clearance, float(present))
-            if bracket is None:
-                return None
-            good = _rounded(clearance, *_narrow(clearance, *bracket, wanted.width), measure.quantity, digits)
-            clearance = next((other for other in clearances if other(good) < 0), None)
+        edges = _edges(search, float(present), grid)
     except _SpentError:
         return None
-    return Solution(path, good, measure.quantity) if clearance is None else None
+    return Solution(path, edges[0], grid.quantity, *edges[1:]) if edges else None
+
+
+def boundary(
+    loaded: Loaded,
+    check: AnyCheck,
+    path: KeyPath,
+    along: KeyPath,
+    values: Sequence[float],
+    scene_name: str = "",
+    spare: Spare = lambda limit: 0.0,
+) -> Iterator[tuple[float, Solution | None]]:
+    """The solution for `path` at each value (SI) of a second key: the curve on which the check just passes.
+
+    Raises:
+        UsageError: a key is not a number of this file.
+    """
+    for value in values:
+        other = changed(loaded, along, value)
+        yield value, solve(other, check, path, scene_name, spare=spare) if other.spec is not None else None
 
 
 class _SpentError(Exception):
@@ -122,96 +130,157 @@ class _Purse:
             raise _SpentError
 
 
-def _clearance(
-    kind: AnyKind,
-    spec: MachineSpec,
-    check: AnyCheck,
-    path: KeyPath,
-    measure: Measure,
-    scene_name: str,
-    finest: int,
-    purse: _Purse,
-) -> Clearance:
-    """The worst clearance of the check over its scenes as a function of the key; remembers what it has tried."""
-    tried: dict[float, float] = {}
-    scenes = [
-        index
-        for index, scene in enumerate(spec.all_scenes)
-        if check.applies_to(scene) and scene_name in ("", scene.label)
-    ]
+@dataclass(frozen=True, slots=True)
+class _Grid:
+    """How closely a value is looked for: digits of its unit, or whole numbers."""
 
-    def clearance(value: float) -> float:
-        if value not in tried:
-            tried[value] = -math.inf
-            if not measure.broken_by(value):
-                changed = spec.with_value(path, value)
-                tried[value] = min(
-                    (_of_scene(kind, changed, check, index, finest, purse) for index in scenes), default=-math.inf
-                )
-        return tried[value]
+    quantity: Quantity
+    digits: int
+    counts: bool
 
-    return clearance
+    def close(self, bad: float, good: float) -> bool:
+        """Whether a bracket needs no narrowing."""
+        return abs(good - bad) <= (1 if self.counts else 3 * 10.0**-self.digits * abs(good))
 
+    def on(self, value: float) -> float:
+        """The nearest value that can be tried."""
+        return float(round(value)) if self.counts else value
 
-def _of_scene(kind: AnyKind, spec: MachineSpec, check: AnyCheck, index: int, finest: int, purse: _Purse) -> float:
-    scene = plan_scene(kind, spec, spec.all_scenes[index])
-    settled = settle(kind, spec, scene, only=check, until=lambda rung: rung.level <= finest)
-    purse.pay(sum(max(run.rung.seconds, run.result.spent) for run in settled.runs))
-    return min((_of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
+    def rounded(self, clearance: Clearance, bad: float, good: float) -> float:
+        """The passing value with few digits, in the unit it is shown in, if that still passes."""
+        if self.counts:
+            return good
+        factor = unit_of(display_unit(good, self.quantity))[0]
+        shown = good / factor
+        places = self.digits - 1 - math.floor(math.log10(abs(shown)))
+        towards = math.ceil if good >= bad else math.floor
+        for extra in range(3):
+            scale = 10.0 ** (places + extra)
+            candidate = towards(shown * scale) / scale * factor
+            if clearance(candidate) >= 0:
+                return candidate
+        return good
 
 
-def _of_ruling(ruling: Ruling) -> float:
-    if ruling.value is None or ruling.limit is None:
-        return -math.inf
-    if ruling.check.sense is Sense.AT_LEAST:
-        clearance = ruling.value.low - ruling.limit.high
-    else:
-        clearance = ruling.limit.low - ruling.value.high
-    return -math.inf if math.isnan(clearance) else clearance
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """The clearances of a check as functions of a key: of the machine, and with each assumed value at each end."""
+
+    loaded: Loaded
+    check: AnyCheck
+    path: KeyPath
+    scene: str
+    spare: Spare
+    finest: int
+    purse: _Purse
+
+    def clearances(self) -> list[Clearance]:
+        """The machine as it is first."""
+        spec = self.loaded.spec
+        assert spec is not None
+        ends = [(one.path, end) for one, end, _ in variants(spec, self.loaded.assumed) if one.path != self.path]
+        return [self._clearance(None), *map(self._clearance, ends)]
+
+    def _clearance(self, end: tuple[KeyPath, float] | None) -> Clearance:
+        """The worst clearance over the scenes of the check; it remembers what it has tried."""
+        tried: dict[float, float] = {}
+
+        def clearance(value: float) -> float:
+            if value not in tried:
+                tried[value] = self._at(value, end)
+            return tried[value]
+
+        return clearance
+
+    def _at(self, value: float, end: tuple[KeyPath, float] | None) -> float:
+        before = self.loaded.spec
+        measure = measure_at(before, self.path) if before is not None else None
+        if measure is not None and measure.broken_by(value):
+            return -math.inf
+        spec = changed(self.loaded, self.path, value if measure else int(value)).spec
+        if spec is None:
+            return -math.inf
+        if self.path != ("accuracy",):
+            spec = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
+        if end is not None:
+            spec = spec.with_value(*end)
+        wanted = [
+            index
+            for index, scene in enumerate(spec.all_scenes)
+            if self.check.applies_to(scene) and self.scene in ("", scene.label)
+        ]
+        return min((self._of_scene(spec, index) for index in wanted), default=-math.inf)
+
+    def _of_scene(self, spec: MachineSpec, index: int) -> float:
+        kind = self.loaded.kind
+        assert kind is not None
+        scene = plan_scene(kind, spec, spec.all_scenes[index])
+        settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= self.finest)
+        self.purse.pay(sum(max(run.rung.seconds, run.result.spent) for run in settled.runs))
+        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
+
+    def _of_ruling(self, ruling: Ruling) -> float:
+        if ruling.value is None or ruling.limit is None:
+            return -math.inf
+        if ruling.check.sense is Sense.AT_LEAST:
+            clearance = ruling.value.low - ruling.limit.high
+        else:
+            clearance = ruling.limit.low - ruling.value.high
+        return -math.inf if math.isnan(clearance) else clearance - self.spare(ruling.limit)
 
 
-def _bracket(clearance: Clearance, present: float) -> tuple[float, float] | None:
-    """(a value that fails, one that passes), neighbours in a search outwards on both sides in equal ratios."""
+def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
+    """Where the check just passes, whatever is assumed: next to the present value, and where the check forbids a band
+    on the other side too."""
+    clearances = search.clearances()
+    found: list[float] = []
+    for place in range(2 if search.check.forbids_band else 1):
+        clearance: Clearance | None = clearances[0]
+        good = math.nan
+        for _ in clearances:
+            if clearance is None:
+                break
+            bracket = next(islice(_brackets(clearance, present, grid), place, None), None)
+            if bracket is None:
+                return found
+            good = grid.rounded(clearance, *_narrow(clearance, *bracket, grid))
+            clearance = next((other for other in clearances if other(good) < 0), None)
+        if clearance is not None:
+            return found
+        found.append(good)
+    return found
+
+
+def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
+    """Changes between fail and pass, one on each side of the present value, as they are met in steps outwards."""
     passes = clearance(present) >= 0
-    reached = [present, present]
-    for step in range(1, _DECADES * _STEPS_PER_DECADE + 1):
-        for side, sign in ((0, 1), (1, -1)):
-            candidate = present * 10 ** (sign * step / _STEPS_PER_DECADE)
+    reached = {1: present, -1: present}
+    for decades in _DECADES:
+        for side in tuple(reached):
+            candidate = grid.on(present * 10 ** (side * decades))
             if (clearance(candidate) >= 0) is not passes:
-                return (candidate, reached[side]) if passes else (reached[side], candidate)
-            reached[side] = candidate
-    return None
+                yield (candidate, reached[side]) if passes else (reached[side], candidate)
+                del reached[side]
+            else:
+                reached[side] = candidate
 
 
-def _narrow(clearance: Clearance, bad: float, good: float, relative: float) -> tuple[float, float]:
+def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
     halved where the clearance is not finite."""
     weight = 1.0
     for _ in range(_MOST_STEPS):
-        width = good - bad
-        if abs(width) <= relative * abs(good):
+        if grid.close(bad, good):
             break
         below, above = clearance(bad) * weight, clearance(good)
         share = 0.5
         if math.isfinite(below) and math.isfinite(above):
             share = min(max(below / (below - above), 0.02), 0.98)
-        middle = bad + share * width
+        middle = grid.on(bad + share * (good - bad))
+        if middle in (bad, good):
+            middle = good + math.copysign(1, bad - good) if middle == good else bad + math.copysign(1, good - bad)
         if clearance(middle) >= 0:
             good, weight = middle, weight / 2  # the failing end stays: give it less weight (Illinois)
         else:
             bad, weight = middle, 1.0
     return bad, good
-
-
-def _rounded(clearance: Clearance, bad: float, good: float, quantity: Quantity, digits: int) -> float:
-    """The passing value with few digits, in the unit it is shown in, if that still passes."""
-    factor = unit_of(display_unit(good, quantity))[0]
-    shown = good / factor
-    places = digits - 1 - math.floor(math.log10(abs(shown)))
-    towards = math.ceil if good >= bad else math.floor
-    for extra in range(3):
-        scale = 10.0 ** (places + extra)
-        candidate = towards(shown * scale) / scale * factor
-        if clearance(candidate) >= 0:
-            return candidate
-    return good

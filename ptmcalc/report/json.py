@@ -279,4 +279,6 @@ def _check(judgement: Judgement) -> dict[str, Any]:
         entry["without"] = list(judgement.without)
     if repair:
         entry["repair"] = {"path": list(repair.path), "value": finite(repair.value), "unit": repair.quantity.si}
+        if repair.other is not None:
+            entry["repair"]["other"] = finite(repair.other)
     return entry

@@ -11,14 +11,11 @@ from rich.text import Text
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
-from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, LoadReport, SceneReport, count
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.report import details, ledger, pick, tables, words
 from ptmcalc.report.drawing import GAP, STYLE, new_table, printed, put
 from ptmcalc.report.pick import Row
-
-_SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -136,8 +133,10 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...], names: frozenset[s
         )
         for info in infos
     }
-    columns = [_columns(scene, own, infos, units) for scene, own in zip(scenes, loads, strict=True)]
+    columns = [_columns(scene, own, infos, units, courses=True) for scene, own in zip(scenes, loads, strict=True)]
     labels = min(max((len(info.title) + len(units[info.name]) for info in infos), default=0) + 2 * GAP, _LABELS)
+    if sum(_width(column) for part in columns for column in part) > console.width - labels:
+        columns = [_columns(scene, own, infos, units, courses=False) for scene, own in zip(scenes, loads, strict=True)]
     title = "Loads"
     for group in _side_by_side([sum(map(_width, part)) for part in columns], console.width - labels):
         shown = [column for index in group for column in columns[index]]
@@ -175,12 +174,19 @@ _LABELS = 32
 
 
 def _columns(
-    scene: SceneReport, own: Mapping[str, LoadReport], infos: Sequence[LoadInfo], units: Mapping[str, str]
+    scene: SceneReport,
+    own: Mapping[str, LoadReport],
+    infos: Sequence[LoadInfo],
+    units: Mapping[str, str],
+    *,
+    courses: bool,
 ) -> list[_Column]:
-    """The columns of one scene: its values, and the textbook's where there are any."""
+    """The columns of one scene: its values, their courses over time, and the textbook's, where there are any."""
     found = [own.get(info.name) for info in infos]
     values = [words.amount(load.estimate, load.info.quantity, units[load.info.name]) if load else "" for load in found]
     columns = [(scene.name, "", values)]
+    if courses and any(load and load.course for load in found):
+        columns.append(("course", "dim", [words.sparkline(load.course) if load else "" for load in found]))
     if any(load and load.formula for load in found):
         columns.append(("textbook", "dim", [_formula(load, units[load.info.name]) if load else "" for load in found]))
     return columns
@@ -221,9 +227,8 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
     for index, (scene, judgement) in enumerate((row.scene, row.judgement) for row in rows):
         verdict = Text(judgement.verdict.value.replace("_", " "), style=STYLE[judgement.verdict.value])
         value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
-        limit = (
-            f"{_SIGN[judgement.sense]} {words.amount(judgement.limit, judgement.quantity)}" if judgement.limit else ""
-        )
+        limit = words.amount(judgement.limit, judgement.quantity) if judgement.limit else ""
+        limit = f"{words.SIGN[judgement.sense]} {limit}" if limit else ""
         title = f"{judgement.code} {words.subject(judgement)}"
         table.add_row(verdict, title, scene, value, limit, words.margin(judgement), *beside[index : index + 1])
         remark = words.remark(judgement)

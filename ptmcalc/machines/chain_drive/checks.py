@@ -64,7 +64,8 @@ RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(PO
         limit=_resonance_limit,
         needs=no_needs,
         blame=blames(*_SPEED),
-        repair=no_repair,
+        repair=at(*_SPEED),
+        forbids_band=True,
         what="The speed of the chain keeps away from every speed at which a harmonic of its teeth meets a natural"
         " frequency of the chain and the force in resonance would be half of m a_max or more. The loads"
         " `safe_speed_below` and `safe_speed_above` name the nearest speeds that do.",
