@@ -125,24 +125,40 @@ def settle(
     waiting = list(scene.rungs)
     spent = 0.0
     while True:
-        settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
-        if only is not None:
-            settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
-        if verdicts is not None:
-            settled.rulings = tuple(r for r in settled.rulings if (r.check.code, r.check.element) in verdicts)
-        following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
+        if settled.runs or not waiting:
+            settled.rulings = _rulings(kind, spec, settled, only, verdicts)
+            following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
+        else:
+            following = waiting[0]  # nothing is known yet: whatever is wanted, the cheapest run comes first
         settled.next_rung = following
+        if following is not None and until(following) and spent + following.seconds <= budget:
+            waiting.remove(following)
+            result = _climb(settled, spec, following)
+            spent += max(following.seconds, result.spent if result is not None else 0.0)
+            continue
+        if not settled.runs:
+            settled.rulings = _rulings(kind, spec, settled, only, verdicts)
         if following is None:
             settled.findings += _unreached(kind, spec, settled) if whole else ()
-            return settled
-        if not until(following):
-            return settled
-        if spent + following.seconds > budget:
+        elif until(following):
             settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=whole))
-            return settled
-        waiting.remove(following)
-        result = _climb(settled, spec, following)
-        spent += max(following.seconds, result.spent if result is not None else 0.0)
+        return settled
+
+
+def _rulings(
+    kind: AnyKind,
+    spec: MachineSpec,
+    settled: Settled,
+    only: AnyCheck | None,
+    verdicts: Container[tuple[str, str]] | None,
+) -> tuple[Ruling, ...]:
+    """How the checks that are asked about stand by what is known so far."""
+    rulings = judge(kind, spec, settled.plan.scene, settled.estimates)
+    if only is not None:
+        rulings = tuple(ruling for ruling in rulings if ruling.check.is_of(only))
+    if verdicts is not None:
+        rulings = tuple(r for r in rulings if (r.check.code, r.check.element) in verdicts)
+    return rulings
 
 
 @dataclass(frozen=True, slots=True)
@@ -293,14 +309,20 @@ def _unknown(kind: AnyKind, spec: MachineSpec, settled: Settled) -> Iterator[str
     """Governing loads that no run has looked for, or that none has bounded."""
     looked_for = {one for run in settled.runs for one in run.rung.solver.gives}
     for info in kind.loads_of(spec):
+        if not info.headline:
+            continue
         known = settled.loads.get(info.name)
-        endless = known is not None and math.isfinite(known.estimate.value) and not known.estimate.bounded
-        if info.headline and (endless or (known is None and family(info.name) not in looked_for)):
+        if known is None:
+            if family(info.name) not in looked_for:
+                yield info.name
+        elif math.isfinite(known.estimate.value) and not known.estimate.bounded:
             yield info.name
 
 
 def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]:
     """Governing loads whose bars are wider than the accuracy asked for."""
+    if spec.accuracy is None:
+        return []
     known = [info.name for info in kind.loads_of(spec) if info.headline and info.name in settled.loads]
     return [name for name in known if not _accurate(settled.loads[name].estimate, spec.accuracy)]
 
