@@ -277,7 +277,7 @@ def thrown_back(spec: Conveyor, scene: Start) -> bool:
     case = start_case(spec, scene)
     if not case.imposed_speed:
         return False
-    return case.rise_time * loop_bounds.lowest_frequency_bound(case.masses) < _SHARP * 2 * math.pi
+    return case.rise_time * lowest_frequency(case) < _SHARP * 2 * math.pi
 
 
 DAMPING_THRESHOLD = 0.001
@@ -516,6 +516,12 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
             acceleration = (reached - line.static_resistance) / masses.total_mass
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
     return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
+
+
+@kept_for(64)
+def lowest_frequency(case: StartCase) -> float:
+    """Lower bound of every natural frequency of the belt in a start [rad/s]."""
+    return loop_bounds.lowest_frequency_bound(case.masses)
 
 
 def start_duration(case: StartCase) -> float:
