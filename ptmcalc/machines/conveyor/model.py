@@ -12,12 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.base.memory import kept_for
+from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import capstan, inertia, loop_bounds, motor, start_profile, wave
+from ptmcalc.laws import belt_modes, capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.loads import FREQUENCIES
 from ptmcalc.machines.conveyor.sections import Section
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
 
@@ -522,6 +523,12 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
 def lowest_frequency(case: StartCase) -> float:
     """Lower bound of every natural frequency of the belt in a start [rad/s]."""
     return loop_bounds.lowest_frequency_bound(case.masses)
+
+
+@remembered(64)
+def natural_frequencies(masses: LoopMasses, takeup_mass: float) -> tuple[float, ...]:
+    """The lowest natural frequencies of a belt [rad/s], which no tension and no resistance changes."""
+    return tuple(belt_modes.natural_frequencies(masses, takeup_mass, FREQUENCIES).tolist())
 
 
 def start_duration(case: StartCase) -> float:
