@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import NOTHING, Estimate
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.units import SHARE, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
@@ -265,7 +265,8 @@ def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str
             continue
         known = settled.loads.get(name)
         if known is None or _better(estimate, known.estimate):
-            settled.loads[name] = Best(replace(result.loads[name], estimate=estimate), rung, result)
+            found = result.loads[name]
+            settled.loads[name] = Best(Found(estimate, found.at, found.note), rung, result)
     return lost
 
 
@@ -287,7 +288,9 @@ def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dic
         if effect.part_of and effect.part_of not in rung.carried:
             continue
         offsets = effect.bound(spec, plan.scene, estimates)
-        estimates = {name: estimate.widened(offsets.get(name, NOTHING)) for name, estimate in estimates.items()}
+        estimates = estimates | {
+            name: estimates[name].widened(offset) for name, offset in offsets.items() if name in estimates
+        }
     return estimates
 
 

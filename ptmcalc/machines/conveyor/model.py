@@ -66,8 +66,8 @@ class Strand:
 
     @property
     def even(self) -> bool:
-        """Whether mass and static rise are the same all along."""
-        return _even(self)
+        """Whether mass and static rise are the same all along, as those of one section are."""
+        return len(self.masses) == 1 or _even(self)
 
 
 @kept_for(256)
