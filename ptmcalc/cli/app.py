@@ -231,8 +231,10 @@ def check(
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
-    in_json = Format.JSON in {chosen, *(target for target, _ in files)}
-    with Run(options, jobs, store, in_json) as run:
+    forms = {chosen, *(target for target, _ in files)}
+    in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
+    whole = forms != {Format.JSON} or bool(courses) or not counts_all
+    with Run(options, jobs, store, in_json=in_json, whole=whole) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
         for target, name in files if not run.interrupted else ():
             write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))

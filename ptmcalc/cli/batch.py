@@ -30,10 +30,14 @@ _WORTH_SHOWING = 2.0
 
 
 class Run:
-    """One run of `check`: its results are there until it is left."""
+    """One run of `check`: its results are there until it is left.
 
-    def __init__(self, options: Options, jobs: str, store: str, in_json: bool) -> None:
-        self.options, self.jobs, self.store, self.in_json = options, _jobs(jobs), store, in_json
+    `in_json` says that their JSON will be asked for, `whole` that the reports themselves will.
+    """
+
+    def __init__(self, options: Options, jobs: str, store: str, *, in_json: bool, whole: bool = True) -> None:
+        self.options, self.jobs, self.store = options, _jobs(jobs), store
+        self.in_json, self.whole = in_json, whole or bool(store)
         self.interrupted = False
         self._open = ExitStack()
 
@@ -62,12 +66,13 @@ class Run:
         return self._batch(named, told)
 
     def _batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
-        from ptmcalc.cli.worker import pool, with_text, without_text
+        from ptmcalc.cli.worker import only_text, pool, with_text, without_text
         from ptmcalc.engine.batch import ALONE, Batch
         from ptmcalc.engine.store import Store
 
         kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
-        batch = Batch(files, self.options, kept, with_text if self.in_json else without_text, told=told)
+        work = without_text if not self.in_json else with_text if self.whole else only_text
+        batch = Batch(files, self.options, kept, work, told=told)
         jobs = self.jobs or (_cores() if sum(batch.seconds) >= ALONE else 1)
         jobs = min(jobs, len(batch.missing))
         executor = pool(jobs, batch.kinds) if jobs > 1 else None

@@ -51,11 +51,16 @@ def fresh(raw: bytes, options: Options) -> FileReport:
     return guarded("", lambda: check(load_text(raw, "", options.effects, options.accuracy), options))
 
 
-def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"") -> Record:
-    """What is kept of the report of a text. That of a file with waivers, however it writes the word, holds today."""
+def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"", *, whole: bool = True) -> Record:
+    """What is kept of the report of a text. That of a file with waivers, however it writes the word, holds today.
+
+    Where its JSON is all that will be asked for, the report need not be kept `whole`.
+    """
     dated = b"waive" in raw or any(j.verdict is Verdict.WAIVED for _, j in report.judgements)
     dated = dated or any(d.path[:1] == ("waive",) for d in report.diagnostics)
-    return Record(tally(report), packed(report), text, today.isoformat() if dated else "")
+    counted = tally(report)
+    kept = packed(report) if whole or counted.broken else b""
+    return Record(counted, kept, text, today.isoformat() if dated else "")
 
 
 # -- keys -----------------------------------------------------------------------------------------------------------
