@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, TypeGuard
 
@@ -76,21 +77,21 @@ class Document:
         return Span(1, 1)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Scalar:
     span: Span
     value: object
     levels: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Sequence:
     span: Span
     items: "list[_Node]"
     levels: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Mapping:
     span: Span
     entries: "dict[str, _Entry]"
@@ -164,7 +165,7 @@ class _Reader:
 
     def document(self, text: str) -> _Node:
         try:
-            return self._single(iter(yaml.parse(text, Loader=_Loader)))
+            return self._single(iter(_Loader(text).get_event, None))
         except yaml.MarkedYAMLError as error:
             raise _syntax_error(error, _LINE_BREAK.split(text)) from None
 
@@ -263,7 +264,12 @@ class _Reader:
 
     def _key(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> tuple[str, Span]:
         """A key and its place; an empty text for one that is no word."""
-        key, span = event.value if isinstance(event, yaml.ScalarEvent) else "", _span(event)
+        key, span = "", _span(event)
+        if isinstance(event, yaml.ScalarEvent):
+            key = event.value
+            if key and event.tag is None and event.anchor is None:
+                self._spend(1, path, 2, span)
+                return key, span
         if not key:
             self._say("TXT111", "this key is not a word", span, path, "write `key: value`")
         self._node(event, events, (*path, key or "?"))
@@ -345,7 +351,10 @@ def _span(event: yaml.Event) -> Span:
 
 
 def _place(mark: Any) -> Span:
-    return Span(mark.line + 1, mark.column + 1) if mark else Span(1, 1)
+    return _at(mark.line + 1, mark.column + 1) if mark else _at(1, 1)
+
+
+_at = lru_cache(maxsize=1 << 14)(Span)
 
 
 _SYNTAX_HINTS = (
