@@ -12,7 +12,7 @@ from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.decode import decode
-from ptmcalc.cli.output import say, steady_streams
+from ptmcalc.cli.output import say, say_all, steady_streams
 from ptmcalc.cli.policy import (
     BaselineOption,
     ExitZeroOption,
@@ -243,8 +243,7 @@ def check(
 
             for name in courses:
                 write(Path(name), [histories.render(reports)])
-        for piece in rendered(chosen, reports, verbose, to_terminal=terminal):
-            say(piece)
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal))
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))

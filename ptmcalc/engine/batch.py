@@ -27,7 +27,7 @@ from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import foresee
 from ptmcalc.engine.store import Record, Store, packed
-from ptmcalc.text.document import MAX_BYTES
+from ptmcalc.text.document import bytes_of
 
 CHUNK = 0.5
 """Predicted seconds of work that go out together: enough to make the way worth while, little enough to share evenly."""
@@ -135,9 +135,10 @@ class Results(Sequence[FileReport]):
     def tallies(self) -> list[Tally]:
         """The tally of each file."""
         if not self._tallies:
+            known = self._store.tallies([one.key for one in self._entries if one.report is None], self._day)
             for index, entry in enumerate(self._entries):
-                known = None if entry.report is not None else self._store.tally(entry.key, self._day)
-                self._tallies.append(known or tally(self[index]))
+                found = known.get(entry.key) if entry.report is None else None
+                self._tallies.append(found or tally(self[index]))
         return self._tallies
 
     def texts(self) -> Iterator[tuple[str, bytes]]:
@@ -167,9 +168,8 @@ class Batch:
     """reports of texts that our own program broke down on, which are told and not kept"""
 
     def __post_init__(self) -> None:
-        keys, today = Keys(self.options), self.today
-        kinds: dict[bytes, list[int]] = {}
-        seen: set[bytes] = set()
+        keys = Keys(self.options)
+        kind_of: dict[bytes, tuple[int, bytes]] = {}
         for index, path in enumerate(self.files):
             name = path.as_posix()
             raw = _read(path)
@@ -178,11 +178,15 @@ class Batch:
                 continue
             key = keys.of(raw)
             self.entries.append(Entry(name, key))
-            if key not in seen and self.store.tally(key, today.isoformat()) is None:
-                self.missing.append(index)
+            if key not in kind_of:  # of equal texts the first one is worked on
                 found = _KIND.search(raw)
-                kinds.setdefault(found[1] if found else b"", []).append(index)
-            seen.add(key)
+                kind_of[key] = index, found[1] if found else b""
+        known = self.store.tallies(list(kind_of), self.today.isoformat())
+        kinds: dict[bytes, list[int]] = {}
+        for key, (index, kind) in kind_of.items():
+            if key not in known:
+                self.missing.append(index)
+                kinds.setdefault(kind, []).append(index)
         self._predict(kinds)
 
     @property
@@ -217,7 +221,8 @@ class Batch:
         found = [replace(one, report=self.broken[one.key]) if one.key in self.broken else one for one in self.entries]
         found = [replace(one, report=replace(one.report, path=one.name)) if one.report else one for one in found]
         if not whole:
-            found = [e for e in found if e.report is not None or self.store.tally(e.key, day) is not None]
+            known = self.store.tallies([one.key for one in found if one.report is None], day)
+            found = [one for one in found if one.report is not None or one.key in known]
         found += [Entry(report.path, b"", report) for report in self.told]
         return Results(found, self.store, self.options, day)
 
@@ -358,7 +363,6 @@ def predicted(raw: bytes, options: Options) -> float:
 
 def _read(path: Path) -> bytes | None:
     try:
-        with path.open("rb") as file:
-            return file.read(MAX_BYTES + 1)
+        return bytes_of(path)
     except OSError:
         return None

@@ -55,7 +55,8 @@ def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]]) -> Iter
     yield f' "summary": {_encode(summary)},\n "files": ['
     before = "\n"
     for path, part in files:
-        yield f'{before}  {{"path": {_encode(path)},\n{part}'
+        yield f'{before}  {{"path": {_encode(path)},\n'
+        yield part
         before = ",\n"
     yield "]}\n"
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeGuard
 
@@ -24,6 +25,7 @@ from ptmcalc.base.words import quote
 
 MAX_BYTES = 1 << 20
 MAX_NODES = 50_000
+_USUAL_BYTES = 1 << 14
 MAX_DEPTH = 100
 
 _Loader = yaml.CBaseLoader if yaml.__with_libyaml__ else yaml.BaseLoader
@@ -109,6 +111,17 @@ class _UnreadableError(Exception):
     def __init__(self, code: str, reason: str, span: Span, hint: str) -> None:
         super().__init__(reason)
         self.problem = Diagnostic(code, reason, span, hint=hint)
+
+
+def bytes_of(path: Path) -> bytes:
+    """What stands in a file, as far as one more byte than it may have.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        raw = file.read(_USUAL_BYTES)  # room for the largest file costs more than reading a usual one
+        return raw if len(raw) < _USUAL_BYTES else raw + file.read(MAX_BYTES + 1 - _USUAL_BYTES)
 
 
 def parse(raw: bytes, name: str) -> Document:
