@@ -160,16 +160,16 @@ def test_a_file_costs_the_same_behind_a_hundred_others() -> None:
 
 
 def test_many_files_leave_nothing_behind() -> None:
-    """What is remembered of the last files is as much after sixty of them as after twice as many."""
+    """What is remembered of the last files is as much after seventy of them as after twice as many."""
 
     def left() -> Counter[str]:
         gc.collect()
         return Counter(type(one).__name__ for one in gc.get_objects() if type(one).__module__.startswith("ptmcalc"))
 
-    texts = variants(120)
-    worker.with_text(texts[:60], OPTIONS)
+    texts = variants(140)
+    worker.with_text(texts[:70], OPTIONS)
     first = left()
-    worker.with_text(texts[60:], OPTIONS)
+    worker.with_text(texts[70:], OPTIONS)
     assert sum(first.values()) > 1000, "they are counted"
     assert sum((left() - first).values()) < 0.01 * sum(first.values())
 
