@@ -60,24 +60,25 @@ class Enclosure:
 
 @dataclass(frozen=True, slots=True)
 class Along:
-    """A strand from end to end, at the places `_X`: its static tension [N], and per unit of the start's acceleration
-    what the rigid body adds to it and the most that waves stray from that [kg]."""
+    """Both strands from end to end, at the places `_X`, shape (2, n): the static tension [N], and per unit of the
+    start's acceleration what the rigid body adds to it and the most that waves stray from that [kg]."""
 
     static: FloatArray
     rigid: FloatArray
     stray: FloatArray
 
 
-@kept_for(128)
-def along(case: StartCase, strand: int) -> Along:
-    """A strand of a start."""
-    masses = case.masses
-    rigid, stray = loop_bounds.quasi_static(masses, strand, _X), loop_bounds.stray(masses, strand, _X)
-    return Along(case.line.static(strand, _X), rigid, stray)
+@kept_for(64)
+def along(case: StartCase) -> Along:
+    """The strands of a start."""
+    static = [case.line.static(strand, _X) for strand in _STRANDS]
+    rigid = [loop_bounds.quasi_static(case.masses, strand, _X) for strand in _STRANDS]
+    stray = [loop_bounds.stray(case.masses, strand, _X) for strand in _STRANDS]
+    return Along(np.array(static), np.array(rigid), np.array(stray))
 
 
 @remembered(256)
-def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
+def enclose(case: StartCase, softening: float) -> Enclosure:
     """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
     slowest = lowest_frequency(case) / math.sqrt(1 + softening)
     leak = 1.0
@@ -85,15 +86,14 @@ def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
     if not case.imposed_speed and steady > 0 and not case.damped:
         leak = loop_bounds.window_leak(slowest, steady)
     phases = case.phases(slowest)
-    near = _nearness(phases, leak)
-    back, carry = (_reach(case, strand, phases, near, softening) for strand in _STRANDS)
-    on, on_together = _at_run_on(case, carry, leak, softening)
-    off, off_together = _at_run_off(back)
+    reach = _reach(case, phases, _nearness(phases, leak), softening)
+    on, on_together = _at_run_on(case, reach, leak, softening)
+    off, off_together = _at_run_off(reach)
     over = case.acceleration * (case.masses.total_mass / case.masses.drive_mass - 1) / slowest
     return Enclosure(
         run_on=on,
         run_off=off,
-        strands=(_over_strand(back), _over_strand(carry)),
+        strands=_over_strands(reach),
         together=(on_together, off_together),
         belt_speed=case.line.speed + (0.0 if case.imposed_speed else over),
     )
@@ -103,35 +103,30 @@ def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
 def largest_stray(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value anywhere [N]."""
     factor = max(phase.stray for phase in case.phases(lowest_frequency(case)))
-    most = max(float(along(case, strand).stray.max()) for strand in _STRANDS)
-    return case.acceleration * most * factor
+    return case.acceleration * float(along(case).stray.max()) * factor
 
 
 def stray_ratio(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value over the static tension, over all sections."""
     factor = max(phase.stray for phase in case.phases(lowest_frequency(case)))
-    ratio = 0.0
-    for strand in _STRANDS:
-        part = along(case, strand)
-        swing = case.acceleration * part.stray * factor
-        with np.errstate(divide="ignore", invalid="ignore"):
-            over = np.where(part.static > 0, swing / part.static, np.where(swing > 0, np.inf, 0))
-        ratio = max(ratio, float(np.max(over)))
-    return ratio
+    part = along(case)
+    swing = case.acceleration * part.stray * factor
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.max(np.where(part.static > 0, swing / part.static, np.where(swing > 0, np.inf, 0))))
 
 
 def rigid_tension(case: StartCase, strand: int) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest tension of the rigid body at both ends of a strand [N]."""
-    part, ends = along(case, strand), [0, -1]
+    part, ends = along(case), (strand, [0, -1])
     static, swing = part.static[ends], case.acceleration * part.rigid[ends]
     return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
 
 
 @dataclass(frozen=True, slots=True)
 class _Reach:
-    """Tensions of a strand over a whole start, at the places `_X` [N]: the lowest and the highest it can have, values
-    the smallest is surely not above and the largest surely not below, and the plateau with the slack it is reached
-    within."""
+    """Tensions over a whole start, of both strands at the places `_X`, shape (2, n) [N]: the lowest and the highest
+    there can be, values the smallest is surely not above and the largest surely not below, and the plateau with the
+    slack it is reached within."""
 
     low: FloatArray
     high: FloatArray
@@ -141,13 +136,11 @@ class _Reach:
     slack: FloatArray
 
 
-def _reach(
-    case: StartCase, strand: int, phases: tuple[start_profile.Phase, ...], near: float, softening: float
-) -> _Reach:
-    """How far the tensions of a strand go. Surely reached are the static value, and what the plateau leaves within the
+def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float, softening: float) -> _Reach:
+    """How far the tensions go. Surely reached are the static value, and what the plateau leaves within the
     stray that every section comes `near` it."""
-    part, shift = along(case, strand), _softened_shift(case, softening)
-    low = high = np.zeros_like(_X)  # the static state itself, before the start
+    part, shift = along(case), _softened_shift(case, softening)
+    low = high = np.zeros_like(part.rigid)  # the static state itself, before the start
     for phase in phases:
         first, last, waves = phase.low * part.rigid, phase.high * part.rigid, part.stray * phase.stray
         low = np.minimum(low, np.minimum(first, last) - waves)
@@ -173,19 +166,24 @@ def _softened_shift(case: StartCase, softening: float) -> float:
     return case.acceleration * case.masses.belt_mass * softening / 4 if case.line.fixed_length else 0.0
 
 
-def _over_strand(part: _Reach) -> Range:
-    bend_low, bend_high = _between_nodes(part.low), _between_nodes(part.high)
-    return Range(
-        largest=Interval(float(part.surest_high.max()), float((part.high + bend_high).max())),
-        smallest=Interval(float((part.low - bend_low).min()), float(part.surest_low.min())),
+def _over_strands(reach: _Reach) -> tuple[Range, Range]:
+    over, under = (reach.high + _between_nodes(reach.high)).max(axis=1), reach.surest_high.max(axis=1)
+    least, surely = (reach.low - _between_nodes(reach.low)).min(axis=1), reach.surest_low.min(axis=1)
+    back, carry = (
+        Range(
+            largest=Interval(float(under[one]), float(over[one])),
+            smallest=Interval(float(least[one]), float(surely[one])),
+        )
+        for one in _STRANDS
     )
+    return back, carry
 
 
 def _between_nodes(values: FloatArray) -> FloatArray:
-    """How far a smooth function can rise above its nodes: an eighth of the second difference."""
-    bend = np.zeros_like(values)
-    bend[1:-1] = np.abs(values[2:] - 2 * values[1:-1] + values[:-2]) / 8
-    bend[0], bend[-1] = bend[1], bend[-2]
+    """How far a smooth function can rise above its nodes, along each row: an eighth of the second difference."""
+    bend = np.empty_like(values)
+    bend[:, 1:-1] = np.abs(values[:, 2:] - 2 * values[:, 1:-1] + values[:, :-2]) / 8
+    bend[:, 0], bend[:, -1] = bend[:, 1], bend[:, -2]
     return bend
 
 
@@ -195,28 +193,30 @@ def _nearness(phases: tuple[start_profile.Phase, ...], leak: float) -> float:
     return min([leak] + [phase.stray for phase in phases if phase.high == 1.0])
 
 
-def _at_run_off(back: _Reach) -> tuple[Range, float]:
+def _at_run_off(reach: _Reach) -> tuple[Range, float]:
     """Range of the tension at the run-off of the drum, and an upper bound of what it comes to together with the
     run-on."""
+    at = RETURN, 0
     ends = Range(
-        largest=Interval(float(back.surest_high[0]), float(back.high[0])),
-        smallest=Interval(float(back.low[0]), float(back.surest_low[0])),
+        largest=Interval(float(reach.surest_high[at]), float(reach.high[at])),
+        smallest=Interval(float(reach.low[at]), float(reach.surest_low[at])),
     )
-    return ends, float(back.plateau[0] + back.slack[0])
+    return ends, float(reach.plateau[at] + reach.slack[at])
 
 
-def _at_run_on(case: StartCase, carry: _Reach, leak: float, softening: float) -> tuple[Range, float]:
+def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float) -> tuple[Range, float]:
     """Range of the tension at the run-on of the drum, and a lower bound of what it comes to together with the
     run-off."""
-    static = float(along(case, CARRY).static[-1])
-    low, high = float(carry.low[-1]), float(carry.high[-1])
-    below, above = float(carry.surest_low[-1]), float(carry.surest_high[-1])
+    at = CARRY, -1
+    static = float(along(case).static[at])
+    low, high = float(reach.low[at]), float(reach.high[at])
+    below, above = float(reach.surest_low[at]), float(reach.surest_high[at])
     if not case.line.fixed_length and not case.imposed_speed:
         low = static  # driving point: every mode starts with the force, none pulls against it
         if case.shape == "step" and leak < 1:
-            above = max(above, float(carry.plateau[-1]))
+            above = max(above, float(reach.plateau[at]))
     above = min(max(above, static + _first_wave_reached(case, softening)), high)
-    return Range(Interval(above, high), Interval(low, max(below, low))), float(carry.plateau[-1] - carry.slack[-1])
+    return Range(Interval(above, high), Interval(low, max(below, low))), float(reach.plateau[at] - reach.slack[at])
 
 
 def _first_wave_reached(case: StartCase, softening: float) -> float:
