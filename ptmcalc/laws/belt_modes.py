@@ -34,6 +34,7 @@ FloatArray = NDArray[np.float64]
 
 _PARTS, _ROUNDS = 32, 12
 """Parts an interval is divided into at a time, and how often: 60 bisections, in a fifth of the calls."""
+_SHARES = np.arange(1, _PARTS)[:, None] / _PARTS
 
 
 def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
@@ -59,13 +60,12 @@ def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> Flo
     wanted, quarter, waves = np.arange(1, count + 1), takeup_mass / 4, _waves(loop)
     high = (wanted + 4) * (np.pi / (waves.carry_time + waves.return_time))  # N >= (theta_1 + theta_2)/pi - 3
     low = high / 2
-    while np.any(above := _below(loop, waves, quarter, low) >= wanted):
+    while (above := _below(loop, waves, quarter, low) >= wanted).any():
         high = np.where(above, low, high)
         low = np.where(above, low / 2, low)
-    shares = np.arange(1, _PARTS)[:, None] / _PARTS
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
-        below = np.sum(_below(loop, waves, quarter, low + (high - low) * shares) < wanted, axis=0)
+        below = (_below(loop, waves, quarter, low + (high - low) * _SHARES) < wanted).sum(axis=0)
         low, high = low + below * step, low + (below + 1) * step
     return np.asarray((low + high) / 2)
 
@@ -109,7 +109,7 @@ def _below(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> Fl
     clamped = np.floor(_angle_at_drum(loop, waves, quarter, w) / np.pi)
     if loop.imposed_speed:
         return clamped
-    held = np.where(clamped % 2 == 0, 1.0, -1.0)
+    held = 1.0 - 2.0 * (clamped % 2)
     return np.asarray(clamped + (_with_free_drum(loop, waves, quarter, w) * held < 0) - 1)
 
 

@@ -336,12 +336,12 @@ def _enclosed_slip(line: BeltLine, enclosure: Enclosure) -> dict[str, Interval]:
 
 def slip_loads(exponent: float, states: list[Sides]) -> dict[str, float]:
     """Worst utilisation and reserve of grip over some states of the drum, in whichever sense it is loaded."""
-    on, off, lift = (np.array([getattr(state, part) for state in states]) for part in ("on", "off", "lift"))
-    tight, slack = np.maximum(on, off), np.minimum(on, off)
-    return {
-        "slip_utilisation_max": float(capstan.slip_utilisation(tight, slack, lift, exponent).max()),
-        "slip_reserve_min": float(capstan.slip_reserve_force(tight, slack, exponent).min()),
-    }
+    used, left = [], []
+    for state in states:
+        tight, slack = max(state.on, state.off), min(state.on, state.off)
+        used.append(float(capstan.slip_utilisation(tight, slack, state.lift, exponent)))
+        left.append(float(capstan.slip_reserve_force(tight, slack, exponent)))
+    return {"slip_utilisation_max": max(used), "slip_reserve_min": min(left)}
 
 
 def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...]) -> dict[str, float]:

@@ -390,6 +390,7 @@ def drive_mass(drive: Drive, driven: bool = False) -> float:
     )
 
 
+@kept_for(64)
 def drive_force(drive: Drive) -> float:
     """Mean starting force of all motors of a drive at the rim [N]."""
     torque = drive.motor.mean_torque
