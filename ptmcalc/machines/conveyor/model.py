@@ -300,6 +300,7 @@ def damping_change(spec: Conveyor, line: BeltLine) -> float:
     return spec.belt.damping.change(math.pi / (2 * line.contour_time)) if spec.belt.damping else 0.0
 
 
+@kept_for(64)
 def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
     """Whether the drum cannot hold the belt that lies with the friction of its running frozen in it.
 
@@ -320,6 +321,7 @@ def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
     return Criterion("U_0", used, 1.0, meaning, "laws.capstan")
 
 
+@kept_for(64)
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
