@@ -38,7 +38,7 @@ _WAITING = 2
 """Chunks a worker has before it: one at work, one ready."""
 _TRIED = 3
 """Files of a kind that are planned to see what one of its kind may take."""
-_AROUND = 0.01
+_AROUND = 0.003
 """Seconds of reading, judging and reporting a file, beside its runs."""
 _KIND = re.compile(rb"^kind:[ \t]*[\"']?([a-z_]+)", re.MULTILINE)
 
