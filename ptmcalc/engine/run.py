@@ -309,16 +309,18 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled, *, whole: bool) 
 
 
 def _unknown(kind: AnyKind, spec: MachineSpec, settled: Settled) -> Iterator[str]:
-    """Governing loads that no run has looked for, or that none has bounded."""
-    looked_for = {one for run in settled.runs for one in run.rung.solver.gives}
+    """Governing loads that no run has looked for and one can, or that none has bounded."""
+    none: frozenset[str] = frozenset()
+    looked_for = none.union(*(run.rung.solver.gives for run in settled.runs))
+    left = none.union(*(rung.solver.gives for rung in settled.plan.rungs)) - looked_for
     for info in kind.loads_of(spec):
         if not info.headline:
             continue
         known = settled.loads.get(info.name)
         if known is None:
-            if family(info.name) not in looked_for:
+            if family(info.name) in left:
                 yield info.name
-        elif math.isfinite(known.estimate.value) and not known.estimate.bounded:
+        elif not known.estimate.bounded and math.isfinite(known.estimate.value):
             yield info.name
 
 
