@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 
-def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike, exponent: float) -> FloatArray:
+def slip_utilisation(
+    tight: float | ArrayLike, slack: float | ArrayLike, centrifugal: float | ArrayLike, exponent: float
+) -> FloatArray:
     """Share of the drum's grip that is used; the belt slips at 1.
 
         U = (S_t - rho v^2) / ((S_s - rho v^2) exp(mu alpha))
@@ -39,7 +41,7 @@ def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike,
         return np.where(grip > 0, pull * np.exp(-exponent) / grip, np.inf)
 
 
-def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, exponent: float) -> FloatArray:
+def slip_reserve_force(tight: float | ArrayLike, slack: float | ArrayLike, exponent: float) -> FloatArray:
     """Reserve of friction force at the drum: what it can transmit over what it must.
 
         k = S_s (exp(mu alpha) - 1) / (S_t - S_s)

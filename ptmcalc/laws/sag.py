@@ -9,7 +9,7 @@ DEEPEST = 0.10
 """Sag over span at which the shallow parabola ends, and with it every law here [1]."""
 
 
-def sag_ratio(span_weight: float, tension: ArrayLike) -> FloatArray:
+def sag_ratio(span_weight: float, tension: float | ArrayLike) -> FloatArray:
     """Sag of a span over its length.
 
         h = w l / (8 S)
