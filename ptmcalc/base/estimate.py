@@ -61,7 +61,7 @@ class Estimate:
 
         Offsets that rule the number itself out move it to the nearest one they allow.
         """
-        if offset == NOTHING:
+        if offset.low == offset.high == 0:
             return self
         low = -math.inf if offset.low == -math.inf else self.low + offset.low  # of an infinite number too
         high = math.inf if offset.high == math.inf else self.high + offset.high

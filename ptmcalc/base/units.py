@@ -12,6 +12,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 
 from ptmcalc.base.words import quote, with_article
@@ -185,6 +186,7 @@ _FACTOR = re.compile(r"([A-Za-z°%]+)(?:\^?([-+]?[0-9]))?|(1)(?:\^([-+]?[0-9]))?
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "⁴": "^4", "·": "*", "×": "*", "−": "-"})
 
 
+@lru_cache(maxsize=256)
 def unit_of(text: str) -> tuple[float, Dimension]:
     """Factor to SI and dimension of a unit: products, one slash, powers.
 

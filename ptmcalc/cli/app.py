@@ -12,7 +12,7 @@ from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.decode import decode
-from ptmcalc.cli.output import say, steady_streams
+from ptmcalc.cli.output import say, say_all, steady_streams
 from ptmcalc.cli.policy import (
     BaselineOption,
     ExitZeroOption,
@@ -261,8 +261,10 @@ def check(
     options = Options(
         tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, budget=_budget(budget), repairs=repairs
     )
-    in_json = Format.JSON in {chosen, *(target for target, _ in files)}
-    with Run(options, jobs, store, in_json, executor) as run:
+    forms = {chosen, *(target for target, _ in files)}
+    in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
+    whole = forms != {Format.JSON} or bool(courses) or not counts_all
+    with Run(options, jobs, store, in_json=in_json, whole=whole, executor=executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
         for target, name in files if not run.interrupted else ():
             write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
@@ -271,8 +273,7 @@ def check(
 
             for name in courses:
                 write(Path(name), [histories.render(reports)])
-        for piece in rendered(chosen, reports, verbose, to_terminal=terminal):
-            say(piece)
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal))
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))

@@ -36,11 +36,16 @@ _WORTH_SHOWING = 2.0
 
 
 class Run:
-    """One run of `check`: its results are there until it is left."""
+    """One run of `check`: its results are there until it is left.
 
-    def __init__(self, options: Options, jobs: str, store: str, in_json: bool, executor: str = LOCAL) -> None:
-        self.options, self.jobs, self.store, self.in_json = options, _jobs(jobs), store, in_json
-        self.executor = executor
+    `in_json` says that their JSON will be asked for, `whole` that the reports themselves will.
+    """
+
+    def __init__(
+        self, options: Options, jobs: str, store: str, *, in_json: bool, whole: bool = True, executor: str = LOCAL
+    ) -> None:
+        self.options, self.jobs, self.store, self.executor = options, _jobs(jobs), store, executor
+        self.in_json, self.whole = in_json, whole or bool(store)
         if executor != LOCAL and self.jobs is not None:
             raise UsageError(
                 "`--jobs` counts processes here, `--executor` has the work done elsewhere", "leave one out"
@@ -76,12 +81,13 @@ class Run:
 
     def batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
         """The reports of files, as far as the run gets."""
-        from ptmcalc.cli.worker import pool, with_text, without_text
+        from ptmcalc.cli.worker import only_text, pool, with_text, without_text
         from ptmcalc.engine.batch import ALONE, Batch, GoneError
         from ptmcalc.engine.store import Store
 
         kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
-        batch = Batch(files, self.options, kept, with_text if self.in_json else without_text, told=told)
+        work = without_text if not self.in_json else with_text if self.whole else only_text
+        batch = Batch(files, self.options, kept, work, told=told)
         executor: Callable[[], Executor] | None
         if self.executor != LOCAL:
             executor, jobs = self._cluster()

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Iterable
 from io import TextIOWrapper
 from typing import TextIO
 
@@ -24,12 +25,27 @@ def steady_streams() -> None:
 
 def _in_its_signs(text: str, stream: TextIO) -> str:
     """A text as a stream can show it; what it still cannot is printed as `?`."""
+    encoding = stream.encoding or "utf-8"
     try:
-        text.encode(stream.encoding or "utf-8")
+        if encoding != "utf-8":
+            text.encode(encoding)
     except UnicodeEncodeError:
         for sign, other in PLAIN:
             text = text.replace(sign, other)
     return text
+
+
+def say_all(pieces: Iterable[str]) -> None:
+    """Print texts one after the other, as `say` does."""
+    if sys.stdout.isatty():
+        for piece in pieces:
+            say(piece)
+        return
+    try:
+        sys.stdout.writelines(_in_its_signs(piece, sys.stdout) for piece in pieces)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _let_go(sys.stdout)
 
 
 def say(text: str, *, err: bool = False) -> None:
@@ -39,4 +55,8 @@ def say(text: str, *, err: bool = False) -> None:
         stream.write(_in_its_signs(text, stream))
         stream.flush()
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        _let_go(stream)
+
+
+def _let_go(stream: TextIO) -> None:
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -22,15 +22,26 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 def with_text(texts: Sequence[bytes], options: Options) -> list[Record]:
     """Records of some design files with their JSON."""
-    today = options.today or date.today()
-    reports = [(raw, fresh(raw, options)) for raw in texts]
-    return [record_of(report, raw, today, json.part_of(report).encode()) for raw, report in reports]
+    return _records(texts, options)
+
+
+def only_text(texts: Sequence[bytes], options: Options) -> list[Record]:
+    """The JSON of some design files, and of their records no more than that needs."""
+    return _records(texts, options, whole=False)
 
 
 def without_text(texts: Sequence[bytes], options: Options) -> list[Record]:
     """Records of some design files."""
-    today = options.today or date.today()
-    return [record_of(fresh(raw, options), raw, today) for raw in texts]
+    return _records(texts, options, in_json=False)
+
+
+def _records(texts: Sequence[bytes], options: Options, *, in_json: bool = True, whole: bool = True) -> list[Record]:
+    today, records = options.today or date.today(), []
+    for raw in texts:
+        report = fresh(raw, options)
+        text = json.part_of(report).encode() if in_json else b""
+        records.append(record_of(report, raw, today, text, whole=whole))
+    return records
 
 
 def pool(jobs: int, kinds: Iterable[str]) -> Callable[[], Executor]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.units import TIME, Quantity
@@ -35,6 +36,7 @@ def of(family: str, element: str) -> str:
     return f"{family}[{element}]"
 
 
+@lru_cache(maxsize=4096)
 def family(name: str) -> str:
     """The family of a load, which is its own name for a load that a machine has once."""
     return name.partition("[")[0]

@@ -27,7 +27,7 @@ from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import foresee
 from ptmcalc.engine.store import Record, Store, packed
-from ptmcalc.text.document import MAX_BYTES
+from ptmcalc.text.document import bytes_of
 
 CHUNK = 0.5
 """Predicted seconds of work that go out together: enough to make the way worth while, little enough to share evenly."""
@@ -38,7 +38,7 @@ _WAITING = 2
 """Chunks a worker has before it: one at work, one ready."""
 _TRIED = 3
 """Files of a kind that are planned to see what one of its kind may take."""
-_AROUND = 0.01
+_AROUND = 0.003
 """Seconds of reading, judging and reporting a file, beside its runs."""
 _KIND = re.compile(rb"^kind:[ \t]*[\"']?([a-z_]+)", re.MULTILINE)
 
@@ -51,11 +51,16 @@ def fresh(raw: bytes, options: Options) -> FileReport:
     return guarded("", lambda: check(load_text(raw, "", options.effects, options.accuracy), options))
 
 
-def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"") -> Record:
-    """What is kept of the report of a text. That of a file with waivers, however it writes the word, holds today."""
+def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"", *, whole: bool = True) -> Record:
+    """What is kept of the report of a text. That of a file with waivers, however it writes the word, holds today.
+
+    Where its JSON is all that will be asked for, the report need not be kept `whole`.
+    """
     dated = b"waive" in raw or any(j.verdict is Verdict.WAIVED for _, j in report.judgements)
     dated = dated or any(d.path[:1] == ("waive",) for d in report.diagnostics)
-    return Record(tally(report), packed(report), text, today.isoformat() if dated else "")
+    counted = tally(report)
+    kept = packed(report) if whole or counted.broken else b""
+    return Record(counted, kept, text, today.isoformat() if dated else "")
 
 
 # -- keys -----------------------------------------------------------------------------------------------------------
@@ -138,9 +143,10 @@ class Results(Sequence[FileReport]):
     def tallies(self) -> list[Tally]:
         """The tally of each file."""
         if not self._tallies:
+            known = self._store.tallies([one.key for one in self._entries if one.report is None], self._day)
             for index, entry in enumerate(self._entries):
-                known = None if entry.report is not None else self._store.tally(entry.key, self._day)
-                self._tallies.append(known or tally(self[index]))
+                found = known.get(entry.key) if entry.report is None else None
+                self._tallies.append(found or tally(self[index]))
         return self._tallies
 
     def texts(self) -> Iterator[tuple[str, bytes]]:
@@ -170,9 +176,8 @@ class Batch:
     """reports of texts that our own program broke down on, which are told and not kept"""
 
     def __post_init__(self) -> None:
-        keys, today = Keys(self.options), self.today
-        kinds: dict[bytes, list[int]] = {}
-        seen: set[bytes] = set()
+        keys = Keys(self.options)
+        kind_of: dict[bytes, tuple[int, bytes]] = {}
         for index, path in enumerate(self.files):
             name = path.as_posix()
             raw = _read(path)
@@ -181,11 +186,15 @@ class Batch:
                 continue
             key = keys.of(raw)
             self.entries.append(Entry(name, key))
-            if key not in seen and self.store.tally(key, today.isoformat()) is None:
-                self.missing.append(index)
+            if key not in kind_of:  # of equal texts the first one is worked on
                 found = _KIND.search(raw)
-                kinds.setdefault(found[1] if found else b"", []).append(index)
-            seen.add(key)
+                kind_of[key] = index, found[1] if found else b""
+        known = self.store.tallies(list(kind_of), self.today.isoformat())
+        kinds: dict[bytes, list[int]] = {}
+        for key, (index, kind) in kind_of.items():
+            if key not in known:
+                self.missing.append(index)
+                kinds.setdefault(kind, []).append(index)
         self._predict(kinds)
 
     @property
@@ -220,7 +229,8 @@ class Batch:
         found = [replace(one, report=self.broken[one.key]) if one.key in self.broken else one for one in self.entries]
         found = [replace(one, report=replace(one.report, path=one.name)) if one.report else one for one in found]
         if not whole:
-            found = [e for e in found if e.report is not None or self.store.tally(e.key, day) is not None]
+            known = self.store.tallies([one.key for one in found if one.report is None], day)
+            found = [one for one in found if one.report is not None or one.key in known]
         found += [Entry(report.path, b"", report) for report in self.told]
         return Results(found, self.store, self.options, day)
 
@@ -371,7 +381,6 @@ def predicted(raw: bytes, options: Options) -> float:
 
 def _read(path: Path) -> bytes | None:
     try:
-        with path.open("rb") as file:
-            return file.read(MAX_BYTES + 1)
+        return bytes_of(path)
     except OSError:
         return None

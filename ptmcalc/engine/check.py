@@ -227,34 +227,18 @@ class _Assembly:
 
     def _effects(self) -> Iterator[EffectReport]:
         near = {planned.effect.name for planned in sensitive(self.settled)}
+        carried = self.settled.carried
         for planned in self.settled.plan.effects:
             name = planned.effect.name
             yield EffectReport(
                 name=name,
                 title=planned.effect.title,
-                state=self._state(planned),
+                state=_state(planned, carried),
                 forced=planned.forced,
                 criterion=planned.criterion,
-                note=self._note(planned),
+                note=_note(planned, carried),
                 change=self._change(name) if name in near else None,
             )
-
-    def _state(self, planned: PlannedEffect) -> EffectState:
-        if planned.effect.name in self.settled.carried:
-            return EffectState.SIMULATED
-        return EffectState.BOUNDED if planned.active else EffectState.SKIPPED
-
-    def _note(self, planned: PlannedEffect) -> str:
-        """What the number does not say: who decided, what is missing, what the bound of an effect left out rests on."""
-        if planned.forced_off:
-            return "forced off by the file"
-        if planned.criterion is None:
-            return "an input it needs is not given: loads are those without it"
-        notes = ["forced on by the file"] if planned.forced else []
-        rests = planned.effect.calibrated and planned.effect.part_of in self.settled.carried
-        if rests and planned.effect.name not in self.settled.carried:
-            notes.append("its bound is calibrated")
-        return "; ".join(notes)
 
     def _change(self, name: str) -> Change | None:
         """The load of a check that leaving the effect out changes most; one whose change is clear goes first."""
@@ -384,6 +368,24 @@ class _Assembly:
         for run in self.settled.runs:
             health |= run.result.health
         return health | {"evaluations": float(sum(run.result.work for run in self.settled.runs))}
+
+
+def _state(planned: PlannedEffect, carried: frozenset[str]) -> EffectState:
+    if planned.effect.name in carried:
+        return EffectState.SIMULATED
+    return EffectState.BOUNDED if planned.active else EffectState.SKIPPED
+
+
+def _note(planned: PlannedEffect, carried: frozenset[str]) -> str:
+    """What the number does not say: who decided, what is missing, what the bound of an effect left out rests on."""
+    if planned.forced_off:
+        return "forced off by the file"
+    if planned.criterion is None:
+        return "an input it needs is not given: loads are those without it"
+    notes = ["forced on by the file"] if planned.forced else []
+    if planned.effect.calibrated and planned.effect.part_of in carried and planned.effect.name not in carried:
+        notes.append("its bound is calibrated")
+    return "; ".join(notes)
 
 
 def _solver(run: Run, decides: bool, following: NextSolver | None) -> SolverReport:

@@ -61,9 +61,11 @@ class _Walk:
             self.found.append(folder)  # reported as unreadable
             return
         for entry in entries:
-            path = folder / entry.name
             is_folder = entry.is_dir(follow_symlinks=False)
-            if entry.name.startswith(".") or not (is_folder or _is_design_file(path)):
+            if entry.name.startswith(".") or not (is_folder or _is_called_so(entry.name)):
+                continue
+            path = Path(entry.path)
+            if not (is_folder or entry.is_file(follow_symlinks=False) or _is_design_file(path)):
                 continue
             said = _said(path, asked, is_folder=is_folder)
             if said or (said is None and _said(path, rules, is_folder=is_folder)):
@@ -135,8 +137,12 @@ def _all_in(folder: Path) -> Iterator[Path]:
                 yield path
 
 
+def _is_called_so(name: str) -> bool:
+    return os.path.splitext(name)[1].lower() in SUFFIXES
+
+
 def _is_design_file(path: Path) -> bool:
-    return path.suffix.lower() in SUFFIXES and (path.is_file() or (path.is_symlink() and not path.exists()))
+    return _is_called_so(path.name) and (path.is_file() or (path.is_symlink() and not path.exists()))
 
 
 def _above(folder: Path) -> list[Path]:

@@ -22,7 +22,7 @@ from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.problems import problems_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of
-from ptmcalc.text.document import MAX_BYTES, Document, Unread, parse
+from ptmcalc.text.document import Document, Unread, bytes_of, parse
 
 _LIKE_A_CODE = re.compile(r"[A-Za-z]{3}[0-9][0-9A-Za-z]*")
 
@@ -43,8 +43,7 @@ class Loaded:
 def load_file(path: Path, name: str, effects: Mapping[str, str] | None = None, accuracy: str = "") -> Loaded:
     """Read one design file; `effects` and `accuracy` replace what the file says of them."""
     try:
-        with path.open("rb") as file:
-            raw = file.read(MAX_BYTES + 1)
+        raw = bytes_of(path)
     except OSError as error:
         reason = error.strerror or str(error)
         problem = Diagnostic("TXT101", f"the file cannot be read: {reason}", hint="check the path and its permissions")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import NOTHING, Estimate
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.units import SHARE, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
@@ -125,24 +125,40 @@ def settle(
     waiting = list(scene.rungs)
     spent = 0.0
     while True:
-        settled.rulings = judge(kind, spec, scene.scene, settled.estimates)
-        if only is not None:
-            settled.rulings = tuple(ruling for ruling in settled.rulings if ruling.check.is_of(only))
-        if verdicts is not None:
-            settled.rulings = tuple(r for r in settled.rulings if (r.check.code, r.check.element) in verdicts)
-        following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
+        if settled.runs or not waiting:
+            settled.rulings = _rulings(kind, spec, settled, only, verdicts)
+            following = _next(settled, spec, waiting, _wanted(kind, spec, settled, whole=whole))
+        else:
+            following = waiting[0]  # nothing is known yet: whatever is wanted, the cheapest run comes first
         settled.next_rung = following
+        if following is not None and until(following) and spent + following.seconds <= budget:
+            waiting.remove(following)
+            result = _climb(settled, spec, following)
+            spent += max(following.seconds, result.spent if result is not None else 0.0)
+            continue
+        if not settled.runs:
+            settled.rulings = _rulings(kind, spec, settled, only, verdicts)
         if following is None:
             settled.findings += _unreached(kind, spec, settled) if whole else ()
-            return settled
-        if not until(following):
-            return settled
-        if spent + following.seconds > budget:
+        elif until(following):
             settled.findings.append(_too_dear(kind, spec, settled, waiting, budget, whole=whole))
-            return settled
-        waiting.remove(following)
-        result = _climb(settled, spec, following)
-        spent += max(following.seconds, result.spent if result is not None else 0.0)
+        return settled
+
+
+def _rulings(
+    kind: AnyKind,
+    spec: MachineSpec,
+    settled: Settled,
+    only: AnyCheck | None,
+    verdicts: Container[tuple[str, str]] | None,
+) -> tuple[Ruling, ...]:
+    """How the checks that are asked about stand by what is known so far."""
+    rulings = judge(kind, spec, settled.plan.scene, settled.estimates)
+    if only is not None:
+        rulings = tuple(ruling for ruling in rulings if ruling.check.is_of(only))
+    if verdicts is not None:
+        rulings = tuple(r for r in rulings if (r.check.code, r.check.element) in verdicts)
+    return rulings
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +265,8 @@ def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str
             continue
         known = settled.loads.get(name)
         if known is None or _better(estimate, known.estimate):
-            settled.loads[name] = Best(replace(result.loads[name], estimate=estimate), rung, result)
+            found = result.loads[name]
+            settled.loads[name] = Best(Found(estimate, found.at, found.note), rung, result)
     return lost
 
 
@@ -271,7 +288,9 @@ def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dic
         if effect.part_of and effect.part_of not in rung.carried:
             continue
         offsets = effect.bound(spec, plan.scene, estimates)
-        estimates = {name: estimate.widened(offsets.get(name, NOTHING)) for name, estimate in estimates.items()}
+        estimates = estimates | {
+            name: estimates[name].widened(offset) for name, offset in offsets.items() if name in estimates
+        }
     return estimates
 
 
@@ -290,17 +309,25 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled, *, whole: bool) 
 
 
 def _unknown(kind: AnyKind, spec: MachineSpec, settled: Settled) -> Iterator[str]:
-    """Governing loads that no run has looked for, or that none has bounded."""
-    looked_for = {one for run in settled.runs for one in run.rung.solver.gives}
+    """Governing loads that no run has looked for and one can, or that none has bounded."""
+    none: frozenset[str] = frozenset()
+    looked_for = none.union(*(run.rung.solver.gives for run in settled.runs))
+    left = none.union(*(rung.solver.gives for rung in settled.plan.rungs)) - looked_for
     for info in kind.loads_of(spec):
+        if not info.headline:
+            continue
         known = settled.loads.get(info.name)
-        endless = known is not None and math.isfinite(known.estimate.value) and not known.estimate.bounded
-        if info.headline and (endless or (known is None and family(info.name) not in looked_for)):
+        if known is None:
+            if family(info.name) in left:
+                yield info.name
+        elif not known.estimate.bounded and math.isfinite(known.estimate.value):
             yield info.name
 
 
 def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]:
     """Governing loads whose bars are wider than the accuracy asked for."""
+    if spec.accuracy is None:
+        return []
     known = [info.name for info in kind.loads_of(spec) if info.headline and info.name in settled.loads]
     return [name for name in known if not _accurate(settled.loads[name].estimate, spec.accuracy)]
 

@@ -32,6 +32,10 @@ create table if not exists result (
     text_checksum integer not null, text blob not null
 )
 """
+_PAGE = 1 << 14
+"""Bytes of a page: the JSON of a file then lies in a few of them."""
+_ASKED = 500
+"""Keys that are asked for at once."""
 _WAIT = 60.0
 """Seconds that another process may hold the store."""
 
@@ -84,6 +88,7 @@ class Store:
             raise sqlite3.DatabaseError("it holds something else")
         if tables[0]:
             return
+        base.execute(f"pragma page_size = {_PAGE}")
         base.execute("begin immediate")
         base.execute(_TABLE)
         base.execute(f"pragma application_id = {_OURS}")
@@ -127,6 +132,20 @@ class Store:
         except (ValueError, TypeError):
             return None
 
+    def tallies(self, keys: Sequence[bytes], day: str) -> dict[bytes, Tally]:
+        """The tallies that there are under keys, and that hold on a day."""
+        found = {}
+        for begin in range(0, len(keys), _ASKED):
+            some = keys[begin : begin + _ASKED]
+            marks = ", ".join("?" * len(some))
+            for key, its_day, text in self._all(f"select key, day, tally from result where key in ({marks})", some):
+                try:
+                    if its_day in ("", day):
+                        found[key] = _tally(text)
+                except (ValueError, TypeError):
+                    continue
+        return found
+
     def text(self, key: bytes) -> bytes:
         """The JSON of a result; empty where there is none, or a damaged one."""
         row = self._one("select text, text_checksum from result where key = ?", key)
@@ -148,11 +167,13 @@ class Store:
             raise _unusable(self.path, error) from None
 
     def _one(self, question: str, *values: Any) -> Sequence[Any] | None:
+        return next(iter(self._all(question, values)), None)
+
+    def _all(self, question: str, values: Sequence[Any]) -> list[Any]:
         try:
-            found: Sequence[Any] | None = self._base.execute(question, values).fetchone()
+            return self._base.execute(question, values).fetchall()
         except sqlite3.Error as error:
             raise _unusable(self.path, error) from None
-        return found
 
 
 def is_store(path: Path) -> bool:

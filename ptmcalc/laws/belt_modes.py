@@ -22,6 +22,9 @@ sign at each of its roots, which are single: its sign is that of (-1)^(half turn
 cannot make count and sign disagree. Bisection on the count finds every frequency, double ones twice.
 """
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -31,6 +34,7 @@ FloatArray = NDArray[np.float64]
 
 _PARTS, _ROUNDS = 32, 12
 """Parts an interval is divided into at a time, and how often: 60 bisections, in a fifth of the calls."""
+_SHARES = np.arange(1, _PARTS)[:, None] / _PARTS
 
 
 def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
@@ -53,17 +57,15 @@ def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> Flo
     **Source** frequency equations in the module docstring, derived; W. H. Wittrick, F. W. Williams, "A general
     algorithm for computing natural frequencies of elastic structures", Q. J. Mech. Appl. Math. 24 (1971).
     """
-    wanted = np.arange(1, count + 1)
-    first, second = _transits(loop)
-    high = (wanted + 4) * (np.pi / (first + second))  # N >= (theta_1 + theta_2)/pi - 3
+    wanted, quarter, waves = np.arange(1, count + 1), takeup_mass / 4, _waves(loop)
+    high = (wanted + 4) * (np.pi / (waves.carry_time + waves.return_time))  # N >= (theta_1 + theta_2)/pi - 3
     low = high / 2
-    while np.any(above := modes_below(loop, takeup_mass, low) >= wanted):
+    while (above := _below(loop, waves, quarter, low) >= wanted).any():
         high = np.where(above, low, high)
         low = np.where(above, low / 2, low)
-    shares = np.arange(1, _PARTS)[:, None] / _PARTS
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
-        below = np.sum(modes_below(loop, takeup_mass, low + (high - low) * shares) < wanted, axis=0)
+        below = (_below(loop, waves, quarter, low + (high - low) * _SHARES) < wanted).sum(axis=0)
         low, high = low + below * step, low + (below + 1) * step
     return np.asarray((low + high) / 2)
 
@@ -85,44 +87,54 @@ def modes_below(loop: LoopMasses, takeup_mass: float, frequency: ArrayLike) -> F
     **Error** exact but within rounding of a natural frequency.
     **Source** module docstring.
     """
-    w = np.asarray(frequency, float)
-    clamped = np.floor(_angle_at_drum(loop, takeup_mass / 4, w) / np.pi)
+    return np.asarray(_below(loop, _waves(loop), takeup_mass / 4, np.asarray(frequency, float)))
+
+
+class _Waves(NamedTuple):
+    """Travel times [s] and impedances [N*s/m] of both strands."""
+
+    carry_time: float
+    return_time: float
+    carry: float
+    back: float
+
+
+def _waves(loop: LoopMasses) -> _Waves:
+    m1, m2 = math.sqrt(loop.carry_mass), math.sqrt(loop.return_mass)
+    c1, c2 = math.sqrt(loop.carry_compliance), math.sqrt(loop.return_compliance)
+    return _Waves(m1 * c1, m2 * c2, m1 / c1, m2 / c2)
+
+
+def _below(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
+    clamped = np.floor(_angle_at_drum(loop, waves, quarter, w) / np.pi)
     if loop.imposed_speed:
-        return np.asarray(clamped)
-    held = np.where(clamped % 2 == 0, 1.0, -1.0)
-    return np.asarray(clamped + (_with_free_drum(loop, takeup_mass / 4, w) * held < 0) - 1)
+        return clamped
+    held = 1.0 - 2.0 * (clamped % 2)
+    return np.asarray(clamped + (_with_free_drum(loop, waves, quarter, w) * held < 0) - 1)
 
 
-def _transits(loop: LoopMasses) -> tuple[float, float]:
-    """Travel times of carry and return strand."""
-    return (
-        float(np.sqrt(loop.carry_mass) * np.sqrt(loop.carry_compliance)),
-        float(np.sqrt(loop.return_mass) * np.sqrt(loop.return_compliance)),
-    )
-
-
-def _impedances(loop: LoopMasses) -> tuple[float, float]:
-    return (
-        float(np.sqrt(loop.carry_mass) / np.sqrt(loop.carry_compliance)),
-        float(np.sqrt(loop.return_mass) / np.sqrt(loop.return_compliance)),
-    )
-
-
-def _angle_at_drum(loop: LoopMasses, quarter: float, w: FloatArray) -> FloatArray:
+def _angle_at_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
     """phi at the run-on, from 0 at a clamped and pi/2 at a free beginning."""
-    (t1, t2), (z1, z2) = _transits(loop), _impedances(loop)
-    begin = 0.0 if loop.fixed_length else np.pi / 2 + np.arctan(w * quarter / z2)
-    angle = begin + w * t2
+    begin: float | FloatArray = 0.0
+    if not loop.fixed_length:
+        begin = np.pi / 2 + np.arctan(w * quarter / waves.back) if quarter else np.pi / 2
+    angle = begin + w * waves.return_time
     turns = np.floor(angle / np.pi) * np.pi
     sine, cosine = np.sin(angle - turns), np.cos(angle - turns)
-    return np.asarray(turns + np.arctan2(z1 * sine, z2 * cosine - w * loop.tail_mass * sine) + w * t1)
+    end = np.arctan2(waves.carry * sine, waves.back * cosine - w * loop.tail_mass * sine)
+    return np.asarray(turns + end + w * waves.carry_time)
 
 
-def _with_free_drum(loop: LoopMasses, quarter: float, w: FloatArray) -> FloatArray:
+def _with_free_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
     """The functions of the module docstring with the torque imposed."""
-    (t1, t2), (z1, z2) = _transits(loop), _impedances(loop)
+    t1, t2, z1, z2 = waves
     m, tail = loop.drive_mass * w, loop.tail_mass * w
     s1, c1, s2, c2 = np.sin(w * t1), np.cos(w * t1), np.sin(w * t2), np.cos(w * t2)
+    if not loop.fixed_length:
+        a = z2 * (z1 * c1 * c2 - z2 * s1 * s2 - tail * s1 * c2)
+        g = -z1 * z2 * (z1 * s1 * c2 + z2 * c1 * s2 + tail * c1 * c2)
+        if not quarter:
+            return np.asarray(g - m * a)
     cross = z1 * c1 * s2 + z2 * c2 * s1
     b = cross - tail * s1 * s2
     # 2 Z1 Z2 (c1 c2 - 1) - (Z1^2 + Z2^2) s1 s2, without its cancellation
@@ -130,8 +142,6 @@ def _with_free_drum(loop: LoopMasses, quarter: float, w: FloatArray) -> FloatArr
     r = ring - tail * cross
     if loop.fixed_length:
         return np.asarray(r - m * b)
-    a = z2 * (z1 * c1 * c2 - z2 * s1 * s2 - tail * s1 * c2)
-    g = -z1 * z2 * (z1 * s1 * c2 + z2 * c1 * s2 + tail * c1 * c2)
     return np.asarray(g - quarter * w * r - m * (a - quarter * w * b))
 
 

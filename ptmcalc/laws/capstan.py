@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 
-def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike, exponent: float) -> FloatArray:
+def slip_utilisation(
+    tight: float | ArrayLike, slack: float | ArrayLike, centrifugal: float | ArrayLike, exponent: float
+) -> FloatArray:
     """Share of the drum's grip that is used; the belt slips at 1.
 
         U = (S_t - rho v^2) / ((S_s - rho v^2) exp(mu alpha))
@@ -30,13 +32,16 @@ def slip_utilisation(tight: ArrayLike, slack: ArrayLike, centrifugal: ArrayLike,
     **Error** exact for that model; the friction coefficient itself is known to 20 % at best.
     **Source** Euler-Eytelwein; centrifugal term from the equilibrium of the moving belt element.
     """
+    if isinstance(tight, float) and isinstance(slack, float) and isinstance(centrifugal, float):
+        left = slack - centrifugal
+        return np.asarray((tight - centrifugal) * float(np.exp(-exponent)) / left if left > 0 else np.inf)
     grip = np.asarray(slack, float) - centrifugal
     pull = np.asarray(tight, float) - centrifugal
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(grip > 0, pull * np.exp(-exponent) / grip, np.inf)
 
 
-def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, exponent: float) -> FloatArray:
+def slip_reserve_force(tight: float | ArrayLike, slack: float | ArrayLike, exponent: float) -> FloatArray:
     """Reserve of friction force at the drum: what it can transmit over what it must.
 
         k = S_s (exp(mu alpha) - 1) / (S_t - S_s)
@@ -55,6 +60,11 @@ def slip_reserve_force(tight: ArrayLike, slack: ArrayLike, exponent: float) -> F
     **Source** reserve of friction forces k_T, lecture notes Kramatorsk 2007, with the usual reading
     S_off (exp(mu alpha) - 1) >= k_T F.
     """
+    if isinstance(tight, float) and isinstance(slack, float):
+        if not (tight > slack > 0):
+            return np.asarray(np.inf if slack > 0 else 0.0)
+        with np.errstate(over="ignore"):
+            return np.asarray(slack * float(np.expm1(exponent)) / (tight - slack))
     grip, pull = np.asarray(slack, float), np.asarray(tight, float) - slack
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         reserve = grip * np.expm1(exponent) / pull

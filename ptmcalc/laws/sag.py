@@ -9,7 +9,7 @@ DEEPEST = 0.10
 """Sag over span at which the shallow parabola ends, and with it every law here [1]."""
 
 
-def sag_ratio(span_weight: float, tension: ArrayLike) -> FloatArray:
+def sag_ratio(span_weight: float, tension: float | ArrayLike) -> FloatArray:
     """Sag of a span over its length.
 
         h = w l / (8 S)
@@ -26,6 +26,8 @@ def sag_ratio(span_weight: float, tension: ArrayLike) -> FloatArray:
     which carries half the span besides, 28/3 h^2: 0.09 % at 1 %, 9 % at 10 %.
     **Source** equilibrium of the parabolic span; limits of 1 to 2 % in DIN 22101.
     """
+    if isinstance(tension, float):  # one span of many that are asked for one by one
+        return np.asarray(span_weight / (8 * tension) if tension > 0 else np.inf)
     force = np.asarray(tension, float)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(force > 0, span_weight / (8 * np.maximum(force, 0)), np.inf)

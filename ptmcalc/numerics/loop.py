@@ -17,6 +17,8 @@ FloatArray = NDArray[np.float64]
 
 MOST_STEPS = 4_000_000
 _ROUNDING = 1e-8
+_FIRST_TRIED = 128
+"""Numbers of cells that are tried for a match at first; then eight times as many, and so on."""
 BACKWARD = 1e-6
 """Share of the fastest speed of belt and drum from which on a belt runs backward; less is rounding."""
 
@@ -164,13 +166,24 @@ def match(first: float, second: float, at_least: int, tolerance: float, at_most:
 
     Both times share the mismatch so that their sum is exact.
     """
-    carry = np.arange(at_least, max(at_most, at_least) + 1)
-    back = np.maximum(1, np.rint(carry * (second / first)))
-    step = (first + second) / (carry + back)
-    mismatch = np.maximum(np.abs(carry * step / first - 1), np.abs(back * step / second - 1))
-    good = mismatch <= tolerance
-    best = int(np.argmax(good)) if good.any() else int(np.argmin(mismatch))
-    return Grid(float(step[best]), int(carry[best]), int(back[best]), float(mismatch[best]))
+    last = max(at_most, at_least)
+    best: Grid | None = None
+    begin, many = at_least, _FIRST_TRIED
+    while begin <= last:  # the coarsest that is good enough comes early most of the time
+        carry = np.arange(begin, min(begin + many, last + 1))
+        back = np.maximum(1, np.rint(carry * (second / first)))
+        step = (first + second) / (carry + back)
+        mismatch = np.maximum(np.abs(carry * step / first - 1), np.abs(back * step / second - 1))
+        good = mismatch <= tolerance
+        found = bool(good.any())
+        at = int(np.argmax(good)) if found else int(np.argmin(mismatch))
+        if found or best is None or mismatch[at] < best.mismatch:
+            best = Grid(float(step[at]), int(carry[at]), int(back[at]), float(mismatch[at]))
+        if found:
+            break
+        begin, many = begin + many, 8 * many
+    assert best is not None
+    return best
 
 
 def refined(grid: Grid) -> Grid:

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ptmcalc import __version__
@@ -27,7 +27,19 @@ from ptmcalc.contract.report import (
 from ptmcalc.contract.result import History
 
 SCHEMA_VERSION = "1"
-_encode = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode
+
+
+def _encoder() -> Callable[[Any], str]:
+    """JSON of a value in one line. What `json` builds anew for each value is built once, where it is there."""
+    build, text = (getattr(json.encoder, name, None) for name in ("c_make_encoder", "encode_basestring"))
+    plain = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+    if build is None or text is None:
+        return plain.encode
+    pieces = build(None, plain.default, text, None, plain.key_separator, plain.item_separator, False, False, False)
+    return lambda value: "".join(pieces(value, 0))
+
+
+_encode = _encoder()
 
 
 def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -43,7 +55,8 @@ def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]]) -> Iter
     yield f' "summary": {_encode(summary)},\n "files": ['
     before = "\n"
     for path, part in files:
-        yield f'{before}  {{"path": {_encode(path)},\n{part}'
+        yield f'{before}  {{"path": {_encode(path)},\n'
+        yield part
         before = ",\n"
     yield "]}\n"
 
@@ -207,6 +220,8 @@ def _solver(solver: SolverReport) -> dict[str, Any]:
 
 
 def _estimate(estimate: Estimate) -> dict[str, Any]:
+    if estimate.bounded:
+        return {"value": float(estimate.value), "low": float(estimate.low), "high": float(estimate.high)}
     entry: dict[str, Any] = {
         "value": finite(estimate.value),
         "low": finite(estimate.low),

@@ -8,6 +8,7 @@ import itertools
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, Self
 
 from pydantic import ConfigDict, ModelWrapValidatorHandler, ValidationError, model_validator
@@ -15,7 +16,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 
 from ptmcalc.base.span import KeyPath
 from ptmcalc.spec.described import Described
-from ptmcalc.spec.fields import problem
+from ptmcalc.spec.fields import Measure, problem
 from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
 
 _NAME = re.compile(r"[\w-]+")
@@ -53,20 +54,19 @@ class Given:
 
     def number(self, key: str) -> float | None:
         """The SI value of a number or its default; None where there is none, or only a faulty one."""
-        about = keys_of(self.model)[key]
-        measure = measure_of(about)
-        if key not in self or measure is None:
+        about = _about(self.model, key)
+        if key not in self or about.measure is None:
             return about.default if isinstance(about.default, float) else None
         try:
-            return measure.read(self._written[key])
+            return about.measure.read(self._written[key])
         except PydanticCustomError:
             return None
 
     def word(self, key: str) -> str | None:
         """One of the words a key takes, or its default; None where there is none, or only an unknown one."""
-        about = keys_of(self.model)[key]
+        about = _about(self.model, key)
         word = self._written.get(key, about.default)
-        return word if word in words_of(about.annotation) else None
+        return word if word in about.words else None
 
     def block(self, key: str) -> "Given | None":
         """What the file writes in a block of this one, nothing where it leaves it out; None where it is no block."""
@@ -82,6 +82,21 @@ class Given:
     def missing(self, key: str, reason: str) -> Conflict:
         """The conflict of a block that lacks a key."""
         return Conflict((), reason, f"add `{key}: {example_of(keys_of(self.model)[key])}`")
+
+
+@dataclass(frozen=True, slots=True)
+class _About:
+    """What a model says of one of its keys: default, quantity and range of a number, the words it takes."""
+
+    default: Any
+    measure: Measure | None
+    words: tuple[str, ...]
+
+
+@cache
+def _about(model: Model, key: str) -> _About:
+    field = keys_of(model)[key]
+    return _About(field.default, measure_of(field), tuple(words_of(field.annotation)))
 
 
 def _given(annotation: Any, raw: object) -> Given | None:
@@ -143,7 +158,8 @@ class Fragment(Described):
     @classmethod
     def _with_conflicts(cls, raw: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
         """The faults of the keys and of what holds between them, all at once."""
-        conflicts = list(cls.conflicts(Given(cls, raw))) if isinstance(raw, dict) else []
+        alone = cls.conflicts.__func__ is Fragment.conflicts.__func__  # type: ignore[attr-defined]
+        conflicts = list(cls.conflicts(Given(cls, raw))) if isinstance(raw, dict) and not alone else []
         faults = [
             InitErrorDetails(type=problem("SPC113", one.reason, one.hint), loc=one.path, input=raw) for one in conflicts
         ]

@@ -1,7 +1,9 @@
 """What every machine description has besides the machine itself."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
+from functools import cache
+from types import MappingProxyType
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -138,7 +140,13 @@ def _label(scene: Given) -> str:
 
 def attribute(model: BaseModel, key: str) -> str:
     """The attribute that holds a key of the file: the same word, unless the key is a reserved one."""
-    return next((name for name, field in type(model).model_fields.items() if field.alias == key), key)
+    return _attributes(type(model)).get(key, key)
+
+
+@cache
+def _attributes(model: type[BaseModel]) -> Mapping[str, str]:
+    """The attributes that are not called as their keys."""
+    return MappingProxyType({field.alias: name for name, field in model.model_fields.items() if field.alias})
 
 
 def replaced(node: Any, path: KeyPath, value: object) -> Any:

@@ -11,6 +11,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeGuard
 
@@ -23,6 +25,7 @@ from ptmcalc.base.words import quote
 
 MAX_BYTES = 1 << 20
 MAX_NODES = 50_000
+_USUAL_BYTES = 1 << 14
 MAX_DEPTH = 100
 
 _Loader = yaml.CBaseLoader if yaml.__with_libyaml__ else yaml.BaseLoader
@@ -76,21 +79,21 @@ class Document:
         return Span(1, 1)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Scalar:
     span: Span
     value: object
     levels: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Sequence:
     span: Span
     items: "list[_Node]"
     levels: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Mapping:
     span: Span
     entries: "dict[str, _Entry]"
@@ -108,6 +111,17 @@ class _UnreadableError(Exception):
     def __init__(self, code: str, reason: str, span: Span, hint: str) -> None:
         super().__init__(reason)
         self.problem = Diagnostic(code, reason, span, hint=hint)
+
+
+def bytes_of(path: Path) -> bytes:
+    """What stands in a file, as far as one more byte than it may have.
+
+    Raises:
+        OSError: it cannot be read.
+    """
+    with path.open("rb") as file:
+        raw = file.read(_USUAL_BYTES)  # room for the largest file costs more than reading a usual one
+        return raw if len(raw) < _USUAL_BYTES else raw + file.read(MAX_BYTES + 1 - _USUAL_BYTES)
 
 
 def parse(raw: bytes, name: str) -> Document:
@@ -164,7 +178,7 @@ class _Reader:
 
     def document(self, text: str) -> _Node:
         try:
-            return self._single(iter(yaml.parse(text, Loader=_Loader)))
+            return self._single(iter(_Loader(text).get_event, None))
         except yaml.MarkedYAMLError as error:
             raise _syntax_error(error, _LINE_BREAK.split(text)) from None
 
@@ -263,7 +277,12 @@ class _Reader:
 
     def _key(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> tuple[str, Span]:
         """A key and its place; an empty text for one that is no word."""
-        key, span = event.value if isinstance(event, yaml.ScalarEvent) else "", _span(event)
+        key, span = "", _span(event)
+        if isinstance(event, yaml.ScalarEvent):
+            key = event.value
+            if key and event.tag is None and event.anchor is None:
+                self._spend(1, path, 2, span)
+                return key, span
         if not key:
             self._say("TXT111", "this key is not a word", span, path, "write `key: value`")
         self._node(event, events, (*path, key or "?"))
@@ -345,7 +364,10 @@ def _span(event: yaml.Event) -> Span:
 
 
 def _place(mark: Any) -> Span:
-    return Span(mark.line + 1, mark.column + 1) if mark else Span(1, 1)
+    return _at(mark.line + 1, mark.column + 1) if mark else _at(1, 1)
+
+
+_at = lru_cache(maxsize=1 << 14)(Span)
 
 
 _SYNTAX_HINTS = (

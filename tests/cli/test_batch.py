@@ -68,6 +68,17 @@ def test_every_format_is_the_same_one_by_one_in_a_batch_and_from_the_store(folde
     assert again.err == "ptmcalc: 12 of 12 files known from `results`\n"
 
 
+def test_reports_are_kept_only_where_somebody_may_ask_for_them(folder: Path) -> None:
+    """Not beside JSON alone; another format, a policy or a store needs them."""
+    with mock.patch("ptmcalc.cli.batch.FEW", 100):
+        alone = checked()
+    with mock.patch("ptmcalc.engine.batch.packed", side_effect=AssertionError):
+        assert checked() == alone
+        for more in (("-o", "junit=out.xml"), ("--ignore", "CNV101"), ("--store", "results")):
+            assert checked(*more).status == 4
+    assert checked("-o", "junit=out.xml") == alone
+
+
 def test_policies_count_in_a_batch_as_they_do_one_by_one(folder: Path) -> None:
     options = ("--ignore", "CNV101", "--exclude", "inner/1.yaml", "--exit-zero")
     with mock.patch("ptmcalc.cli.batch.FEW", 100):

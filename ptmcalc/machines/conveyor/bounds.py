@@ -5,6 +5,7 @@ within a b(s) x stray of its quasi-static value, phase by phase of the start. At
 under a torque the dynamic tension is never negative either.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -12,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate, Interval
-from ptmcalc.base.memory import remembered
+from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.result import family
-from ptmcalc.laws import capstan, loop_bounds, sag, wave
+from ptmcalc.laws import capstan, loop_bounds, sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
-from ptmcalc.machines.conveyor.model import BeltLine, StartCase, start_duration
+from ptmcalc.machines.conveyor.model import BeltLine, StartCase, lowest_frequency, start_duration
 from ptmcalc.numerics.lanes import value
 
 FloatArray = NDArray[np.float64]
@@ -58,69 +59,103 @@ class Enclosure:
     belt_speed: float
 
 
-def rigid_tension(case: StartCase, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Smallest and largest tension of the rigid body at fractions x of a strand [N]."""
-    static = case.line.static(strand, x)
-    swing = case.acceleration * loop_bounds.quasi_static(case.masses, strand, x)
-    return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
+@dataclass(frozen=True, slots=True)
+class Along:
+    """Both strands from end to end, at the places `_X`, shape (2, n): the static tension [N], and per unit of the
+    start's acceleration what the rigid body adds to it and the most that waves stray from that [kg]."""
+
+    static: FloatArray
+    rigid: FloatArray
+    stray: FloatArray
+
+
+@kept_for(64)
+def along(case: StartCase) -> Along:
+    """The strands of a start."""
+    static = [case.line.static(strand, _X) for strand in _STRANDS]
+    rigid = [loop_bounds.quasi_static(case.masses, strand, _X) for strand in _STRANDS]
+    stray = [loop_bounds.stray(case.masses, strand, _X) for strand in _STRANDS]
+    return Along(np.array(static), np.array(rigid), np.array(stray))
 
 
 @remembered(256)
-def enclose(case: StartCase, softening: float = 0.0) -> Enclosure:
+def enclose(case: StartCase, softening: float) -> Enclosure:
     """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
-    slowest = loop_bounds.lowest_frequency_bound(case.masses) / np.sqrt(1 + softening)
+    slowest = lowest_frequency(case) / math.sqrt(1 + softening)
     leak = 1.0
     steady = case.window - case.rise
     if not case.imposed_speed and steady > 0 and not case.damped:
         leak = loop_bounds.window_leak(slowest, steady)
-    back, carry = (_over_strand(case, strand, slowest, leak, softening) for strand in _STRANDS)
-    on, on_together = _at_drum(case, CARRY, 1.0, slowest, leak, softening)
-    off, off_together = _at_drum(case, RETURN, 0.0, slowest, leak, softening)
+    phases = case.phases(slowest)
+    reach = _reach(case, phases, _nearness(phases, leak), softening)
+    on, on_together = _at_run_on(case, reach, leak, softening)
+    off, off_together = _at_run_off(reach)
     over = case.acceleration * (case.masses.total_mass / case.masses.drive_mass - 1) / slowest
     return Enclosure(
         run_on=on,
         run_off=off,
-        strands=(back, carry),
+        strands=_over_strands(reach),
         together=(on_together, off_together),
         belt_speed=case.line.speed + (0.0 if case.imposed_speed else over),
     )
 
 
+@kept_for(64)
 def largest_stray(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value anywhere [N]."""
-    slowest = loop_bounds.lowest_frequency_bound(case.masses)
-    factor = max(phase.stray for phase in case.phases(slowest))
-    most = max(float(loop_bounds.stray(case.masses, strand, _X).max()) for strand in _STRANDS)
-    return case.acceleration * most * factor
+    factor = max(phase.stray for phase in case.phases(lowest_frequency(case)))
+    return case.acceleration * float(along(case).stray.max()) * factor
 
 
 def stray_ratio(case: StartCase) -> float:
     """Largest stray of the tension from its quasi-static value over the static tension, over all sections."""
-    slowest = loop_bounds.lowest_frequency_bound(case.masses)
-    factor = max(phase.stray for phase in case.phases(slowest))
-    ratio = 0.0
-    for strand in _STRANDS:
-        swing = case.acceleration * loop_bounds.stray(case.masses, strand, _X) * factor
-        static = case.line.static(strand, _X)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = max(ratio, float(np.max(np.where(static > 0, swing / static, np.where(swing > 0, np.inf, 0)))))
-    return ratio
+    factor = max(phase.stray for phase in case.phases(lowest_frequency(case)))
+    part = along(case)
+    swing = case.acceleration * part.stray * factor
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.max(np.where(part.static > 0, swing / part.static, np.where(swing > 0, np.inf, 0))))
 
 
-def _band(
-    case: StartCase, strand: int, x: FloatArray, slowest: float, softening: float
-) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest tension at fractions x of a strand over the whole start."""
-    static, r = case.line.static(strand, x), loop_bounds.quasi_static(case.masses, strand, x)
-    b = loop_bounds.stray(case.masses, strand, x)
-    low, high = np.full_like(static, np.inf), np.full_like(static, -np.inf)
-    for phase in case.phases(slowest):
-        ends = np.array([phase.low, phase.high])[:, None] * r
-        low = np.minimum(low, ends.min(axis=0) - b * phase.stray)
-        high = np.maximum(high, ends.max(axis=0) + b * phase.stray)
-    low, high = np.minimum(low, 0), np.maximum(high, 0)  # the static state itself, before the start
-    shift = _softened_shift(case, softening)
-    return static + case.acceleration * low - shift, static + case.acceleration * high + shift
+def rigid_tension(case: StartCase, strand: int) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest tension of the rigid body at both ends of a strand [N]."""
+    part, ends = along(case), (strand, [0, -1])
+    static, swing = part.static[ends], case.acceleration * part.rigid[ends]
+    return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
+
+
+@dataclass(frozen=True, slots=True)
+class _Reach:
+    """Tensions over a whole start, of both strands at the places `_X`, shape (2, n) [N]: the lowest and the highest
+    there can be, values the smallest is surely not above and the largest surely not below, and the plateau with the
+    slack it is reached within."""
+
+    low: FloatArray
+    high: FloatArray
+    surest_low: FloatArray
+    surest_high: FloatArray
+    plateau: FloatArray
+    slack: FloatArray
+
+
+def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float, softening: float) -> _Reach:
+    """How far the tensions go. Surely reached are the static value, and what the plateau leaves within the
+    stray that every section comes `near` it."""
+    part, shift = along(case), _softened_shift(case, softening)
+    low = high = np.zeros_like(part.rigid)  # the static state itself, before the start
+    for phase in phases:
+        first, last, waves = phase.low * part.rigid, phase.high * part.rigid, part.stray * phase.stray
+        low = np.minimum(low, np.minimum(first, last) - waves)
+        high = np.maximum(high, np.maximum(first, last) + waves)
+    plateau = part.static + case.acceleration * part.rigid
+    slack = case.acceleration * part.stray * near + shift
+    return _Reach(
+        low=part.static + case.acceleration * low - shift,
+        high=part.static + case.acceleration * high + shift,
+        surest_low=np.minimum(part.static, plateau + slack),
+        surest_high=np.maximum(part.static, plateau - slack),
+        plateau=plateau,
+        slack=slack,
+    )
 
 
 def _softened_shift(case: StartCase, softening: float) -> float:
@@ -132,62 +167,57 @@ def _softened_shift(case: StartCase, softening: float) -> float:
     return case.acceleration * case.masses.belt_mass * softening / 4 if case.line.fixed_length else 0.0
 
 
-def _over_strand(case: StartCase, strand: int, slowest: float, leak: float, softening: float) -> Range:
-    low, high = _band(case, strand, _X, slowest, softening)
-    bend_low, bend_high = _between_nodes(low), _between_nodes(high)
-    surest_low, surest_high = _surely_reached(case, strand, _X, slowest, leak, softening)
-    return Range(
-        largest=Interval(float(surest_high.max()), float((high + bend_high).max())),
-        smallest=Interval(float((low - bend_low).min()), float(surest_low.min())),
+def _over_strands(reach: _Reach) -> tuple[Range, Range]:
+    over, under = (reach.high + _between_nodes(reach.high)).max(axis=1), reach.surest_high.max(axis=1)
+    least, surely = (reach.low - _between_nodes(reach.low)).min(axis=1), reach.surest_low.min(axis=1)
+    back, carry = (
+        Range(
+            largest=Interval(float(under[one]), float(over[one])),
+            smallest=Interval(float(least[one]), float(surely[one])),
+        )
+        for one in _STRANDS
     )
+    return back, carry
 
 
 def _between_nodes(values: FloatArray) -> FloatArray:
-    """How far a smooth function can rise above its nodes: an eighth of the second difference."""
-    bend = np.zeros_like(values)
-    bend[1:-1] = np.abs(values[2:] - 2 * values[1:-1] + values[:-2]) / 8
-    bend[0], bend[-1] = bend[1], bend[-2]
+    """How far a smooth function can rise above its nodes, along each row: an eighth of the second difference."""
+    bend = np.empty_like(values)
+    bend[:, 1:-1] = np.abs(values[:, 2:] - 2 * values[:, 1:-1] + values[:, :-2]) / 8
+    bend[:, 0], bend[:, -1] = bend[:, 1], bend[:, -2]
     return bend
 
 
-def _nearness(case: StartCase, slowest: float, leak: float) -> float:
+def _nearness(phases: tuple[start_profile.Phase, ...], leak: float) -> float:
     """Share of the stray within which every section surely comes to its plateau, all sections together: at the
     end of the rise within the stray of that phase, on an average over the window within its leak."""
-    return min([leak] + [phase.stray for phase in case.phases(slowest) if phase.high == 1.0])
+    return min([leak] + [phase.stray for phase in phases if phase.high == 1.0])
 
 
-def _surely_reached(
-    case: StartCase, strand: int, x: FloatArray, slowest: float, leak: float, softening: float
-) -> tuple[FloatArray, FloatArray]:
-    """Values the smallest tension is surely not above, and the largest surely not below, section by section:
-    the static value, or what the plateau leaves within the stray."""
-    static = case.line.static(strand, x)
-    plateau = static + case.acceleration * loop_bounds.quasi_static(case.masses, strand, x)
-    slack = case.acceleration * loop_bounds.stray(case.masses, strand, x) * _nearness(case, slowest, leak)
-    slack += _softened_shift(case, softening)
-    return np.minimum(static, plateau + slack), np.maximum(static, plateau - slack)
+def _at_run_off(reach: _Reach) -> tuple[Range, float]:
+    """Range of the tension at the run-off of the drum, and an upper bound of what it comes to together with the
+    run-on."""
+    at = RETURN, 0
+    ends = Range(
+        largest=Interval(float(reach.surest_high[at]), float(reach.high[at])),
+        smallest=Interval(float(reach.low[at]), float(reach.surest_low[at])),
+    )
+    return ends, float(reach.plateau[at] + reach.slack[at])
 
 
-def _at_drum(
-    case: StartCase, strand: int, x: float, slowest: float, leak: float, softening: float
-) -> tuple[Range, float]:
-    """Range of the tension at the drum, and the value both sides of it come to together: a lower bound at the
-    run-on, an upper one at the run-off."""
-    at = np.array([x])
-    low, high = (float(end[0]) for end in _band(case, strand, at, slowest, softening))
-    below, above = (float(end[0]) for end in _surely_reached(case, strand, at, slowest, leak, softening))
-    static = float(case.line.static(strand, at)[0])
-    plateau = static + case.acceleration * float(loop_bounds.quasi_static(case.masses, strand, at)[0])
-    slack = case.acceleration * float(loop_bounds.stray(case.masses, strand, at)[0]) * _nearness(case, slowest, leak)
-    slack += _softened_shift(case, softening)
-    if strand == RETURN:
-        return Range(Interval(above, high), Interval(low, below)), plateau + slack
+def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float) -> tuple[Range, float]:
+    """Range of the tension at the run-on of the drum, and a lower bound of what it comes to together with the
+    run-off."""
+    at = CARRY, -1
+    static = float(along(case).static[at])
+    low, high = float(reach.low[at]), float(reach.high[at])
+    below, above = float(reach.surest_low[at]), float(reach.surest_high[at])
     if not case.line.fixed_length and not case.imposed_speed:
         low = static  # driving point: every mode starts with the force, none pulls against it
         if case.shape == "step" and leak < 1:
-            above = max(above, plateau)
+            above = max(above, float(reach.plateau[at]))
     above = min(max(above, static + _first_wave_reached(case, softening)), high)
-    return Range(Interval(above, high), Interval(low, max(below, low))), plateau - slack
+    return Range(Interval(above, high), Interval(low, max(below, low))), float(reach.plateau[at] - reach.slack[at])
 
 
 def _first_wave_reached(case: StartCase, softening: float) -> float:
@@ -211,7 +241,7 @@ def _first_wave_reached(case: StartCase, softening: float) -> float:
 def rigid_loads(case: StartCase) -> dict[str, float]:
     """Loads of the rigid body during a start, SI."""
     line = case.line
-    ranges = [rigid_tension(case, strand, np.array([0.0, 1.0])) for strand in _STRANDS]
+    ranges = [rigid_tension(case, strand) for strand in _STRANDS]
     on, off = float(ranges[CARRY][1][1]), float(ranges[RETURN][0][0])
     loads = {
         "tension_dynamic_run_on_max": on - line.run_on,
@@ -232,6 +262,7 @@ def rigid_loads(case: StartCase) -> dict[str, float]:
     return loads
 
 
+@kept_for(64)
 def enclosed_loads(case: StartCase, enclosure: Enclosure) -> dict[str, Interval]:
     """Intervals of the loads of a start."""
     line = case.line

@@ -112,7 +112,7 @@ def _blame_grip(spec: Conveyor, scene: ConveyorScene, path: KeyPath, drive: Driv
 def _slip_checks(spec: Conveyor, scene: ConveyorScene) -> Iterator[Check[Conveyor, ConveyorScene]]:
     """The drum's own, or one for each drum where there are several."""
     if len(spec.all_drives) == 1:
-        yield replace(SLIP, each=None)
+        yield SLIP
         return
     for name, drive in spec.all_drives.items():
         path = spec.drive_path(name)
@@ -289,7 +289,7 @@ def _only_with(check: str, key: Callable[[ConveyorScene], KeyPath]) -> Callable[
     """The check itself where the file gives its limit."""
 
     def each(spec: Conveyor, scene: ConveyorScene) -> Checks:
-        return (replace(_BY_CODE[check], each=None),) if spec.value_at(key(scene)) is not None else ()
+        return (_BY_CODE[check],) if spec.value_at(key(scene)) is not None else ()
 
     return each
 
@@ -361,7 +361,7 @@ def _time_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 def _where_timed(spec: Conveyor, scene: ConveyorScene) -> Checks:
     """Every stop; a run-out only with a limit."""
     held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
-    return (replace(STOP_TIME, each=None),) if held else ()
+    return (STOP_TIME,) if held else ()
 
 
 STOP_TIME: Check[Conveyor, ConveyorScene] = Check(

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -99,7 +98,7 @@ def _sharp_limit(spec: Conveyor, scene: Start) -> Estimate:
 def _sharp_checks(spec: Conveyor, scene: Start) -> Checks:
     """Where the file gives a limit, or asks for one that is known."""
     if math.isfinite(_sharp_limit(spec, scene).value):
-        yield replace(SHARP, each=None)
+        yield SHARP
 
 
 def _sharp_key(spec: Conveyor, scene: Start) -> KeyPath:
@@ -144,7 +143,7 @@ def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
 
 def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
     if spec.checks.start_residual is not None and scene.profile.rise_time:
-        yield replace(RESIDUAL, each=None)
+        yield RESIDUAL
 
 
 RESIDUAL: Check[Conveyor, Start] = Check(
@@ -177,7 +176,7 @@ def _band_limit(spec: Conveyor, scene: Start) -> Estimate:
 
 def _band_checks(spec: Conveyor, scene: Start) -> Checks:
     if scene.profile.ripple is not None:
-        yield replace(RESONANCE, each=None)
+        yield RESONANCE
 
 
 RESONANCE: Check[Conveyor, Start] = Check(

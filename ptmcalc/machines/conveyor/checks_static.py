@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -37,7 +36,7 @@ def _fill_limit(spec: Conveyor, scene: Run) -> Estimate:
 
 def _fill_checks(spec: Conveyor, scene: Run) -> Checks:
     """Where the file gives the bulk density."""
-    return (replace(FILL, each=None),) if spec.load.density is not None else ()
+    return (FILL,) if spec.load.density is not None else ()
 
 
 FILL: Check[Conveyor, Run] = Check(

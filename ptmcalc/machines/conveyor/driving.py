@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.laws import start_profile
 from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
@@ -17,7 +18,8 @@ _LATE_STAGE = 1e6
 _CURVE_STEPS = 4000
 
 
-def share(spec: Conveyor) -> dict[str, float]:
+@kept_for(64)
+def share(spec: Conveyor) -> Mapping[str, float]:
     """Part of the whole driving force that each drive has."""
     forces = {name: drive_force(drive) for name, drive in spec.all_drives.items()}
     whole = sum(forces.values())

@@ -330,7 +330,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
         return None
     if isinstance(scene, Start) and is_plain(spec, scene):
         case = start_case(spec, scene)
-        value = bounds.enclosed_loads(case, bounds.enclose(case))["slip_utilisation_max"].high
+        value = bounds.enclosed_loads(case, bounds.enclose(case, 0.0))["slip_utilisation_max"].high
     else:
         value = rough_utilisation(spec, scene)
     limit = 1 / spec.checks.slip.reserve

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.base.memory import kept_for
+from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import capstan, inertia, loop_bounds, motor, start_profile, wave
+from ptmcalc.laws import belt_modes, capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.loads import FREQUENCIES
 from ptmcalc.machines.conveyor.sections import Section
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
 from ptmcalc.numerics import lanes
@@ -66,8 +67,8 @@ class Strand:
 
     @property
     def even(self) -> bool:
-        """Whether mass and static rise are the same all along."""
-        return _even(self)
+        """Whether mass and static rise are the same all along, as those of one section are."""
+        return len(self.masses) == 1 or _even(self)
 
 
 @kept_for(256)
@@ -279,7 +280,7 @@ def thrown_back(spec: Conveyor, scene: Start) -> bool:
     case = start_case(spec, scene)
     if not case.imposed_speed:
         return False
-    return case.rise_time * loop_bounds.lowest_frequency_bound(case.masses) < _SHARP * 2 * math.pi
+    return case.rise_time * lowest_frequency(case) < _SHARP * 2 * math.pi
 
 
 DAMPING_THRESHOLD = 0.001
@@ -301,6 +302,7 @@ def damping_change(spec: Conveyor, line: BeltLine) -> float:
     return spec.belt.damping.change(math.pi / (2 * line.contour_time)) if spec.belt.damping else 0.0
 
 
+@kept_for(64)
 def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
     """Whether the drum cannot hold the belt that lies with the friction of its running frozen in it.
 
@@ -321,6 +323,7 @@ def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
     return Criterion("U_0", used, 1.0, meaning, "laws.capstan")
 
 
+@kept_for(64)
 def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Whether a solver of the plain start can take the machine.
 
@@ -391,6 +394,7 @@ def drive_mass(drive: Drive, driven: bool = False) -> float:
     )
 
 
+@kept_for(64)
 def drive_force(drive: Drive) -> float:
     """Mean starting force of all motors of a drive at the rim [N]."""
     torque = drive.motor.mean_torque
@@ -518,6 +522,18 @@ def start_case(spec: Conveyor, scene: Start) -> StartCase:
             acceleration = (reached - line.static_resistance) / masses.total_mass
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
     return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
+
+
+@kept_for(64)
+def lowest_frequency(case: StartCase) -> float:
+    """Lower bound of every natural frequency of the belt in a start [rad/s]."""
+    return loop_bounds.lowest_frequency_bound(case.masses)
+
+
+@remembered(64)
+def natural_frequencies(masses: LoopMasses, takeup_mass: float) -> tuple[float, ...]:
+    """The lowest natural frequencies of a belt [rad/s], which no tension and no resistance changes."""
+    return tuple(belt_modes.natural_frequencies(masses, takeup_mass, FREQUENCIES).tolist())
 
 
 def start_duration(case: StartCase) -> float:

@@ -9,12 +9,11 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.drive import Motor
 from ptmcalc.contract.result import Found, LoadInfo, of
-from ptmcalc.laws import belt_modes, loop_bounds, sag, slip_heat, start_profile
+from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.forces import filled
-from ptmcalc.machines.conveyor.loads import FREQUENCIES
-from ptmcalc.machines.conveyor.model import FloatArray, StartCase, start_case
+from ptmcalc.machines.conveyor.model import FloatArray, StartCase, lowest_frequency, natural_frequencies, start_case
 from ptmcalc.machines.conveyor.moving import Moving, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
 
@@ -44,12 +43,12 @@ def start_loads(spec: Conveyor, scene: Start, case: StartCase) -> dict[str, Foun
     found: dict[str, float] = {}
     left = spec.checks.start_residual is not None and scene.profile.rise_time > 0 and case.moves
     if scene.profile.ripple is not None or left:
-        frequencies = belt_modes.natural_frequencies(case.masses, spec.takeup.mass or 0.0, FREQUENCIES)
+        frequencies = natural_frequencies(case.masses, spec.takeup.mass or 0.0)
         if scene.profile.ripple is not None:
-            turns = frequencies / (2 * math.pi)
+            turns = np.array(frequencies) / (2 * math.pi)
             found["resonance_distance"] = float(np.min(np.abs(scene.profile.ripple / turns - 1)))
         if left:
-            found["start_residual"] = _residual(case, float(frequencies[0]))
+            found["start_residual"] = _residual(case, frequencies[0])
     heats = _heats(spec, scene, case) if any(map(heated, _motors(spec))) else {}
     return {name: Found(Estimate.exact(value)) for name, value in found.items()} | heats
 
@@ -189,7 +188,7 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
     unusual = scene.aborted is not None or scene.belt == "relaxed" or scene.profile.shape == "curve"
     if unusual or not even or len(spec.all_drives) > 1 or spec.takeup.mass is not None:
         return None
-    phases = case.phases(loop_bounds.lowest_frequency_bound(case.masses))
+    phases = case.phases(lowest_frequency(case))
     allowed = math.inf
     ends: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
     for strand in (RETURN, CARRY):

@@ -529,7 +529,7 @@ def _may_slip(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether the drive of a plain start may come to the limit of its grip."""
     assert isinstance(scene, Start)
     case = start_case(spec, scene)
-    used = bounds.enclosed_loads(case, bounds.enclose(case)).get("slip_utilisation_max")
+    used = bounds.enclosed_loads(case, bounds.enclose(case, 0.0)).get("slip_utilisation_max")
     return used is not None and used.high >= 1
 
 

@@ -6,11 +6,10 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import belt_modes
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.driving import least_pull
-from ptmcalc.machines.conveyor.loads import DRIVE, FREQUENCIES, OF_BELT, OF_START, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import is_plain, start_case
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, OF_START, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.model import is_plain, natural_frequencies, start_case
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.start_loads import OF_STARTING, start_loads
@@ -38,9 +37,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads["start_time"] = loads["start_time_rigid"]
     if len(spec.all_drives) == 1:
         loads |= _of_the_drive(next(iter(spec.all_drives)), loads)
-    weight = spec.takeup.mass or 0.0
-    for number, frequency in enumerate(belt_modes.natural_frequencies(case.masses, weight, FREQUENCIES), 1):
-        loads[of("natural_frequency", str(number))] = float(frequency)
+    for number, frequency in enumerate(natural_frequencies(case.masses, spec.takeup.mass or 0.0), 1):
+        loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
     return Result(found | start_loads(spec, scene, case), work=1, window=window)
