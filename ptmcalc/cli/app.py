@@ -202,6 +202,14 @@ def check(
             help="Loads over time: in the JSON, and in a file when one is named; may be repeated.",
         ),
     ] = None,
+    html: Annotated[
+        str,
+        typer.Option(
+            "--html",
+            metavar="PATH",
+            help="Pages with figures: FILE.html for one design file, a folder with an index for any number.",
+        ),
+    ] = "",
     fail_level: Annotated[
         Severity, typer.Option("--fail-level", help="Findings from this severity up make the exit status 1.")
     ] = Severity.ERROR,
@@ -227,7 +235,13 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
+    if html:
+        from ptmcalc.cli.pages import begin, write_pages
+
+        begin(html, paths)
+    options = Options(
+        tuple(scene or ()), accuracy, _effects(effects), bool(history), bool(html), _budget(budget), repairs
+    )
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
@@ -241,6 +255,8 @@ def check(
 
             for name in courses:
                 write(Path(name), [histories.render(reports)])
+        if html and not run.interrupted:
+            write_pages(html, reports)
         for piece in rendered(chosen, reports, verbose, to_terminal=terminal):
             say(piece)
         if history and not courses and not in_json:

@@ -3,7 +3,7 @@
 import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date
 from functools import partial
 from pathlib import Path
@@ -51,6 +51,8 @@ class Options:
     accuracy: str = ""
     effects: Mapping[str, str] = field(default_factory=dict)
     histories: bool = False
+    figures: bool = False
+    """whether there is somebody who looks at pictures"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     today: date | None = None
@@ -208,16 +210,22 @@ class _Assembly:
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
-        return SceneReport(
+        histories = self._histories()
+        report = SceneReport(
             name=scene.label,
             type=scene.type,
             effects=tuple(self._effects()),
             solvers=tuple(self._solvers()),
-            loads=tuple(self._loads()),
+            loads=tuple(self._loads(histories if self.options.histories else {})),
             checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
             health=self._health(),
             events=next((run.result.events for run in reversed(self.settled.runs) if run.result.events), ()),
         )
+        if not self.options.figures:
+            return report
+        from ptmcalc.engine.figures import figures_of
+
+        return replace(report, figures=tuple(figures_of(self.kind, self.spec, report, histories)))
 
     def _effects(self) -> Iterator[EffectReport]:
         near = {planned.effect.name for planned in sensitive(self.settled)}
@@ -283,8 +291,7 @@ class _Assembly:
                 return NextSolver(rung.solver.name, rung.seconds)
         return None
 
-    def _loads(self) -> Iterator[LoadReport]:
-        histories = self._histories()
+    def _loads(self, histories: Mapping[str, History]) -> Iterator[LoadReport]:
         for info in self.kind.loads_of(self.spec):
             best = self.settled.loads.get(info.name)
             if best is None:
@@ -304,7 +311,7 @@ class _Assembly:
     def _histories(self) -> Mapping[str, History]:
         """Courses of loads over time, each from the richest run that knows it."""
         found: dict[str, History] = {}
-        for run in self.settled.runs if self.options.histories else ():
+        for run in self.settled.runs if self.options.histories or self.options.figures else ():
             found |= run.result.histories()
         return found
 

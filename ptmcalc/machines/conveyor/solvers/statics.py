@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result, of
+from ptmcalc.contract.result import Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -63,7 +64,9 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     loads |= _of_running(spec, scene, line, places, tensions)
     loads |= static_loads(spec, scene, line)
     at = {"tension_max": {"position": float(places[high])}, "tension_min": {"position": float(places[low])}}
-    return Result({name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}, work=1)
+    found = {name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}
+    course = History(units.FORCE, places.tolist(), tensions.tolist(), units.SPAN)
+    return Result(found, work=1, histories=lambda: {"tension_max": course, "tension_min": course})
 
 
 def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:

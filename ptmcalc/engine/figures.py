@@ -1,0 +1,138 @@
+"""Figures of a scene: courses of loads as its kind declares them, with what is told of them."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise
+
+import numpy as np
+
+from ptmcalc.base.units import Quantity
+from ptmcalc.contract.figure import Course, Curve, Figure, FigureReport, Marks, Moment, Spot, Threshold, Told
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.report import LoadReport, SceneReport
+from ptmcalc.contract.result import History, family
+from ptmcalc.contract.solver import Fidelity
+from ptmcalc.spec.machine import MachineSpec
+
+_CELLS = 240
+"""Stretches of a course of which each keeps its ends, its largest and its smallest value: more cannot be seen."""
+_OF_PLACE: Mapping[str, tuple[str, ...]] = {"time": ("time",), "distance": ("position", "place")}
+"""Where a load says at which value of an axis it occurs."""
+
+
+def figures_of(
+    kind: AnyKind, spec: MachineSpec, scene: SceneReport, histories: Mapping[str, History]
+) -> Iterator[FigureReport]:
+    """The figures that a kind declares for a type of scene, in its order; loads of another quantity beside them."""
+    for figure in kind.figures:
+        if scene.type in figure.scenes:
+            yield from _of_figure(figure, spec, scene, histories)
+
+
+def _of_figure(
+    figure: Figure, spec: MachineSpec, scene: SceneReport, histories: Mapping[str, History]
+) -> Iterator[FigureReport]:
+    curves: dict[Quantity, list[Curve]] = {}
+    for course in figure.courses:
+        for load in _members(scene, course.load):
+            history = histories.get(load.info.name)
+            if history is not None and len(history.times) > 1 and history.over == figure.over:
+                element = load.info.name.partition("[")[2].removesuffix("]")
+                title = ", ".join(filter(None, (course.title, element))) if course.title else load.info.title
+                curve = Curve(title, thinned(history), tuple(_told(scene, course, load)))
+                curves.setdefault(history.quantity, []).append(curve)
+    words = figure.name, figure.title, figure.upright, figure.across
+    if not curves:
+        yield FigureReport(*words, missing=_why(figure, scene))
+        return
+    for number, found in enumerate(curves.values()):
+        marks = figure.marks(spec, scene) if figure.marks is not None and not number else Marks()
+        yield FigureReport(*words, tuple(found), _with_loads(marks, figure, scene, found))
+
+
+def _members(scene: SceneReport, name: str) -> Iterator[LoadReport]:
+    """The load of that name; without one those of its family."""
+    own = [load for load in scene.loads if load.info.name == name]
+    yield from own or (load for load in scene.loads if family(load.info.name) == name)
+
+
+def _told(scene: SceneReport, course: Course, load: LoadReport) -> Iterator[Told]:
+    """What is known of a course: its load, and others of the same one."""
+    levels = {one.name: one.fidelity for one in scene.solvers}
+    beside = [one for name in course.also for one in _members(scene, name)]
+    for one in (load, *beside):
+        level = levels.get(one.solver, Fidelity.FORMULA.value)
+        info = one.info
+        yield Told(info.name, info.title, info.quantity, one.estimate, one.solver, level, one.source, dict(one.at))
+
+
+def _why(figure: Figure, scene: SceneReport) -> str:
+    """Why there is nothing to draw."""
+    found = [load for course in figure.courses for load in _members(scene, course.load)]
+    if not found:
+        return "None of the loads it would show was found in this scene."
+    levels = {one.name: one.fidelity for one in scene.solvers}
+    by = dict.fromkeys((load.solver, levels.get(load.solver, "")) for load in found)
+    solvers = ", ".join(f"{name} ({level})" if level else name for name, level in by)
+    return f"The numbers are there, their course is not: {solvers} decided them and follows none over {figure.across}."
+
+
+def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Iterable[Curve]) -> Marks:
+    """What is drawn besides: what the kind says, where the told loads occur, what checks hold them against, when what
+    happens."""
+    told = [(curve, one) for curve in curves for one in curve.told if one.quantity.si == curve.history.quantity.si]
+    spots = [spot for curve, one in told if (spot := _spot(figure, curve, one)) is not None]
+    loads = {load.info.name: load.estimate.value for load in scene.loads}
+    moments = [Moment(loads[name], title) for name, title in figure.moments if math.isfinite(loads.get(name, math.nan))]
+    return Marks(
+        marks.bands,
+        (*marks.thresholds, *_limits(scene, [one for _, one in told])),
+        (*marks.moments, *moments),
+        (*marks.spots, *spots),
+    )
+
+
+def _spot(figure: Figure, curve: Curve, told: Told) -> Spot | None:
+    """Where a load occurs: as it says itself, else where its course has that value at an end."""
+    value = told.estimate.value
+    if not math.isfinite(value):
+        return None
+    names = _OF_PLACE.get(figure.over.name, (figure.over.name,))
+    at = next((told.at[name] for name in names if name in told.at), None)
+    if at is not None:
+        return Spot(at, value, told.title)
+    values = np.asarray(curve.history.values, float)
+    for index in (int(np.nanargmax(values)), int(np.nanargmin(values))):
+        if math.isclose(values[index], value, rel_tol=1e-3):
+            return Spot(float(curve.history.times[index]), value, told.title)
+    return None
+
+
+def _limits(scene: SceneReport, told: Iterable[Told]) -> Iterator[Threshold]:
+    """What checks hold these very loads against, once each."""
+    names = {one.load: one for one in told}
+    limits: dict[float, list[str]] = {}
+    for check in scene.checks:
+        for name in (name for name in check.loads if name in names):
+            held, limit = check.value, check.limit
+            if held is not None and limit is not None and held == names[name].estimate and math.isfinite(limit.value):
+                limits.setdefault(limit.value, []).append(check.code)
+    for value, codes in limits.items():
+        yield Threshold(value, f"limit of {', '.join(dict.fromkeys(codes))}")
+
+
+def thinned(history: History) -> History:
+    """A course with no more samples than can be seen: of each stretch its ends and its extremes, as they stand."""
+    times, values = np.asarray(history.times, float), np.asarray(history.values, float)
+    sound = np.isfinite(times) & np.isfinite(values)
+    times, values = times[sound], values[sound]
+    if len(times) > 4 * _CELLS:
+        edges = np.linspace(times[0], times[-1], _CELLS + 1)
+        starts = np.unique(np.clip(np.searchsorted(times, edges), 0, len(times)))
+        kept: set[int] = set()
+        for first, last in pairwise(starts.tolist()):
+            part = values[first:last]
+            kept |= {first, last - 1, int(first + part.argmax()), int(first + part.argmin())}
+        chosen = sorted(kept | {len(times) - 1})
+        times, values = times[chosen], values[chosen]
+    return History(history.quantity, times.tolist(), values.tolist(), history.over)
