@@ -225,7 +225,7 @@ class _Assembly:
             return report
         from ptmcalc.engine.figures import figures_of
 
-        return replace(report, figures=tuple(figures_of(self.kind, self.spec, report, histories)))
+        return replace(report, figures=tuple(figures_of(self.kind, report, self.spec, histories, self._textbooks())))
 
     def _effects(self) -> Iterator[EffectReport]:
         near = {planned.effect.name for planned in sensitive(self.settled)}
@@ -314,6 +314,10 @@ class _Assembly:
         for run in self.settled.runs if self.options.histories or self.options.figures else ():
             found |= run.result.histories()
         return found
+
+    def _textbooks(self) -> Mapping[str, Mapping[str, History]]:
+        """Courses of loads as textbooks' solvers have them, which are shown and decide nothing, by solver."""
+        return {run.rung.solver.name: found for run in self.settled.shown if (found := run.result.histories())}
 
     def _formulas(self, load: str, value: float) -> tuple[FormulaValue, ...]:
         return tuple(

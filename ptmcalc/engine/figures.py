@@ -1,12 +1,13 @@
 """Figures of a scene: courses of loads as its kind declares them, with what is told of them."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
+from typing import TypeGuard
 
 import numpy as np
 
-from ptmcalc.base.units import Quantity
 from ptmcalc.contract.figure import Course, Curve, Figure, FigureReport, Marks, Moment, Spot, Threshold, Told
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import LoadReport, SceneReport
@@ -16,38 +17,84 @@ from ptmcalc.spec.machine import MachineSpec
 
 _CELLS = 240
 """Stretches of a course of which each keeps its ends, its largest and its smallest value: more cannot be seen."""
+_ALIKE = 8.0
+"""How much larger one curve may be than another one on the same axes: of a smaller one nothing would be seen."""
+_SAME = 1e-3
+"""How closely the end of a course is the load that is its extreme: solvers see between samples."""
 _OF_PLACE: Mapping[str, tuple[str, ...]] = {"time": ("time",), "distance": ("position", "place")}
 """Where a load says at which value of an axis it occurs."""
 
 
 def figures_of(
-    kind: AnyKind, spec: MachineSpec, scene: SceneReport, histories: Mapping[str, History]
+    kind: AnyKind,
+    scene: SceneReport,
+    spec: MachineSpec,
+    histories: Mapping[str, History],
+    textbooks: Mapping[str, Mapping[str, History]],
 ) -> Iterator[FigureReport]:
-    """The figures that a kind declares for a type of scene, in its order; loads of another quantity beside them."""
+    """The figures that a kind declares for a type of scene, in its order; loads of another quantity beside them.
+
+    `histories` are the courses of loads, `textbooks` those that textbooks' solvers have of them, by solver.
+    """
     for figure in kind.figures:
         if scene.type in figure.scenes:
-            yield from _of_figure(figure, spec, scene, histories)
+            yield from _of_figure(figure, scene, spec, histories, textbooks)
 
 
 def _of_figure(
-    figure: Figure, spec: MachineSpec, scene: SceneReport, histories: Mapping[str, History]
+    figure: Figure,
+    scene: SceneReport,
+    spec: MachineSpec,
+    histories: Mapping[str, History],
+    textbooks: Mapping[str, Mapping[str, History]],
 ) -> Iterator[FigureReport]:
-    curves: dict[Quantity, list[Curve]] = {}
+    groups: list[list[Curve]] = []
     for course in figure.courses:
         for load in _members(scene, course.load):
-            history = histories.get(load.info.name)
-            if history is not None and len(history.times) > 1 and history.over == figure.over:
-                element = load.info.name.partition("[")[2].removesuffix("]")
-                title = ", ".join(filter(None, (course.title, element))) if course.title else load.info.title
-                curve = Curve(title, thinned(history), tuple(_told(scene, course, load)))
-                curves.setdefault(history.quantity, []).append(curve)
+            name = load.info.name
+            element = name.partition("[")[2].removesuffix("]")
+            title = ", ".join(filter(None, (course.title, element))) if course.title else load.info.title
+            told = tuple(_told(scene, course, load))
+            if _fits(history := histories.get(name), figure):
+                _join(groups, Curve(title, thinned(history), told))
+                told = ()
+            for solver, known in textbooks.items():
+                if _fits(history := known.get(name), figure):
+                    _join(groups, Curve(f"{title}, by the textbook: {solver}", thinned(history), told))
     words = figure.name, figure.title, figure.upright, figure.across
-    if not curves:
+    if not groups:
         yield FigureReport(*words, missing=_why(figure, scene))
         return
-    for number, found in enumerate(curves.values()):
+    for number, found in enumerate(groups):
         marks = figure.marks(spec, scene) if figure.marks is not None and not number else Marks()
         yield FigureReport(*words, tuple(found), _with_loads(marks, figure, scene, found))
+
+
+def _fits(history: History | None, figure: Figure) -> TypeGuard[History]:
+    """Whether there is a course, over what the figure draws."""
+    return history is not None and len(history.times) > 1 and history.over == figure.over
+
+
+def _join(groups: list[list[Curve]], new: Curve) -> None:
+    """One more curve, beside those of its quantity and of about its size; of the same course as another one only what
+    is told of it."""
+    for curves in groups:
+        for index, known in enumerate(curves):
+            if known.history == new.history:
+                curves[index] = replace(known, told=(*known.told, *new.told))
+                return
+    size = _size(new)
+    for curves in groups:
+        sizes = [_size(curve) for curve in curves]
+        alike = curves[0].history.quantity == new.history.quantity
+        if alike and max(*sizes, size) <= _ALIKE * max(min(*sizes, size), 0.0):
+            curves.append(new)
+            return
+    groups.append([new])
+
+
+def _size(curve: Curve) -> float:
+    return max((abs(value) for value in curve.history.values), default=0.0)
 
 
 def _members(scene: SceneReport, name: str) -> Iterator[LoadReport]:
@@ -77,7 +124,7 @@ def _why(figure: Figure, scene: SceneReport) -> str:
     return f"The numbers are there, their course is not: {solvers} decided them and follows none over {figure.across}."
 
 
-def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Iterable[Curve]) -> Marks:
+def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Sequence[Curve]) -> Marks:
     """What is drawn besides: what the kind says, where the told loads occur, what checks hold them against, when what
     happens."""
     told = [(curve, one) for curve in curves for one in curve.told if one.quantity.si == curve.history.quantity.si]
@@ -86,7 +133,7 @@ def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Iterab
     moments = [Moment(loads[name], title) for name, title in figure.moments if math.isfinite(loads.get(name, math.nan))]
     return Marks(
         marks.bands,
-        (*marks.thresholds, *_limits(scene, [one for _, one in told])),
+        (*marks.thresholds, *_limits(scene, [one for _, one in told], len(curves) > 1)),
         (*marks.moments, *moments),
         (*marks.spots, *spots),
     )
@@ -103,22 +150,23 @@ def _spot(figure: Figure, curve: Curve, told: Told) -> Spot | None:
         return Spot(at, value, told.title)
     values = np.asarray(curve.history.values, float)
     for index in (int(np.nanargmax(values)), int(np.nanargmin(values))):
-        if math.isclose(values[index], value, rel_tol=1e-3):
-            return Spot(float(curve.history.times[index]), value, told.title)
+        if math.isclose(abs(values[index]), abs(value), rel_tol=_SAME):  # of a size the course may have the sign
+            return Spot(float(curve.history.times[index]), float(values[index]), told.title)
     return None
 
 
-def _limits(scene: SceneReport, told: Iterable[Told]) -> Iterator[Threshold]:
-    """What checks hold these very loads against, once each."""
+def _limits(scene: SceneReport, told: Iterable[Told], several: bool) -> Iterator[Threshold]:
+    """What checks hold these very loads against, once each; with the load where there are several curves."""
     names = {one.load: one for one in told}
-    limits: dict[float, list[str]] = {}
+    limits: dict[tuple[float, str], list[str]] = {}
     for check in scene.checks:
         for name in (name for name in check.loads if name in names):
             held, limit = check.value, check.limit
             if held is not None and limit is not None and held == names[name].estimate and math.isfinite(limit.value):
-                limits.setdefault(limit.value, []).append(check.code)
-    for value, codes in limits.items():
-        yield Threshold(value, f"limit of {', '.join(dict.fromkeys(codes))}")
+                of_load = f" ({names[name].title})" if several else ""
+                limits.setdefault((limit.value, of_load), []).append(check.code)
+    for (value, of_load), codes in limits.items():
+        yield Threshold(value, f"limit of {', '.join(dict.fromkeys(codes))}{of_load}")
 
 
 def thinned(history: History) -> History:

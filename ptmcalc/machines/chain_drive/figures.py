@@ -39,7 +39,7 @@ FIGURES = (
         "Polygon effect over the speed, with the ranges to keep away from",
         ("run",),
         (Course("tension_dynamic_polygon"),),
-        "largest tension the polygon effect adds",
+        "polygon tension",
         over=SPEED,
         across="chain speed",
         marks=_speeds,

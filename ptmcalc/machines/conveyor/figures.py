@@ -36,7 +36,7 @@ FIGURES = (
         "Grip in use over time",
         _IN_MOTION,
         (Course("slip_utilisation_max", title="grip in use"),),
-        "share of the grip in use",
+        "grip in use",
         moments=(("stop_time", "the belt stands"), ("start_time_rigid", "full speed of the rigid belt")),
         marks=_all_of_it,
     ),

@@ -10,5 +10,5 @@ FIGURES = (
         "link_torques", "Torques of the links over time", _SCENES, (Course("torque_peak"),), "torque", moments=_MOMENTS
     ),
     Figure("motor_torques", "Torques of the motors over time", _SCENES, (Course("motor_torque_peak"),), "torque"),
-    Figure("speeds", "Speeds over time", _SCENES, (Course("speed_max", ("speed_min",)),), "speed", moments=_MOMENTS),
+    Figure("speeds", "Speeds over time", _SCENES, (Course("speed_max", title="speed"),), "speed", moments=_MOMENTS),
 )

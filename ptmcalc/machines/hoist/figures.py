@@ -16,7 +16,7 @@ FIGURES = (
         "Force of the rope over time, with its phases",
         _MOVING,
         (Course("rope_force_max", ("rope_force_min",), "force of the rope"),),
-        "force of all falls at the load",
+        "force of all falls",
         moments=_MOMENTS,
     ),
     Figure(

@@ -11,7 +11,7 @@ FIGURES = (
             Course("run_up_time", title="speed of the main shaft"),
             Course("run_out_time", ("speed_run_out",), "speed of the main shaft"),
         ),
-        "speed of the main shaft",
+        "speed",
         moments=(("run_up_time", "run-up is over"), ("run_out_time", "the shaft stands")),
     ),
     Figure(
@@ -22,24 +22,17 @@ FIGURES = (
         "angle turned",
     ),
     Figure(
-        "acceleration",
-        "Acceleration over time",
-        ("run_up",),
-        (Course("acceleration_starting", title="acceleration of the main shaft"),),
-        "acceleration",
-    ),
-    Figure(
         "cycle",
         "Speed over a cycle",
         ("steady",),
         (Course("speed_max", ("speed_min", "speed_mean"), "speed of the main shaft"),),
-        "speed of the main shaft",
+        "speed",
     ),
     Figure(
         "cycle_torque",
         "Torque of the motor over a cycle",
         ("steady",),
         (Course("torque_motor_max", ("torque_motor_rms",), "torque of the motor"),),
-        "torque of the motor",
+        "motor torque",
     ),
 )

@@ -104,14 +104,14 @@ def _pictures(scene: SceneReport, number: int) -> view.Entry | None:
             shown.append({"title": figure.title, "missing": figure.missing, "told": []})
             continue
         drawing = draw.courses(figure, f"f{number}-{k}")
-        told = dict.fromkeys(view.told(one) for curve in figure.curves for one in curve.told)
+        told = view.told(one for curve in figure.curves for one in curve.told)
         shown.append(
             {
                 "title": figure.title,
                 "missing": "",
                 "svg": _markup(drawing.svg),
                 "legend": drawing.keys,
-                "told": list(told),
+                "told": told,
             }
         )
     if scene.events:

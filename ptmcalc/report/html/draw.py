@@ -27,10 +27,14 @@ COLOURS = 6
 MOST_CURVES = 8
 _WIDE, _HIGH = 4.9, 2.75  # inches: at 390 pixels a point of the picture is about a pixel
 _SIZE = 9.5
-_INK, _GRID, _BAD, _LIMIT = "#010101", "#020202", "#030303", "#040404"
-_INKS = {_INK: "currentColor", _GRID: "var(--grid)", _BAD: "var(--fail)", _LIMIT: "var(--limit)"} | {
-    f"#0505{number:02x}": f"var(--c{number})" for number in range(1, COLOURS + 1)
-}
+_INK, _GRID, _BAD, _LIMIT, _PAGE = "#010101", "#020202", "#030303", "#040404", "#060606"
+_INKS = {
+    _INK: "currentColor",
+    _GRID: "var(--grid)",
+    _BAD: "var(--fail)",
+    _LIMIT: "var(--limit)",
+    _PAGE: "var(--page)",
+} | {f"#0505{number:02x}": f"var(--c{number})" for number in range(1, COLOURS + 1)}
 _STYLE = {
     "svg.hashsalt": "ptmcalc",
     "svg.fonttype": "none",
@@ -249,6 +253,7 @@ def _spots(
             textcoords="offset points",
             ha="left" if inside else "right",
             va="top" if up > 0.88 else "bottom",
+            bbox={"facecolor": _PAGE, "alpha": 0.75, "linewidth": 0, "pad": 0.4},
             zorder=5,
         )
 

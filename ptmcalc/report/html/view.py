@@ -128,6 +128,7 @@ def page(report: FileReport, source: Source) -> Entry:
         "verdict": report.verdict,
         "counted": words.summary(count([report])).partition(", ")[2],
         "worst": checks[0] if checks else None,
+        "remarks": any(one["remark"] or one["repair"] for one in checks),
         "tiles": _tiles(report),
         "scenes": [{"name": one.name, "type": one.type} for one in _told_scenes(report)],
     }
@@ -292,13 +293,13 @@ def _where(at: Mapping[str, float], window: tuple[float, float] | None) -> str:
     return ", ".join(parts)
 
 
-def told(one: Told) -> str:
-    """The number of a figure with its unit, level and source."""
-    where = _where(one.at, None)
-    at = f" at {where}" if where else ""
-    return (
-        f"{one.title}: {words.amount(one.estimate, one.quantity)}{at}; {one.level}: {one.solver}; source: {one.source}"
-    )
+def told(ones: Iterable[Told]) -> list[str]:
+    """The numbers of a figure with their units, and by what, at which level and after which source they were found."""
+    found: dict[tuple[str, str, str], dict[str, None]] = {}
+    for one in ones:
+        number = words.amount(one.estimate, one.quantity)
+        found.setdefault((one.level, one.solver, one.source), {})[f"{one.title} {number}"] = None
+    return [f"{'; '.join(numbers)}: {level}, {solver}; {source}" for (level, solver, source), numbers in found.items()]
 
 
 # -- what was computed ----------------------------------------------------------------------------------------------

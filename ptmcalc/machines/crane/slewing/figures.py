@@ -8,7 +8,7 @@ FIGURES = (
         "Angles of the load over time",
         ("slew",),
         (Course("sway_tangential_max"), Course("sway_radial_max")),
-        "angle of the rope from the vertical",
+        "angle of the rope",
         moments=(("start_time", "full speed"),),
     ),
 )

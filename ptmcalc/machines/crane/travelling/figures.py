@@ -11,7 +11,7 @@ FIGURES = (
         "Angle of the load over time",
         _MOVING,
         (Course("sway_angle_max", ("sway_residual",), "angle of the load"),),
-        "angle of the rope from the vertical",
+        "angle of the rope",
         moments=_MOMENTS,
     ),
     Figure(
