@@ -79,7 +79,7 @@ def page_names(paths: Sequence[str]) -> list[str]:
     """Names of pages: the way from the folder that all files have in common, of letters that every system takes."""
     split = [PurePosixPath(path).parts for path in paths]
     common = 0
-    while all(len(parts) > common + 1 and parts[common] == split[0][common] for parts in split):
+    while split and all(len(parts) > common + 1 and parts[common] == split[0][common] for parts in split):
         common += 1
     taken = {INDEX}
     names = []
