@@ -67,7 +67,16 @@ def _of_figure(
         return
     for number, found in enumerate(groups):
         marks = figure.marks(spec, scene) if figure.marks is not None and not number else Marks()
-        yield FigureReport(*words, tuple(found), _with_loads(marks, figure, scene, found))
+        title = f"{figure.title}: {_about(found)}" if len(groups) > 1 else figure.title
+        marks = _with_loads(marks, figure, scene, found)
+        yield FigureReport(figure.name, title, figure.upright, figure.across, tuple(found), marks)
+
+
+def _about(curves: Sequence[Curve]) -> str:
+    """What the curves of one of several pictures are of: parts of the machine, else a quantity."""
+    names = [told.load for curve in curves for told in curve.told[:1]]
+    elements = [name.partition("[")[2].removesuffix("]") for name in names if "[" in name]
+    return ", ".join(dict.fromkeys(elements)) or curves[0].history.quantity.name
 
 
 def _fits(history: History | None, figure: Figure) -> TypeGuard[History]:

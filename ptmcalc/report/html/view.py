@@ -358,7 +358,7 @@ def _tables(report: FileReport) -> Iterator[Entry]:
         yield {
             "id": f"table-{number}",
             "title": table.title,
-            "columns": [column.heading for column in table.columns],
+            "columns": [column.heading or column.key.replace("_", " ") for column in table.columns],
             "rows": [[cell(one) for one in row] for row in table.rows],
             "notes": table.notes,
         }

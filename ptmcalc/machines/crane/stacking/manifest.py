@@ -36,6 +36,7 @@ def stacker(
     def of_its_scenes(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
         return tuple(piece for piece in pieces if piece.scenes & scenes)
 
+    words = {scene.model_fields["type"].default for scene in scenes}
     return MachineKind(
         name="crane",
         type=word,
@@ -45,7 +46,7 @@ def stacker(
         effects=of_its_scenes(EFFECTS),
         solvers=of_its_scenes(SOLVERS),
         checks=of_its_scenes(CHECKS),
-        figures=FIGURES,
+        figures=tuple(figure for figure in FIGURES if not words.isdisjoint(figure.scenes)),
         starting=template_in(package),
         assumed=assumptions,
         parts=parts,

@@ -103,8 +103,7 @@ def linear_course(motion: Motion) -> Course:
 
 
 def over_time(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Times [s], angle of the load from the plumb line [rad] and its pull on the crane in the direction of travel [N] of
-    a course that is one."""
+    """Times [s], angle of the load from the plumb line [rad], and its pull on the crane along its travel [N]."""
     journey, _, _ = _travelled(motion)
     looks = [np.linspace(0.0, stretch.swing.end, _SHOWN) for stretch in journey.stretches]
     times = [stretch.start + look for stretch, look in zip(journey.stretches, looks, strict=True)]
