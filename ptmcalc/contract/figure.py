@@ -105,6 +105,19 @@ class Told:
     level: str
     source: str
     at: Mapping[str, float] = field(default_factory=dict)
+    mirrored: bool = False
+    """whether it is the size of what the course has below zero"""
+
+    @property
+    def value(self) -> float:
+        """The number as the course has it."""
+        return -self.estimate.value if self.mirrored else self.estimate.value
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The interval as the course has it."""
+        low, high = self.estimate.low, self.estimate.high
+        return (-high, -low) if self.mirrored else (low, high)
 
 
 @dataclass(frozen=True, slots=True)

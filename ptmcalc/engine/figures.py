@@ -19,6 +19,7 @@ _CELLS = 240
 """Stretches of a course of which each keeps its ends, its largest and its smallest value: more cannot be seen."""
 _ALIKE = 8.0
 """How much larger one curve may be than another one on the same axes: of a smaller one nothing would be seen."""
+_NEAR = 0.05
 _SAME = 1e-3
 """How closely the end of a course is the load that is its extreme: solvers see between samples."""
 _OF_PLACE: Mapping[str, tuple[str, ...]] = {"time": ("time",), "distance": ("position", "place")}
@@ -54,12 +55,11 @@ def _of_figure(
             name = load.info.name
             element = name.partition("[")[2].removesuffix("]")
             title = ", ".join(filter(None, (course.title, element))) if course.title else load.info.title
-            told = tuple(_told(scene, course, load))
-            if _fits(history := histories.get(name), figure):
-                _join(groups, Curve(title, thinned(history), told))
-                told = ()
+            if _fits(own := histories.get(name), figure):
+                _join(groups, Curve(title, thinned(own), tuple(_told(scene, course, load, own))))
             for solver, known in textbooks.items():
                 if _fits(history := known.get(name), figure):
+                    told = () if own else tuple(_told(scene, course, load, history))
                     _join(groups, Curve(f"{title}, by the textbook: {solver}", thinned(history), told))
     words = figure.name, figure.title, figure.upright, figure.across
     if not groups:
@@ -112,14 +112,22 @@ def _members(scene: SceneReport, name: str) -> Iterator[LoadReport]:
     yield from own or (load for load in scene.loads if family(load.info.name) == name)
 
 
-def _told(scene: SceneReport, course: Course, load: LoadReport) -> Iterator[Told]:
+def _told(scene: SceneReport, course: Course, load: LoadReport, history: History) -> Iterator[Told]:
     """What is known of a course: its load, and others of the same one."""
     levels = {one.name: one.fidelity for one in scene.solvers}
     beside = [one for name in course.also for one in _members(scene, name)]
     for one in (load, *beside):
         level = levels.get(one.solver, Fidelity.FORMULA.value)
         info = one.info
-        yield Told(info.name, info.title, info.quantity, one.estimate, one.solver, level, one.source, dict(one.at))
+        found = Told(info.name, info.title, info.quantity, one.estimate, one.solver, level, one.source, dict(one.at))
+        yield replace(found, mirrored=_mirrored(one.estimate.value, history))
+
+
+def _mirrored(value: float, history: History) -> bool:
+    """Whether a load is the size of the lowest value of its course."""
+    lowest, highest = min(history.values), max(history.values)
+    off = min(abs(value - lowest), abs(value - highest))
+    return value > 0 > lowest and abs(value + lowest) < min(off, _NEAR * value)
 
 
 def _why(figure: Figure, scene: SceneReport) -> str:
@@ -150,7 +158,7 @@ def _with_loads(marks: Marks, figure: Figure, scene: SceneReport, curves: Sequen
 
 def _spot(figure: Figure, curve: Curve, told: Told) -> Spot | None:
     """Where a load occurs: as it says itself, else where its course has that value at an end."""
-    value = told.estimate.value
+    value = told.value
     if not math.isfinite(value):
         return None
     names = _OF_PLACE.get(figure.over.name, (figure.over.name,))
@@ -159,8 +167,8 @@ def _spot(figure: Figure, curve: Curve, told: Told) -> Spot | None:
         return Spot(at, value, told.title)
     values = np.asarray(curve.history.values, float)
     for index in (int(np.nanargmax(values)), int(np.nanargmin(values))):
-        if math.isclose(abs(values[index]), abs(value), rel_tol=_SAME):  # of a size the course may have the sign
-            return Spot(float(curve.history.times[index]), float(values[index]), told.title)
+        if math.isclose(values[index], value, rel_tol=_SAME):
+            return Spot(float(curve.history.times[index]), value, told.title)
     return None
 
 
@@ -173,7 +181,8 @@ def _limits(scene: SceneReport, told: Iterable[Told], several: bool) -> Iterator
             held, limit = check.value, check.limit
             if held is not None and limit is not None and held == names[name].estimate and math.isfinite(limit.value):
                 of_load = f" ({names[name].title})" if several else ""
-                limits.setdefault((limit.value, of_load), []).append(check.code)
+                side = -limit.value if names[name].mirrored else limit.value
+                limits.setdefault((side, of_load), []).append(check.code)
     for (value, of_load), codes in limits.items():
         yield Threshold(value, f"limit of {', '.join(dict.fromkeys(codes))}{of_load}")
 

@@ -306,6 +306,19 @@ def test_the_window_of_the_fork_is_drawn() -> None:
     assert any("window of the fork" in says for says in keys)
 
 
+def test_what_lies_below_zero_is_marked_there() -> None:
+    """The swing of a start is told as a size; its course leans back."""
+    (scene,) = (one for one in reported(KINDS["crane rack_stacker"]).scenes if one.name == "start_loaded")
+    figure = next(one for one in scene.figures if one.name == "mast_tip")
+    (told,) = figure.curves[0].told
+    (spot,) = figure.marks.spots
+    assert told.mirrored
+    assert told.estimate.value > 0
+    assert spot.value == -told.estimate.value == pytest.approx(min(figure.curves[0].history.values), rel=1e-3)
+    assert told.ends == (-told.estimate.high, -told.estimate.low)
+    assert [one.value < 0 for one in figure.marks.thresholds if one.title.startswith("limit")] == [True]
+
+
 def test_the_interval_of_a_load_is_a_band() -> None:
     """The rope of the hoist is known to some percent: the band goes from the low to the high end."""
     (scene,) = (one for one in reported(KINDS["hoist"]).scenes if one.name == "lift_loaded")

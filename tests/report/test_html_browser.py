@@ -43,7 +43,8 @@ function met(found) {
   var pairs = [];
   for (var i = 0; i < found.length; i++) for (var j = i + 1; j < found.length; j++) {
     var a = found[i], b = found[j];
-    var wide = Math.min(a.right, b.right) - Math.max(a.left, b.left), high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+    var wide = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+    var high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
     if (wide > 1.5 && high > 3) pairs.push([a.text, b.text, Math.round(wide), Math.round(high)]);
   }
   return pairs;
@@ -51,23 +52,26 @@ function met(found) {
 function all(where, what) { return Array.prototype.slice.call(where.querySelectorAll(what)); }
 window.addEventListener("load", function () {
   all(document, "details").forEach(function (one) { one.open = true; });
-  var said = {overlaps: [], small: [], outside: [], resources: performance.getEntriesByType("resource").map(function (e) { return e.name; })};
+  var fetched = performance.getEntriesByType("resource").map(function (one) { return one.name; });
+  var said = {overlaps: [], small: [], outside: [], resources: fetched};
+  function tell(found) { met(boxes(found)).forEach(function (pair) { said.overlaps.push(pair); }); }
+  function beyond(box, edge) {
+    return box.left < edge.left - 1 || box.right > edge.right + 1 || box.top < edge.top - 1 ||
+      box.bottom > edge.bottom + 1;
+  }
   all(document, "figure svg").forEach(function (svg) {
-    var texts = boxes(all(svg, "text")), edge = svg.getBoundingClientRect();
-    met(texts).forEach(function (pair) { said.overlaps.push(pair); });
-    texts.forEach(function (box) {
-      if (Math.min(box.bottom - box.top, box.right - box.left) > 0 && box.left < edge.left - 1 || box.right > edge.right + 1 || box.top < edge.top - 1 || box.bottom > edge.bottom + 1) said.outside.push(box.text);
-    });
-    all(svg, "text").forEach(function (text) {
-      var size = parseFloat(getComputedStyle(text).fontSize) * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+    var texts = all(svg, "text"), edge = svg.getBoundingClientRect();
+    tell(texts);
+    boxes(texts).forEach(function (box) { if (beyond(box, edge)) said.outside.push(box.text); });
+    texts.forEach(function (text) {
+      var size = parseFloat(getComputedStyle(text).fontSize) * edge.width / svg.viewBox.baseVal.width;
       if (size < 8.5) said.small.push([text.textContent, size]);
     });
   });
-  all(document, "tr").forEach(function (row) { met(boxes(Array.prototype.slice.call(row.cells))).forEach(function (pair) { said.overlaps.push(pair); }); });
-  met(boxes(all(document, "h1, h2, h3, h4, nav li, .tiles li, dt, dd, main > p"))).forEach(function (pair) { said.overlaps.push(pair); });
+  all(document, "tr").forEach(function (row) { tell(Array.prototype.slice.call(row.cells)); });
+  tell(all(document, "h1, h2, h3, h4, nav li, .tiles li, dt, dd, main > p"));
   all(document, "figure, .wrap, .source, .verdict, .tiles li, h1, h2, h3, p").forEach(function (one) {
-    var box = one.getBoundingClientRect();
-    if (box.right > innerWidth + 1) said.outside.push(one.textContent.trim().slice(0, 40));
+    if (one.getBoundingClientRect().right > innerWidth + 1) said.outside.push(one.textContent.trim().slice(0, 40));
   });
   said.wide = document.documentElement.scrollWidth - innerWidth;
   said.width = innerWidth;
@@ -78,7 +82,10 @@ window.addEventListener("load", function () {
 SORT = """
 window.addEventListener("load", function () {
   var button = document.querySelectorAll("#files thead button")[1], seen = [];
-  function files() { return Array.prototype.map.call(document.querySelectorAll("#files tbody a"), function (a) { return a.textContent; }); }
+  function files() {
+    var links = document.querySelectorAll("#files tbody a");
+    return Array.prototype.map.call(links, function (link) { return link.textContent; });
+  }
   button.focus();
   seen.push(document.activeElement === button);
   seen.push(files()); button.click(); seen.push(files()); seen.push(button.parentNode.getAttribute("aria-sort"));

@@ -158,7 +158,7 @@ def _frame(figure: FigureReport, curves: Sequence[Curve], unit: float) -> tuple[
 def _of(curve: Curve) -> Iterable[tuple[str, float, float]]:
     """Title and interval of what is told of a curve in its own quantity."""
     for told in curve.told:
-        ends = told.estimate.low, told.estimate.high
+        ends = told.ends
         if told.quantity.si == curve.history.quantity.si and all(map(math.isfinite, ends)):
             yield told.title, *ends
 
@@ -191,14 +191,28 @@ def _thresholds(
     found: dict[str, list[float]] = {}
     for one in figure.marks.thresholds:
         found.setdefault(one.title, []).append(one.value)
+    placed: list[tuple[float, str]] = []
     for letter, (title, values) in zip(ascii_uppercase, found.items(), strict=False):
         said = " and ".join(words.number(value, unit[1]) for value in values)
         inside = [value / unit[0] for value in values if low <= value / unit[0] <= high]
         for value in inside:
             axes.axhline(value, color=_LIMIT, linewidth=1.3, dashes=(5, 2), zorder=2)
-            axes.text(1.015, (value - low) / (high - low), letter, transform=axes.transAxes, va="center", ha="left")
+            placed.append(((value - low) / (high - low), letter))
         beyond = "" if inside else ", beyond the picture"
         keys.append(Key("limit" if inside else "", f"{title}: {said}{beyond}", letter=letter if inside else ""))
+    for up, letters in _apart(placed, 2 * _APART):
+        axes.text(1.012, up, letters, transform=axes.transAxes, va="center", ha="left")
+
+
+def _apart(placed: list[tuple[float, str]], least: float) -> Iterable[tuple[float, str]]:
+    """Places of letters; those that would stand on each other are one."""
+    found: list[tuple[float, str]] = []
+    for at, letter in sorted(placed):
+        if found and at - found[-1][0] < least:
+            found[-1] = found[-1][0], f"{found[-1][1]},{letter}"
+        else:
+            found.append((at, letter))
+    return found
 
 
 def _moments(
@@ -209,14 +223,10 @@ def _moments(
     placed: list[tuple[float, str]] = []
     moments = [one for one in figure.marks.moments if left <= one.at / unit[0] <= right]
     for letter, moment in zip(ascii_lowercase, sorted(moments, key=lambda one: one.at), strict=False):
-        share = (moment.at / unit[0] - left) / (right - left)
+        placed.append(((moment.at / unit[0] - left) / (right - left), letter))
         axes.axvline(moment.at / unit[0], color=_INK, linewidth=0.8, dashes=(1, 2), zorder=2)
-        if placed and share - placed[-1][0] < _APART:
-            placed[-1] = placed[-1][0], f"{placed[-1][1]},{letter}"
-        else:
-            placed.append((share, letter))
         keys.append(Key("moment", f"{moment.title}: {_in(moment.at, unit[1], unit[0])}", letter=letter))
-    for share, letters in placed:
+    for share, letters in _apart(placed, _APART):
         axes.text(share, 1.025, letters, transform=axes.transAxes, ha="center", va="bottom")
 
 
@@ -361,7 +371,7 @@ def _svg(
         warnings.simplefilter("ignore")  # a glyph that our font lacks is the reader's to draw
         picture = Figure(figsize=(_WIDE, _HIGH))
         FigureCanvasSVG(picture)
-        axes = picture.add_axes((0.145, 0.175, 0.815, 0.735))
+        axes = picture.add_axes((0.145, 0.175, 0.785, 0.735))
         axes.patch.set_visible(False)
         picture.patch.set_visible(False)
         axes.spines[["top", "right"]].set_visible(False)
