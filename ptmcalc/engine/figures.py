@@ -51,7 +51,7 @@ def _of_figure(
 ) -> Iterator[FigureReport]:
     groups: list[list[Curve]] = []
     for course in figure.courses:
-        for load in _members(scene, course.load):
+        for load in _with_course(scene, course.load, [histories, *textbooks.values()]):
             name = load.info.name
             element = name.partition("[")[2].removesuffix("]")
             title = ", ".join(filter(None, (course.title, element))) if course.title else load.info.title
@@ -104,6 +104,13 @@ def _join(groups: list[list[Curve]], new: Curve) -> None:
 
 def _size(curve: Curve) -> float:
     return max((abs(value) for value in curve.history.values), default=0.0)
+
+
+def _with_course(scene: SceneReport, name: str, known: Sequence[Mapping[str, History]]) -> Iterator[LoadReport]:
+    """The load of that name; where it has no course those of its parts, which may have."""
+    own = [load for load in scene.loads if load.info.name == name]
+    has = any(name in courses for courses in known)
+    yield from own if has else (load for load in scene.loads if family(load.info.name) == name)
 
 
 def _members(scene: SceneReport, name: str) -> Iterator[LoadReport]:

@@ -15,9 +15,12 @@ import pytest
 from support.command import ROOT, environment, ptmcalc, python
 from support.pages import Element, as_document, page_of, page_of_text, read, reported, without_texts
 
+from ptmcalc.base import units
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import FileReport
-from ptmcalc.contract.result import family
+from ptmcalc.contract.result import History, family
+from ptmcalc.engine.figures import figures_of
+from ptmcalc.engine.load import load_file
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import html, words
 from ptmcalc.report.html import draw, view
@@ -304,6 +307,26 @@ def test_the_window_of_the_fork_is_drawn() -> None:
     assert window[0] == -window[1] > 0
     keys = [key.says for key in draw.courses(figure, "f").keys]
     assert any("window of the fork" in says for says in keys)
+
+
+def test_parts_have_courses_where_the_machine_has_none() -> None:
+    """A belt in cells knows the grip of each drum over time; the largest of all is a number. Twice as many samples as
+    are drawn keep their extremes."""
+    path = KINDS["conveyor"]
+    (scene,) = (one for one in reported(path).scenes if one.name == "start_loaded")
+    loaded = load_file(ROOT / path, path)
+    assert loaded.spec is not None
+    times = [k / 1000 for k in range(5000)]
+    course = History(units.RATIO, times, [0.5 + 0.2 * math.sin(37 * t) + (k == 1234) for k, t in enumerate(times)])
+    known = {"slip_utilisation_max[head]": course}
+    figures = {one.name: one for one in figures_of(load_kind("conveyor"), scene, loaded.spec, known, {})}
+    (curve,) = figures["slip_over_time"].curves
+    assert curve.told[0].load == "slip_utilisation_max[head]"
+    assert len(curve.history.times) < 1000
+    assert max(curve.history.values) == course.values[1234]
+    assert curve.history.times[curve.history.values.index(max(curve.history.values))] == 1.234
+    assert min(curve.history.values) == min(course.values)
+    assert "their course is not" in figures["tension_over_time"].missing
 
 
 def test_what_lies_below_zero_is_marked_there() -> None:
