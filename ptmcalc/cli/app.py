@@ -228,6 +228,14 @@ def check(
             help="Loads over time: in the JSON, and in a file when one is named; may be repeated.",
         ),
     ] = None,
+    html: Annotated[
+        str,
+        typer.Option(
+            "--html",
+            metavar="PATH",
+            help="Pages with figures: FILE.html for one design file, a folder with an index for any number.",
+        ),
+    ] = "",
     fail_level: Annotated[
         Severity, typer.Option("--fail-level", help="Findings from this severity up make the exit status 1.")
     ] = Severity.ERROR,
@@ -254,16 +262,20 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
+    if html:
+        from ptmcalc.cli.pages import begin, write_pages
+
+        begin(html, paths)
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
     options = Options(
-        tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, budget=_budget(budget), repairs=repairs
+        tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html), _budget(budget), repairs
     )
     forms = {chosen, *(target for target, _ in files)}
     in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
-    whole = forms != {Format.JSON} or bool(courses) or not counts_all
+    whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
     with Run(options, jobs, store, in_json=in_json, whole=whole, executor=executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
         for target, name in files if not run.interrupted else ():
@@ -273,6 +285,8 @@ def check(
 
             for name in courses:
                 write(Path(name), [histories.render(reports)])
+        if html and not run.interrupted:
+            write_pages(html, reports)
         say_all(rendered(chosen, reports, verbose, to_terminal=terminal))
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)

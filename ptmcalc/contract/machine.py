@@ -10,6 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, S
+from ptmcalc.contract.figure import Figure
 from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
@@ -56,6 +57,9 @@ class MachineKind(Generic[S]):
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
     tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
     """for a kind that has tables of its own: what they say of the scenes of a machine"""
+
+    figures: tuple[Figure, ...] = ()
+    """what a report with pictures shows of its scenes"""
 
     parts: Callable[[S], Iterable[LoadInfo]] | None = None
     """for a kind whose loads are families: the loads of the parts of a machine, in the order of `loads`"""
@@ -138,6 +142,7 @@ def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
         solvers=_once(solver for one in types for solver in one.solvers),
         checks=_once(check for one in types for check in one.checks),
         starting=types[0].starting,
+        figures=_once(figure for one in types for figure in one.figures),
         types=types,
     )
 

@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath, Span
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion, EffectState
+from ptmcalc.contract.figure import FigureReport
 from ptmcalc.contract.result import Event, History, LoadInfo
 
 _INVISIBLE = 1e-6
@@ -150,6 +151,8 @@ class SceneReport:
     checks: tuple[Judgement, ...]
     health: Mapping[str, float]
     events: tuple[Event, ...] = ()
+    figures: tuple[FigureReport, ...] = ()
+    """what there is to look at, where somebody asked for it"""
 
 
 @dataclass(frozen=True, slots=True)

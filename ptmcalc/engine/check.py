@@ -57,6 +57,8 @@ class Options:
     histories: bool = False
     courses: bool = False
     """whether reports show the shapes of histories"""
+    figures: bool = False
+    """whether there is somebody who looks at pictures"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     today: date | None = None
@@ -214,16 +216,22 @@ class _Assembly:
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
-        return SceneReport(
+        histories = self._histories()
+        report = SceneReport(
             name=scene.label,
             type=scene.type,
             effects=tuple(self._effects()),
             solvers=tuple(self._solvers()),
-            loads=tuple(self._loads()),
+            loads=tuple(self._loads(histories if self.options.histories else {})),
             checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
             health=self._health(),
             events=next((run.result.events for run in reversed(self.settled.runs) if run.result.events), ()),
         )
+        if not self.options.figures:
+            return report
+        from ptmcalc.engine.figures import figures_of
+
+        return replace(report, figures=tuple(figures_of(self.kind, report, self.spec, histories, self._textbooks())))
 
     def _effects(self) -> Iterator[EffectReport]:
         near = {planned.effect.name for planned in sensitive(self.settled)}
@@ -273,8 +281,7 @@ class _Assembly:
                 return NextSolver(rung.solver.name, rung.seconds)
         return None
 
-    def _loads(self) -> Iterator[LoadReport]:
-        histories = self._histories()
+    def _loads(self, histories: Mapping[str, History]) -> Iterator[LoadReport]:
         for info in self.kind.loads_of(self.spec):
             best = self.settled.loads.get(info.name)
             if best is None:
@@ -296,9 +303,14 @@ class _Assembly:
     def _histories(self) -> Mapping[str, History]:
         """Courses of loads over time, each from the richest run that knows it."""
         found: dict[str, History] = {}
-        for run in self.settled.runs if self.options.histories or self.options.courses else ():
+        asked = self.options.histories or self.options.courses or self.options.figures
+        for run in self.settled.runs if asked else ():
             found |= run.result.histories()
         return found
+
+    def _textbooks(self) -> Mapping[str, Mapping[str, History]]:
+        """Courses of loads as textbooks' solvers have them, which are shown and decide nothing, by solver."""
+        return {run.rung.solver.name: found for run in self.settled.shown if (found := run.result.histories())}
 
     def _formulas(self, load: str, value: float) -> tuple[FormulaValue, ...]:
         return tuple(
@@ -354,9 +366,8 @@ class _Assembly:
 
     def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck) -> bool:
         """Whether the file with another value at a key passes a check in this scene."""
-        options = replace(
-            self.options, scenes=(self.settled.plan.scene.label,), histories=False, courses=False, repairs=False
-        )
+        label = self.settled.plan.scene.label
+        options = replace(self.options, scenes=(label,), histories=False, courses=False, figures=False, repairs=False)
         again = check(changed(self.loaded, path, value), options)
         name = (wanted.code, wanted.element)
         verdicts = [one.verdict for _, one in again.judgements if (one.code, one.element) == name]

@@ -14,7 +14,8 @@ FloatArray = NDArray[np.float64]
 class Table:
     """The last line of a step table: time [s], angle [rad], speed [rad/s], and the number of steps.
 
-    Time and angle at the very end are put on the straight line of the last step.
+    Time and angle at the very end are put on the straight line of the last step. `lines` are those of the whole table,
+    shape (steps + 1, 3).
     """
 
     time: float
@@ -22,6 +23,7 @@ class Table:
     speed: float
     steps: int
     reached: bool
+    lines: tuple[tuple[float, float, float], ...] = ()
 
 
 def step_table(
@@ -50,15 +52,18 @@ def step_table(
     rising = until > speed
     start, w, time = angle, speed, 0.0
     phi = angle
+    lines = [(time, 0.0, w)]
     for count in range(1, most + 1):
         rate = acceleration(time, phi, w)
         after = w + rate * step
         if (after >= until) if rising else (after <= until):
             part = (until - w) / rate
-            return Table(time + part, phi - start + w * part + rate * part**2 / 2, until, count, True)
+            lines.append((time + part, phi - start + w * part + rate * part**2 / 2, until))
+            return Table(*lines[-1], count, True, tuple(lines))
         if rising and rate <= 0 and w <= 0:
             break
         phi, w, time = phi + w * step + rate * step**2 / 2, after, time + step
+        lines.append((time, phi - start, w))
     return Table(math.inf, math.inf, w, most, False)
 
 

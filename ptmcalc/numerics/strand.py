@@ -40,6 +40,8 @@ _ROOT_STEPS = 60
 _STRETCH = 32
 _Values = TypeVar("_Values", float, FloatArray)
 _GAUSS, _FADED = 32, 40.0
+_SHOWN = 60
+"""Stretches of a strand whose ends are shown."""
 
 
 def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
@@ -533,6 +535,37 @@ class _Delays:
             for one in waves[:, self.steps : self.steps + cells + 1]:
                 total += energy.work(one**2, self.grid.step) / (4 * z)
         return total
+
+
+def envelopes(loop: Loop, motion: Motion, window: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Places along the belt from the head's run-off [m], and the largest and the smallest tension there [N].
+
+    Of strands that are pure delays: two waves that were sampled where they left meet at a place after their ways to it.
+    The places are some tens on each strand, on the nodes of the grid, its ends among them.
+    """
+    steps, last_share = steps_of(window, motion.grid)
+    from_drum, from_tail, into_back, from_off = motion.waves
+    found = []
+    for strand, cells, towards_start, towards_end, ahead in (
+        (loop.back, motion.grid.back, into_back, from_off, 0.0),
+        (loop.carry, motion.grid.carry, from_drum, from_tail, loop.back.length),
+    ):
+        nodes = np.unique(np.rint(np.linspace(0, cells, _SHOWN + 1)).astype(int))
+        static = strand.static(nodes / cells)
+        tops, lows = np.empty(len(nodes)), np.empty(len(nodes))
+        for k, node in enumerate(nodes.tolist()):
+            both = _arrived(towards_start, cells - node, steps) + _arrived(towards_end, node, steps)
+            course = static[k] + both / 2
+            course[-1] = at_end(course, last_share)
+            tops[k], lows[k] = course.max(), course.min()
+        found.append((ahead + nodes / cells * strand.length, tops, lows))
+    places, highest, lowest = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return places, highest, lowest
+
+
+def _arrived(wave: FloatArray, late: int, steps: int) -> FloatArray:
+    """What a wave is, so many steps after it left: nothing before it has come."""
+    return np.concatenate([np.zeros(min(late, steps + 1)), wave[: max(steps + 1 - late, 0)]])
 
 
 def _bend(wave: FloatArray, at: int) -> float:

@@ -121,6 +121,7 @@ def test_only_what_changed_is_done_again(folder: Path) -> None:
         Options(effects={"sag": "off"}),
         Options(budget=1.0),
         Options(histories=True),
+        Options(figures=True),
         Options(repairs=False),
     ],
     ids=str,

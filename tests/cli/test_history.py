@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.command import Done, ptmcalc, python
+from support.command import ROOT, Done, ptmcalc, python
 
 from ptmcalc.cli.app import history_with_its_value
 
 PASSING = Path(__file__).parent / "specs" / "passing.yaml"
+HOIST = ROOT / "specs" / "hoist.yaml"
+"""Lifting evenly it is all numbers, and no course."""
 
 TORQUE, INERTIAS, DURATION = 100.0, (2.0, 3.0), 0.5  # N*m, kg*m^2, s
 TRAIN = """\
@@ -200,5 +202,5 @@ def test_the_words_of_a_shell_are_read_the_same(train: Path, tmp_path: Path) -> 
 
 def test_a_machine_without_histories_gives_the_heading_alone(tmp_path: Path) -> None:
     target = tmp_path / "courses.csv"
-    assert ptmcalc("check", PASSING, "--scene", "run_loaded", "--history", target).status == 0
+    assert ptmcalc("check", HOIST, "--scene", "run_loaded", "--history", target).status == 0
     assert target.read_text("utf-8") == "file,scene,load,unit,time,value,over\n"

@@ -60,3 +60,10 @@ def test_speeds_from_energies() -> None:
     """J = 2 kg*m^2 from 3 rad/s, 9 J: 7 J more are 4 rad/s; of a body twice as heavy sqrt(8); spent energy is rest."""
     speeds = energy_steps(np.array([2.0, 2.0, 4.0, 2.0]), np.array([0.0, 7.0, 7.0, -9.5]), 9.0)
     np.testing.assert_allclose(speeds, [3.0, 4.0, math.sqrt(8.0), 0.0], rtol=1e-15)
+
+
+def test_the_lines_of_a_table_lead_from_the_beginning_to_the_end() -> None:
+    """From 2 rad/s at 3 rad/s^2 in steps of 1 s: 5, 8, 11 rad/s after 3.5, 10 and 19.5 rad, wherever it begins."""
+    found = step_table(lambda time, angle, speed: 3.0, 5.0, 2.0, 11.0, 1.0, 100)
+    assert np.array(found.lines) == pytest.approx(np.array([(0, 0, 2), (1, 3.5, 5), (2, 10, 8), (3, 19.5, 11)]))
+    assert found.lines[-1] == (found.time, found.angle, found.speed)

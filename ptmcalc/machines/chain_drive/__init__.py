@@ -11,6 +11,7 @@ from ptmcalc.machines.chain_drive.checks import CHECKS
 from ptmcalc.machines.chain_drive.checks_motion import CHECKS_OF_MOTION
 from ptmcalc.machines.chain_drive.effects import EFFECTS
 from ptmcalc.machines.chain_drive.effects_motion import EFFECTS_OF_MOTION
+from ptmcalc.machines.chain_drive.figures import FIGURES
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
@@ -82,6 +83,7 @@ KIND = MachineKind(
     spec=ChainDrive,
     loads=LOADS,
     effects=(*EFFECTS, *EFFECTS_OF_MOTION),
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_MOTION),
     starting=template_in(__package__),

@@ -10,6 +10,7 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
+from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.solvers.network import CELLS
@@ -131,6 +132,7 @@ KIND = MachineKind(
     spec=Conveyor,
     loads=(*LOADS, *STATIC_LOADS, *START_LOADS),
     effects=EFFECTS,
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),

@@ -6,6 +6,7 @@ from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.drivetrain.checks import CHECKS
 from ptmcalc.machines.drivetrain.effects import EFFECTS
+from ptmcalc.machines.drivetrain.figures import FIGURES
 from ptmcalc.machines.drivetrain.loads import LOADS, parts
 from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
@@ -30,6 +31,7 @@ KIND = MachineKind(
     spec=Drivetrain,
     loads=LOADS,
     effects=EFFECTS,
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),

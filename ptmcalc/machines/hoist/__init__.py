@@ -15,6 +15,7 @@ from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
 from ptmcalc.machines.hoist.checks_winding import CHECKS_OF_WINDING
 from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
 from ptmcalc.machines.hoist.effects_winding import LAYER_MAP
+from ptmcalc.machines.hoist.figures import FIGURES
 from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
@@ -87,6 +88,7 @@ KIND = MachineKind(
     spec=Hoist,
     loads=LOADS,
     effects=(*EFFECTS_OF_MOTION, LAYER_MAP),
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRUM, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
     starting=template_in(__package__),

@@ -11,6 +11,7 @@ from ptmcalc.laws import slider_crank
 from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
 from ptmcalc.machines.shaft.checks import CHECKS
 from ptmcalc.machines.shaft.effects import EFFECTS
+from ptmcalc.machines.shaft.figures import FIGURES
 from ptmcalc.machines.shaft.loads import LOADS
 from ptmcalc.machines.shaft.model import machine_of
 from ptmcalc.machines.shaft.solvers import SOLVERS
@@ -84,6 +85,7 @@ KIND = MachineKind(
     spec=Shaft,
     loads=LOADS,
     effects=EFFECTS,
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, Result, family, of
+from ptmcalc.contract.result import Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -73,6 +74,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
             "grid_mismatch": fine.grid.mismatch,
         },
         findings=tuple(findings),
+        histories=lambda: _histories(case, only, fine, "sag" in carried),
     )
 
 
@@ -334,6 +336,27 @@ def _used_up(found: dict[str, Found], held: bool) -> dict[str, Found]:
         "slip_reserve_min": Estimate.exact(left) if held else Estimate(left, 0.0, left),
     }
     return {name: Found(states[name], found[name].at) for name in states}
+
+
+def _histories(case: StartCase, drive: str, motion: loop.Motion, sagging_spans: bool) -> dict[str, History]:
+    """Tensions at the drum and the grip in use over time, and, of waves that keep their shape, the largest and smallest
+    tension over the way round the loop from the head's run-off."""
+    times = (motion.times + case.held).tolist()
+    found = {
+        "tension_run_on_max": History(units.FORCE, times, motion.run_on.tolist()),
+        "tension_run_off_min": History(units.FORCE, times, motion.run_off.tolist()),
+    }
+    if case.line.grip_exponent is not None:
+        lift = case.line.belt_line_mass * motion.belt_speed**2
+        tight, slack = np.maximum(motion.run_on, motion.run_off), np.minimum(motion.run_on, motion.run_off)
+        used = capstan.slip_utilisation(tight, slack, lift, case.line.grip_exponent)
+        found["slip_utilisation_max"] = History(units.RATIO, times, np.asarray(used).tolist())
+    found |= {of(name, drive): history for name, history in found.items()}
+    if not sagging_spans:
+        places, highest, lowest = strand.envelopes(_loop(case, frozenset({"belt_wave"})), motion, case.window)
+        found["tension_max"] = History(units.FORCE, places.tolist(), highest.tolist(), units.SPAN)
+        found["tension_min"] = History(units.FORCE, places.tolist(), lowest.tolist(), units.SPAN)
+    return found
 
 
 def _drive_force(case: StartCase, motion: loop.Motion, bar: float) -> dict[str, Found]:

@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import NOTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Event, Finding, Found, Result, family, of
+from ptmcalc.contract.result import Event, Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -96,6 +97,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         health={"energy_residual": drawn.energy_residual, "cells": ready.course.cells},
         findings=tuple(findings),
         events=tuple(_events(drawn, ready)),
+        histories=lambda: _histories(case, drawn, ready),
     )
 
 
@@ -347,6 +349,40 @@ def _of_drives(case: Moving, station: Station, history: tuple[Seen, ...], step: 
         values[of("slip_distance", drum.name)] = float(station.slid[index]), {}
         values[of("slip_heat", drum.name)] = float(station.heat[index]), {}
     return values
+
+
+def _histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
+    """Tensions and grip of every drive over time, and the largest tension over the way round the loop."""
+    times = drawn.times.tolist()
+
+    def over_time(values: FloatArray, quantity: units.Quantity = units.FORCE) -> History:
+        return History(quantity, times, np.asarray(values, float).tolist())
+
+    found = {
+        "tension_run_on_max": over_time(np.array([seen.tensions[0] for seen in drawn.head])),
+        "tension_run_off_min": over_time(np.array([seen.tensions[-1] for seen in drawn.head])),
+    }
+    names = case.spec.all_drives
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        belt = np.array([seen.belt for seen in history])
+        for index, drum in enumerate(station.drums):
+            if drum.name not in names:
+                continue
+            on, off = (np.array([seen.tensions[index + end] for seen in history]) for end in (0, 1))
+            found[of("tension_run_on_max", drum.name)] = over_time(on)
+            found[of("tension_run_off_min", drum.name)] = over_time(off)
+            given = names[drum.name].drum
+            if given.friction is not None:
+                lift = case.line.belt_line_mass * belt**2
+                used = capstan.slip_utilisation(
+                    np.maximum(on, off), np.minimum(on, off), lift, given.friction * given.wrap
+                )
+                slips = np.array([bool(seen.slips[index]) for seen in history])
+                used = np.where(slips, np.maximum(used, 1.0), used)
+                found[of("slip_utilisation_max", drum.name)] = over_time(used, units.RATIO)
+    middle = (ready.course.places[1:] + ready.course.places[:-1]) / 2
+    found["tension_max"] = History(units.FORCE, middle.tolist(), drawn.highest.tolist(), units.SPAN)
+    return found
 
 
 def _largest(history: FloatArray, step: float) -> tuple[float, float]:

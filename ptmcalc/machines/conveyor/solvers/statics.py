@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result, of
+from ptmcalc.contract.result import Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -62,7 +63,13 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     loads |= _of_running(spec, scene, line, places, tensions)
     loads |= static_loads(spec, scene, line)
     at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
-    return Result({name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}, work=1)
+    found = {name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}
+
+    def histories() -> dict[str, History]:
+        course = History(units.FORCE, places.tolist(), tensions.tolist(), units.SPAN)
+        return {"tension_max": course, "tension_min": course}
+
+    return Result(found, work=1, histories=histories)
 
 
 def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:

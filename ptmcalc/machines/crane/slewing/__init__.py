@@ -5,6 +5,7 @@ from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.checks import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.slewing.checks_swing import CHECKS_OF_SWING
 from ptmcalc.machines.crane.slewing.effects import EFFECTS
+from ptmcalc.machines.crane.slewing.figures import FIGURES
 from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
@@ -18,6 +19,7 @@ SLEWING = MachineKind(
     spec=SlewingCrane,
     loads=LOADS,
     effects=EFFECTS,
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=(*CHECKS_OF_DRIVE, *CHECKS_OF_SWING),
     starting=template_in(__package__),

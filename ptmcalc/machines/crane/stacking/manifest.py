@@ -15,6 +15,7 @@ from ptmcalc.machines.crane.stacking.checks_strength import CHECKS_OF_STRENGTH
 from ptmcalc.machines.crane.stacking.combinations import tables
 from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
+from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
@@ -35,6 +36,7 @@ def stacker(
     def of_its_scenes(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
         return tuple(piece for piece in pieces if piece.scenes & scenes)
 
+    words = {scene.model_fields["type"].default for scene in scenes}
     return MachineKind(
         name="crane",
         type=word,
@@ -44,6 +46,7 @@ def stacker(
         effects=of_its_scenes(EFFECTS),
         solvers=of_its_scenes(SOLVERS),
         checks=of_its_scenes(CHECKS),
+        figures=tuple(figure for figure in FIGURES if not words.isdisjoint(figure.scenes)),
         starting=template_in(package),
         assumed=assumptions,
         parts=parts,

@@ -12,6 +12,7 @@ from ptmcalc.machines.crane.travelling.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.travelling.checks_events import CHECKS_OF_EVENTS
 from ptmcalc.machines.crane.travelling.effects import EFFECTS_OF_TRAVEL
 from ptmcalc.machines.crane.travelling.factors import CREEPING
+from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.loads import LOADS, parts
 from ptmcalc.machines.crane.travelling.solvers import SOLVERS
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -50,6 +51,7 @@ TRAVELLING = MachineKind(
     spec=Travelling,
     loads=LOADS,
     effects=EFFECTS_OF_TRAVEL,
+    figures=FIGURES,
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
     starting=template_in(__package__),

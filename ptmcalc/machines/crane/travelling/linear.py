@@ -22,6 +22,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _LOOKS = 64
 """Looks at the speed in a swing: it is reached or lost between two of them."""
 _DOUBLINGS = 40
+_SHOWN = 120
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +99,22 @@ def linear_course(motion: Motion) -> Course:
     """
     if stalls(motion):
         return stalled(motion)
+    return _course(*_travelled(motion))
+
+
+def over_time(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Times [s], angle of the load from the plumb line [rad], and its pull on the crane along its travel [N]."""
+    journey, _, _ = _travelled(motion)
+    looks = [np.linspace(0.0, stretch.swing.end, _SHOWN) for stretch in journey.stretches]
+    times = [stretch.start + look for stretch, look in zip(journey.stretches, looks, strict=True)]
+    angles = [stretch.swing.at(linear.ANGLE, look) for stretch, look in zip(journey.stretches, looks, strict=True)]
+    angle = np.concatenate(angles)
+    pull = motion.load * motion.gravity * angle - motion.on_load
+    return np.concatenate(times), angle + motion.lean, pull
+
+
+def _travelled(motion: Motion) -> tuple[_Journey, float, float]:
+    """The whole way with a swing after it, when full speed or rest is reached, and for how long it is hoisted then."""
     journey = _Journey(motion, _lengths(motion), [])
     if motion.starts:
         _start(journey)
@@ -109,7 +126,7 @@ def linear_course(motion: Motion) -> Course:
     ends = float(journey.lengths.coefficients[-1][0])
     rest = max(hoisted - reached, 0.0) + 2 * math.pi * math.sqrt(ends / motion.gravity)
     journey.go(standing, Pieces.constant(0.0), 0.0, rest, 0.0, 0.0)
-    return _course(journey, reached, max(hoisted - reached, 0.0))
+    return journey, reached, max(hoisted - reached, 0.0)
 
 
 def stalled(motion: Motion) -> Course:

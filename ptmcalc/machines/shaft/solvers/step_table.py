@@ -5,10 +5,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import departure, machine_in, target_speed
@@ -48,7 +49,17 @@ def run(spec: Shaft, scene: Scene, carried: frozenset[str], level: int) -> Resul
     if not fine.reached or not coarse.reached:
         raise NumericsError("NUM103", f"the step table does not come to its end in {_MOST_STEPS} steps")
     loads = {name: _found(fine, coarse, k) for k, name in enumerate(names)}
-    return Result(loads, work=fine.steps + coarse.steps, window=(0.0, fine.time))
+    work = fine.steps + coarse.steps
+    return Result(loads, work=work, window=(0.0, fine.time), histories=lambda: _histories(fine, names))
+
+
+def _histories(table: Table, names: tuple[str, str]) -> dict[str, History]:
+    """The tachogram by the lines of the table: speed and angle over time."""
+    times, angles, speeds = (list(column) for column in zip(*table.lines, strict=True))
+    return {
+        names[0]: History(units.ANGULAR_SPEED, times, speeds),
+        names[1]: History(units.ANGLE, times, angles),
+    }
 
 
 def _found(fine: Table, coarse: Table, which: int) -> Found:

@@ -1,11 +1,12 @@
 """A start or a stop with the load swinging in small angles, exact piece by piece."""
 
-from ptmcalc.contract.result import Result
+from ptmcalc.base import units
+from ptmcalc.contract.result import History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling.effects import IN_PLANE, MOVING_SCENES, SWAY
-from ptmcalc.machines.crane.travelling.linear import linear_course
+from ptmcalc.machines.crane.travelling.linear import linear_course, over_time
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.moving import motion_of
+from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -24,9 +25,22 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     `large_sway`, a motor's curve the effect `torque_curve`.
     **Source** pendulum under a moved pivot; `numerics.pendulum.linear`.
     """
-    course = linear_course(motion_of(spec, scene))
+    motion = motion_of(spec, scene)
+    course = linear_course(motion)
     loads = loads_of(spec, scene, course)
-    return Result(loads, work=course.work, findings=findings_of(spec, scene, loads))
+    findings = findings_of(spec, scene, loads)
+    return Result(loads, work=course.work, findings=findings, histories=lambda: _histories(motion))
+
+
+def _histories(motion: Motion) -> dict[str, History]:
+    """Angle and pull of the load over time."""
+    if stalls(motion) or not motion.load:
+        return {}
+    times, angles, pulls = (values.tolist() for values in over_time(motion))
+    return {
+        "sway_angle_max": History(units.ANGLE, times, angles),
+        "horizontal_force": History(units.FORCE, times, pulls),
+    }
 
 
 SWAY_LINEAR: Solver[Travelling, Moving] = Solver(

@@ -1,0 +1,54 @@
+"""What of a chain drive people look at: the polygon effect over the speed, and the speeds to keep away from."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base.units import SPEED
+from ptmcalc.contract.figure import Band, Course, Figure, Marks, Moment, Spot
+from ptmcalc.contract.report import SceneReport
+from ptmcalc.contract.result import of
+from ptmcalc.machines.chain_drive.resonances import operating_range
+from ptmcalc.machines.chain_drive.spec import ChainDrive
+
+
+def _speeds(spec: ChainDrive, scene: SceneReport) -> Marks:
+    """The speed of the file, and between the safe ranges what resonances take."""
+    loads = {load.info.name: load.estimate.value for load in scene.loads}
+    polygon = loads.get("tension_dynamic_polygon")
+    spots = (Spot(spec.speed, polygon, "operating point"),) if polygon is not None else ()
+    return Marks(tuple(_between(spec, loads)), moments=(Moment(spec.speed, "speed of the file"),), spots=spots)
+
+
+def _between(spec: ChainDrive, loads: dict[str, float]) -> Iterator[Band]:
+    """The gaps between the safe ranges of the operating range; none where nobody looked for these."""
+    if "resonance_distance" not in loads:
+        return
+    reached, highest = operating_range(spec)
+    number = 1
+    while (low := loads.get(of("safe_window_low", str(number)))) is not None:
+        if low > reached:
+            yield Band(reached, low, "near a resonance")
+        reached = loads[of("safe_window_high", str(number))]
+        number += 1
+    if reached < highest:
+        yield Band(reached, highest, "near a resonance")
+
+
+FIGURES = (
+    Figure(
+        "polygon_over_speed",
+        "Polygon effect over the speed, with the ranges to keep away from",
+        ("run",),
+        (Course("tension_dynamic_polygon"),),
+        "polygon tension",
+        over=SPEED,
+        across="chain speed",
+        marks=_speeds,
+    ),
+    Figure(
+        "start_tension",
+        "Tension of the chain over time",
+        ("start", "stop", "emergency_stop", "coast"),
+        (Course("tension_start"), Course("tension_min")),
+        "tension",
+    ),
+)

@@ -1,0 +1,56 @@
+"""What of a conveyor people look at: tension over time and along the belt, grip of the drums, and when it runs out."""
+
+from ptmcalc.base.units import SPAN, digits
+from ptmcalc.contract.figure import Course, Figure, Marks, Moment, Threshold
+from ptmcalc.contract.report import SceneReport
+from ptmcalc.machines.conveyor.spec import Conveyor
+
+_IN_MOTION = ("start", "stop", "emergency_stop", "coast", "jam")
+
+
+def _all_of_it(spec: Conveyor, scene: SceneReport) -> Marks:
+    """At 1 the drum slips; and when the reserve is least."""
+    least = next((load for load in scene.loads if load.info.name == "slip_reserve_min" and "time" in load.at), None)
+    moments = (Moment(least.at["time"], f"least reserve, {digits(least.estimate.value)}"),) if least else ()
+    return Marks(thresholds=(Threshold(1.0, "all grip in use: the belt slips"),), moments=moments)
+
+
+def _tail(spec: Conveyor, scene: SceneReport) -> Marks:
+    """Where the belt turns."""
+    return Marks(moments=(Moment(spec.route.span, "tail drum"),))
+
+
+FIGURES = (
+    Figure(
+        "tension_over_time",
+        "Belt tension at the drive over time",
+        _IN_MOTION,
+        (
+            Course("tension_run_on_max", title="tension at the run-on"),
+            Course("tension_run_off_min", title="tension at the run-off"),
+        ),
+        "belt tension",
+    ),
+    Figure(
+        "slip_over_time",
+        "Grip in use over time",
+        _IN_MOTION,
+        (Course("slip_utilisation_max", title="grip in use"),),
+        "grip in use",
+        moments=(("stop_time", "the belt stands"), ("start_time_rigid", "full speed of the rigid belt")),
+        marks=_all_of_it,
+    ),
+    Figure(
+        "tension_over_position",
+        "Belt tension round the loop",
+        ("run", *_IN_MOTION),
+        (
+            Course("tension_max", title="largest tension of each place"),
+            Course("tension_min", title="smallest tension of each place"),
+        ),
+        "belt tension",
+        over=SPAN,
+        across="way from the head's run-off",
+        marks=_tail,
+    ),
+)

@@ -1,0 +1,25 @@
+"""What of a travelling crane people look at: how the load swings, and how it pulls at the crane."""
+
+from ptmcalc.contract.figure import Course, Figure
+
+_MOVING = ("start", "brake", "hoist_while_travelling")
+_MOMENTS = (("start_time", "full speed"), ("brake_time", "the crane stands"))
+
+FIGURES = (
+    Figure(
+        "sway",
+        "Angle of the load over time",
+        _MOVING,
+        (Course("sway_angle_max", ("sway_residual",), "angle of the load"),),
+        "angle of the rope",
+        moments=_MOMENTS,
+    ),
+    Figure(
+        "pull",
+        "Horizontal pull of the load over time",
+        _MOVING,
+        (Course("horizontal_force", title="pull of the load on the crane"),),
+        "horizontal force",
+        moments=_MOMENTS,
+    ),
+)
