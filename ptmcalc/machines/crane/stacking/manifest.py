@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
+from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
@@ -45,6 +46,7 @@ def stacker(
         solvers=of_its_scenes(SOLVERS),
         checks=of_its_scenes(CHECKS),
         starting=template_in(package),
+        symbols=symbols_in(__package__),
         assumed=assumptions,
         parts=parts,
         tables=tables,
