@@ -71,6 +71,7 @@ def in_a_fresh_one(words: list[str]) -> Done:
 
 def play(page: str, folder: Path, run: Callable[[list[str]], Done] = in_process) -> str:
     """Does what a page says in a folder; the page as it would have to be, unchanged where all came out as printed."""
+    place, new = 0, page
     with chdir(folder):
         for step in steps(page):
             if step.file:
@@ -78,11 +79,12 @@ def play(page: str, folder: Path, run: Callable[[list[str]], Done] = in_process)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(step.text, encoding="utf-8")
                 continue
+            place = new.index(f"$ {step.command}\n", place) + len(f"$ {step.command}\n")
             printed = _done(step.command, run)
             if not alike(printed, step.text):
                 tidy = "".join(f"{line.rstrip()}\n" for line in printed.rstrip().splitlines())
-                page = page.replace(f"$ {step.command}\n{step.text}", f"$ {step.command}\n{tidy}", 1)
-    return page
+                new = new[:place] + tidy + new[place + len(step.text) :]
+    return new
 
 
 def _done(command: str, run: Callable[[list[str]], Done]) -> str:
