@@ -75,7 +75,7 @@ def test_links_lead_somewhere(path: Path) -> None:
 def test_the_site_shows_every_page() -> None:
     config = (ROOT / "mkdocs.yml").read_text("utf-8")
     shown = set(re.findall(r": ([\w/]+\.md)$", config, re.MULTILINE))
-    assert shown == {path.relative_to(ROOT / "docs").as_posix() for path in DOCS}
+    assert {path.relative_to(ROOT / "docs").as_posix() for path in DOCS} <= shown
 
 
 def test_names_that_the_disagreements_lean_on_exist() -> None:
