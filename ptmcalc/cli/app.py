@@ -81,6 +81,13 @@ class Sample(StrEnum):
     LHS = "lhs"
 
 
+class ExplainFormat(StrEnum):
+    """Formats of `explain`."""
+
+    TEXT = "text"
+    MARKDOWN = "markdown"
+
+
 class Law(StrEnum):
     """Laws of similarity of `scale`."""
 
@@ -434,12 +441,18 @@ def cost(
 
 @app.command()
 def explain(
-    name: Annotated[str, typer.Argument(help="A code such as CNV101, or the name of an effect or a solver.")],
+    name: Annotated[
+        str, typer.Argument(help="A code such as CNV101, or the name of an effect, a solver or a load.")
+    ] = "",
+    everything: Annotated[bool, typer.Option("--all", help="Of every name: the handbook.")] = False,
+    form: Annotated[ExplainFormat, typer.Option("--format", help="How to print.")] = ExplainFormat.TEXT,
 ) -> None:
-    """Explain a check, an effect, a solver or a finding: formula, range, error, source."""
-    from ptmcalc.cli.listing import explanation
+    """Explain a check, an effect, a solver, a load or a finding: formula, symbols, range, error, source, example."""
+    from ptmcalc.cli.explain import explanation, handbook
 
-    say(explanation(name))
+    if bool(name) == everything:
+        raise UsageError("explain takes a name, or --all", "e.g. `ptmcalc explain CNV101`")
+    say(handbook(form) if everything else explanation(name, form))
 
 
 @app.command()

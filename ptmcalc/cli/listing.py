@@ -1,24 +1,18 @@
 """What the commands besides `check` print."""
 
-import difflib
 import inspect
 import re
-import textwrap
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
-from ptmcalc.base.diagnostic import CODES, CodeText
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.units import TIME, show
 from ptmcalc.cli.output import say
-from ptmcalc.contract.check import AnyCheck
-from ptmcalc.contract.effect import AnyEffect, EffectState
+from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import FileReport, exit_status
-from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.check import Options, chosen_scenes
 from ptmcalc.engine.load import Loaded, load_file, load_text
 from ptmcalc.engine.plan import ScenePlan, plan
@@ -29,9 +23,6 @@ from ptmcalc.report.table import listing
 from ptmcalc.spec.shape import did_you_mean
 
 Row = dict[str, Any]
-
-_DIGITS_ALIKE = str.maketrans("OIL", "011")
-"""Letters that are written for a digit of a code."""
 
 
 def listed(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -106,81 +97,6 @@ def _plan_cells(row: Row) -> list[str]:
         words.compared(number) if number else "",
         number.meaning if number else "",
     ]
-
-
-# -- explain --------------------------------------------------------------------------------------------------------
-
-
-def explanation(name: str) -> str:
-    """The text of `explain`.
-
-    Raises:
-        UsageError: nothing has that name.
-    """
-    texts = dict(_everything())
-    wanted = name.upper() if name.upper() in texts else name
-    if wanted not in texts:
-        alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
-        close = [alike] if alike in texts else difflib.get_close_matches(name, texts, 1)
-        raise UsageError(
-            f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
-        )
-    return texts[wanted]().rstrip() + "\n"
-
-
-def _everything() -> Iterator[tuple[str, Callable[[], str]]]:
-    """Names and how to write what they are: only one is read."""
-    for code, text in CODES.items():
-        yield code, partial(_explained_finding, code, text)
-    for kind in (one for name in kind_names() for one in load_kind(name).manifests):
-        for check in kind.checks:
-            yield check.code, partial(_explained_check, kind, check)
-        for effect in kind.effects:
-            yield effect.name, partial(_explained_effect, kind, effect)
-        for solver in (*kind.solvers, *kind.witnesses):
-            yield solver.name, partial(_explained_solver, kind, solver)
-
-
-def _explained_finding(code: str, text: CodeText) -> str:
-    return f"{code}: is there {text.title}?\n\n{text.why}\n\nWhat to do: {text.fix}"
-
-
-def _doc(function: Any) -> str:
-    return inspect.cleandoc(function.__doc__ or "")
-
-
-def _explained_check(kind: AnyKind, check: AnyCheck) -> str:
-    scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
-    loads = ", ".join(check.loads)
-    return (
-        f"{check.code}: is there {check.title}?   ({kind.label}; scenes: {scenes})\n\n{check.what}\n\n{check.why}\n\n"
-        f"Formula\n{textwrap.indent(check.formula, '    ')}\n\nReads: {loads}\n\nLimit: {_doc(check.limit)}\n\n"
-        f"Source: {check.source}"
-    )
-
-
-def _explained_effect(kind: AnyKind, effect: AnyEffect) -> str:
-    inside = f"\nPart of: {effect.part_of}" if effect.part_of else ""
-    return (
-        f"{effect.name}: {effect.title}   ({kind.label}){inside}\n\n"
-        f"When it matters\n{textwrap.indent(_doc(effect.criterion), '    ')}\n\n"
-        f"What leaving it out can change{' (calibrated)' * effect.calibrated}\n"
-        f"{textwrap.indent(_doc(effect.bound), '    ')}"
-    )
-
-
-def _explained_solver(kind: AnyKind, solver: AnySolver) -> str:
-    carried = ", ".join(sorted(solver.represents)) or "none"
-    remarks = []
-    if not solver.decides:
-        remarks.append("It is shown beside the reported load and never decides.")
-    if solver in kind.witnesses:
-        remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
-    same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
-    if same:
-        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` takes neither as a witness of the other.")
-    said = "".join(f"\n{remark}" for remark in remarks)
-    return f"{solver.name}: {solver.title}   ({kind.label})\nEffects it carries: {carried}{said}\n\n{_doc(solver.run)}"
 
 
 # -- schema, kinds, solvers -----------------------------------------------------------------------------------------
@@ -307,5 +223,6 @@ def _solver_rows(kind: AnyKind) -> Iterator[Row]:
 
 def _part(function: Any, name: str) -> str:
     """One marked paragraph of a docstring on one line."""
-    match = re.search(rf"\*\*{name}\*\*(.*?)(?=\*\*[A-Z]|\Z)", _doc(function), re.DOTALL)
+    text = inspect.cleandoc(function.__doc__ or "")
+    match = re.search(rf"\*\*{name}\*\*(.*?)(?=\*\*[A-Z]|\Z)", text, re.DOTALL)
     return " ".join(match[1].split()) if match else ""

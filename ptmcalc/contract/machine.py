@@ -1,6 +1,6 @@
 """The manifest of a machine kind: everything the rest of the house needs to know of it."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
@@ -10,6 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.base.units import Quantity
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, S
+from ptmcalc.contract.example import Example, Symbols, no_examples, no_symbols
 from ptmcalc.contract.figure import Figure
 from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
@@ -76,6 +77,12 @@ class MachineKind(Generic[S]):
     types: "tuple[MachineKind[Any], ...]" = ()
     """for a kind with several types: their manifests, of which a file's `type` chooses one"""
 
+    symbols: Callable[[], Symbols] = no_symbols
+    """reads what the letters of its formulas mean"""
+
+    examples: Callable[[], Mapping[str, Example]] = no_examples
+    """reads an example of each of its checks, effects, solvers and loads, by name"""
+
     @property
     def manifests(self) -> "tuple[MachineKind[Any], ...]":
         """What describes one machine each: the types of the kind, or the kind itself."""
@@ -127,7 +134,9 @@ def template_in(package: str) -> Callable[[], str]:
     return read
 
 
-def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
+def of_types(
+    name: str, title: str, *types: AnyKind, examples: Callable[[], Mapping[str, Example]] = no_examples
+) -> AnyKind:
     """A kind whose files choose one of several types of machine, each with a manifest of its own.
 
     What the types have in common by name is one load; effects, solvers and checks are those of all types.
@@ -144,6 +153,7 @@ def of_types(name: str, title: str, *types: AnyKind) -> AnyKind:
         starting=types[0].starting,
         figures=_once(figure for one in types for figure in one.figures),
         types=types,
+        examples=examples,
     )
 
 

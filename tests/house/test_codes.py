@@ -6,7 +6,7 @@ from collections import Counter
 import pytest
 
 from ptmcalc.base.diagnostic import CODES
-from ptmcalc.cli.listing import explanation
+from ptmcalc.cli.explain import explanation
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.registry import kind_names, load_kind
 

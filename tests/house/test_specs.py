@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 from support.command import ROOT, Done, ptmcalc
+from support.examples import UPDATE, as_said, from_checks, keep, names, stored
 
 from ptmcalc.engine.files import design_files
-from ptmcalc.engine.registry import kind_names
+from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.text.document import parse
 
 SPECS = design_files(ROOT / "specs")
@@ -61,7 +62,10 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def checked(printed: Path) -> Done:
     """All of them, checked once."""
     return ptmcalc(
-        "check", ROOT / "specs", "-o", f"table={printed / 'table.txt'}", "-o", f"json={printed / 'report.json'}"
+        *("check", ROOT / "specs"),
+        *("-o", f"table={printed / 'table.txt'}"),
+        *("-o", f"json={printed / 'report.json'}"),
+        *("-o", f"plain={printed / 'plain.txt'}"),
     )
 
 
@@ -95,6 +99,26 @@ def test_the_report_of_an_overland_conveyor_fits_one_screen(checked: Done, print
     lines = reports["overland_conveyor"]
     assert len(lines) + 2 <= SCREEN
     assert {"Loads", "Checks", "Effects", "Solvers"} <= {line.split("  ")[0] for line in lines}
+
+
+@pytest.mark.parametrize("name", kind_names())
+def test_explain_shows_what_they_say(checked: Done, printed: Path, name: str) -> None:
+    """The examples of `explain`; see `test_explain.py` for those with a file of their own and how to write them."""
+    assert checked.status == 0
+    kind = load_kind(name)
+    files = json.loads((printed / "report.json").read_text("utf-8"))["files"]
+    lines = (printed / "plain.txt").read_text("utf-8").replace(f"{ROOT.as_posix()}/", "").splitlines()
+    found, before = from_checks(kind, files, lines), stored(kind)
+    if UPDATE:
+        keep(kind, {one: kept for one, kept in before.items() if kept[2] and one in names(kind)} | found)
+        before = stored(kind)
+    wrong = [
+        one
+        for one, (command, line, _) in found.items()
+        if before[one][0] != command or not as_said(line, before[one][1])
+    ]
+    assert wrong == []
+    assert [one for one, kept in before.items() if not kept[2] and one not in found] == []
 
 
 @pytest.mark.parametrize("kind", kind_names())

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 from support.command import ROOT, environment, ptmcalc, python
-from support.pages import Element, as_document, page_of, page_of_text, read, reported, without_texts
+from support.web_pages import Element, as_document, page_of, page_of_text, read, reported, without_texts
 
 from ptmcalc.base import units
 from ptmcalc.base.diagnostic import Verdict

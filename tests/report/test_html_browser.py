@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 from support.command import ROOT
-from support.pages import page_of, reported
+from support.web_pages import page_of, reported
 
 from ptmcalc.report import html
 

@@ -1,114 +1,132 @@
-"""HTML read strictly: every element closed in its turn, and what stands in it."""
+"""Pages that run: the files they show are written, their commands executed, and what they print is compared.
 
-import json
+    ```yaml title="sledge.yaml"       a file, written where the page's commands run
+    ```console                        `$ command`, then what it prints; `...` stands for any lines
+    ```
+
+A page runs in a folder of its own with copies of `specs/` and what else it names. `ptmcalc` runs in this process, or
+in fresh ones where the page changes the package itself; everything else goes to a shell. Decimals may differ by one
+unit of their last digit, as another processor makes them.
+"""
+
+import os
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from functools import cache
-from html.parser import HTMLParser
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import chdir
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
 
-from ptmcalc.contract.report import FileReport
-from ptmcalc.engine.check import Options, check
-from ptmcalc.engine.load import load_file, load_text
-from ptmcalc.report import html
-from ptmcalc.report import json as as_json
-from support.command import ROOT
+from support.command import Done, environment, ptmcalc
 
-VOID = {"meta", "br", "link", "img", "input", "hr", "col"}
+_BLOCK = re.compile(r"^```(\w+)(?: title=\"([^\"]+)\")?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_NUMBER = re.compile(r"[0-9]+\.[0-9]+(?:e[-+][0-9]+)?")
 
 
-@dataclass
-class Element:
-    """An element with its attributes, its children, and the text right inside it."""
+@dataclass(frozen=True)
+class Step:
+    """A file to write, or a command with what it prints."""
 
-    name: str
-    attributes: dict[str, str]
-    parent: "Element | None" = None
-    children: list["Element"] = field(default_factory=list)
+    line: int
+    file: str = ""
     text: str = ""
-
-    def all(self, *names: str) -> Iterator["Element"]:
-        """Every element of these names inside it, any where none is named."""
-        for child in self.children:
-            if not names or child.name in names:
-                yield child
-            yield from child.all(*names)
-
-    @property
-    def words(self) -> str:
-        """All the text inside."""
-        return " ".join(filter(None, [self.text.strip(), *(child.words for child in self.children)]))
+    command: str = ""
 
 
-class _Reader(HTMLParser):
-    def __init__(self) -> None:
-        super().__init__(convert_charrefs=True)
-        self.top = self.at = Element("", {})
-        self.declared: list[str] = []
-
-    def handle_decl(self, decl: str) -> None:
-        self.declared.append(decl)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        names = [name for name, _ in attrs]
-        assert len(names) == len(set(names)), f"<{tag}> has an attribute twice: {names}"
-        element = Element(tag, {name: value or "" for name, value in attrs}, self.at)
-        self.at.children.append(element)
-        if tag not in VOID:
-            self.at = element
-
-    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.handle_starttag(tag, attrs)
-        if tag not in VOID:
-            self.handle_endtag(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert tag == self.at.name, f"</{tag}> closes <{self.at.name}>"
-        assert self.at.parent is not None
-        self.at = self.at.parent
-
-    def handle_data(self, data: str) -> None:
-        self.at.text += data
+def steps(page: str) -> Iterator[Step]:
+    """The files and commands of a page, in its order."""
+    for match in _BLOCK.finditer(page):
+        language, title, text = match[1], match[2], match[3]
+        line = page.count("\n", 0, match.start()) + 1
+        if title:
+            yield Step(line, file=title, text=text)
+        elif language == "console":
+            commands = re.split(r"^\$ ", text, flags=re.MULTILINE)
+            assert not commands[0], f"line {line}: a console block begins with a command"
+            for one in commands[1:]:
+                command, _, printed = one.partition("\n")
+                yield Step(line, command=command, text=printed)
 
 
-def read(text: str) -> Element:
-    """The elements of a page.
-
-    Raises:
-        AssertionError: it is not well formed.
-    """
-    reader = _Reader()
-    reader.feed(text)
-    reader.close()
-    assert reader.declared == ["DOCTYPE html"]
-    assert reader.at is reader.top, f"<{reader.at.name}> is not closed"
-    return reader.top
+def in_process(words: list[str]) -> Done:
+    """The command line in this process."""
+    return ptmcalc(*words)
 
 
-def without_texts(text: str) -> str:
-    """A page without what is only read: what is left may refer to something."""
-    return re.sub(r">[^<]*<", "><", text)
+def in_a_fresh_one(words: list[str]) -> Done:
+    """The command line of the package in the present folder."""
+    done = subprocess.run(
+        [sys.executable, "-m", "ptmcalc", *words],
+        env=environment(Path.cwd(), COLUMNS="120"),
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+    return Done(done.returncode, done.stdout, done.stderr)
 
 
-@cache
-def reported(path: str) -> FileReport:
-    """The report of a file of the project with its figures, made once."""
-    return check(load_file(ROOT / path, path), Options(figures=True, repairs=False))
+def play(page: str, folder: Path, run: Callable[[list[str]], Done] = in_process) -> str:
+    """Does what a page says in a folder; the page as it would have to be, unchanged where all came out as printed."""
+    place, new = 0, page
+    with chdir(folder):
+        for step in steps(page):
+            if step.file:
+                path = Path(step.file)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(step.text, encoding="utf-8")
+                continue
+            place = new.index(f"$ {step.command}\n", place) + len(f"$ {step.command}\n")
+            printed = _done(step.command, run)
+            if not alike(printed, step.text):
+                tidy = "".join(f"{line.rstrip()}\n" for line in printed.rstrip().splitlines())
+                new = new[:place] + tidy + new[place + len(step.text) :]
+    return new
 
 
-@cache
-def page_of(path: str) -> str:
-    """Its page."""
-    return html.page(reported(path), (ROOT / path).read_text("utf-8"), html.INDEX)
+def _done(command: str, run: Callable[[list[str]], Done]) -> str:
+    """What a command prints on both streams; a `> FILE` behind it takes the output."""
+    words, _, target = command.partition(" > ")
+    if words.startswith("ptmcalc ") and "|" not in words:
+        done = run(shlex.split(words)[1:])
+        if target:
+            Path(target).write_text(done.out, encoding="utf-8")
+            return done.err
+        return done.out + done.err
+    shell = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=False, env=os.environ | {"LC_ALL": "C.UTF-8"}
+    )
+    return shell.stdout + shell.stderr
 
 
-def as_document(report: FileReport) -> dict[str, object]:
-    """What JSON says of a file."""
-    document: dict[str, object] = json.loads(as_json.render([report], width=0, color=False))["files"][0]
-    return document
+def alike(found: str, printed: str) -> bool:
+    """Whether a text is the printed one, but for the last digits of its decimals and lines left out with `...`."""
+    lines = [line.rstrip() for line in found.rstrip().splitlines()]
+    pattern = [line.rstrip() for line in printed.rstrip().splitlines()]
+    return _matches(lines, pattern)
 
 
-def page_of_text(text: str, **options: bool) -> tuple[FileReport, str]:
-    """Report and page of a design file that is only a text."""
-    report = check(load_text(text.encode(), "case.yaml"), Options(figures=True, **options))
-    return report, html.page(report, text)
+def _matches(lines: list[str], pattern: list[str]) -> bool:
+    if not pattern:
+        return not lines
+    if pattern[0] == "...":
+        return any(_matches(lines[skip:], pattern[1:]) for skip in range(len(lines) + 1))
+    return bool(lines) and _same(lines[0], pattern[0]) and _matches(lines[1:], pattern[1:])
+
+
+def _same(line: str, pattern: str) -> bool:
+    if line == pattern:
+        return True
+    if _NUMBER.sub("#", line) != _NUMBER.sub("#", pattern):
+        return False
+    pairs = zip(_NUMBER.findall(line), _NUMBER.findall(pattern), strict=True)
+    return all(abs(Decimal(one) - Decimal(other)) <= _unit(other) for one, other in pairs)
+
+
+def _unit(number: str) -> Decimal:
+    exponent = Decimal(number).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return Decimal(1).scaleb(exponent)

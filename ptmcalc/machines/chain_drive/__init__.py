@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ptmcalc.base import units
+from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import chain_selection
@@ -87,6 +88,8 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_MOTION),
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
+    examples=examples_in(__package__),
     assumed=assumptions,
     parts=parts,
     inspect=inspect,

@@ -5,6 +5,7 @@ from itertools import chain
 
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
@@ -136,6 +137,8 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
+    examples=examples_in(__package__),
     assumed=assumptions,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,

@@ -7,6 +7,7 @@ kind, of which `new`, `explain` and the lists speak, is put together when it is 
 from functools import cache
 from importlib import import_module
 
+from ptmcalc.contract.example import examples_in
 from ptmcalc.contract.machine import AnyKind, of_types
 
 TYPES = {
@@ -28,4 +29,5 @@ def __getattr__(name: str) -> AnyKind:
 def _whole() -> AnyKind:
     places = (place.split(":") for place in TYPES.values())
     types = [getattr(import_module(module), attribute) for module, attribute in places]
-    return of_types("crane", "crane: what slews, what travels, what stacks", *types)
+    title = "crane: what slews, what travels, what stacks"
+    return of_types("crane", title, *types, examples=examples_in(__package__))

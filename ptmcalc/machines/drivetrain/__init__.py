@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.drivetrain.checks import CHECKS
@@ -35,6 +36,8 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
+    examples=examples_in(__package__),
     inspect=inspect,
     parts=parts,
     witnesses=(DORMAND_PRINCE,),

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ptmcalc.base import units
+from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import lift_off_standard
@@ -92,6 +93,8 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRUM, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
+    examples=examples_in(__package__),
     assumed=assumptions,
     inspect=inspect,
     parts=parts,

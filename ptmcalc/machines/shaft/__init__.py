@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ptmcalc.base import units
+from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import slider_crank
@@ -89,6 +90,8 @@ KIND = MachineKind(
     solvers=SOLVERS,
     checks=CHECKS,
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
+    examples=examples_in(__package__),
     assumptions=ASSUMPTIONS,
     inspect=inspect,
     witnesses=WITNESSES,

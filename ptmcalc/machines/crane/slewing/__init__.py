@@ -1,5 +1,6 @@
 """Slewing crane: a load on a jib that turns about a vertical axis."""
 
+from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.checks import CHECKS_OF_DRIVE
@@ -23,6 +24,7 @@ SLEWING = MachineKind(
     solvers=SOLVERS,
     checks=(*CHECKS_OF_DRIVE, *CHECKS_OF_SWING),
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,
     witnesses=(CARTESIAN,),

@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
+from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
@@ -48,6 +49,7 @@ def stacker(
         checks=of_its_scenes(CHECKS),
         figures=tuple(figure for figure in FIGURES if not words.isdisjoint(figure.scenes)),
         starting=template_in(package),
+        symbols=symbols_in(__package__),
         assumed=assumptions,
         parts=parts,
         tables=tables,

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from ptmcalc.base import units
+from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.crane.travelling import model
@@ -55,6 +56,7 @@ TRAVELLING = MachineKind(
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
     starting=template_in(__package__),
+    symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,
     parts=parts,

@@ -1,0 +1,292 @@
+"""What `explain` prints: of one name, or of all as a handbook.
+
+An explanation is made of parts once, and written as plain text or as Markdown. Formulas are written as they stand in
+the program and, translated word by word, in LaTeX.
+"""
+
+import difflib
+import inspect
+import re
+import textwrap
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from ptmcalc.base.diagnostic import CODES, CodeText
+from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.examples import EXAMPLES
+from ptmcalc.contract.check import AnyCheck
+from ptmcalc.contract.effect import AnyEffect
+from ptmcalc.contract.example import Example, Symbols
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.contract.result import LoadInfo
+from ptmcalc.contract.solver import AnySolver
+from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.report import formula
+
+_DIGITS_ALIKE = str.maketrans("OIL", "011")
+"""Letters that are written for a digit of a code."""
+_DISPLAYED = re.compile(r"^ {4}\S.*(?:\n {4,}\S.*)*", re.MULTILINE)
+"""The formulas of a docstring: what is set in by four columns."""
+_HANDBOOK = """\
+# Handbook
+
+Every code, effect, solver and load of ptmcalc: formula, symbols, range, error, source, and an example that runs in the
+top folder of the project. `ptmcalc explain --all --format markdown` writes this page; `ptmcalc explain NAME` prints one
+entry.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A piece of an explanation: a heading (none for the running text), its lines, and whether they stand set in."""
+
+    heading: str
+    text: str
+    displayed: bool = False
+    tex: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """All that is said of one name."""
+
+    name: str
+    title: str
+    about: str
+    parts: tuple[Part, ...]
+
+    @property
+    def plain(self) -> str:
+        """For a terminal."""
+        head = f"{self.name}: {self.title}" + (f"   ({self.about})" if self.about else "")
+        return "\n\n".join([head, *map(_plain, self.parts)]) + "\n"
+
+    @property
+    def markdown(self) -> str:
+        """For a page: a section."""
+        about = [f"*{self.about}*"] if self.about else []
+        return "\n\n".join([f"### {self.name}: {self.title}", *about, *map(_markdown, self.parts)]) + "\n"
+
+
+def _plain(part: Part) -> str:
+    if part.displayed:
+        return f"{part.heading}\n{textwrap.indent(part.text, '    ')}"
+    return f"{part.heading}: {part.text}" if part.heading else part.text
+
+
+def _markdown(part: Part) -> str:
+    if part.tex:
+        return f"$$\n{part.text}\n$$"
+    if part.displayed and "**Range**" in part.text:
+        return f"**{part.heading}**\n\n" + _paragraphs(part.text)
+    if part.heading == "Symbols":
+        return "**Symbols**\n\n" + "\n".join(f"- {line}" for line in part.text.splitlines())
+    if part.displayed:
+        return f"**{part.heading}**\n\n```text\n{part.text}\n```"
+    return f"**{part.heading}**: {_paragraphs(part.text)}" if part.heading else _paragraphs(part.text)
+
+
+def _paragraphs(text: str) -> str:
+    """A docstring whose marked parts are paragraphs of their own."""
+    return re.sub(r"(?<!\n)\n(?=\*\*[A-Z])", "\n\n", text)
+
+
+# -- names ----------------------------------------------------------------------------------------------------------
+
+
+def explanation(name: str, form: str = "text") -> str:
+    """The text of `explain NAME`.
+
+    Raises:
+        UsageError: nothing has that name.
+    """
+    known = dict.fromkeys(key for key, _ in _everything())
+    wanted = name.upper() if name.upper() in known else name
+    if wanted not in known:
+        alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
+        close = [alike] if alike in known else difflib.get_close_matches(name, known, 1)
+        raise UsageError(
+            f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
+        )
+    found = [make() for key, make in _everything() if key == wanted]
+    return "\n".join(one.markdown if form == "markdown" else one.plain for one in found)
+
+
+def handbook(form: str = "text") -> str:
+    """The text of `explain --all`: the findings, then kind by kind checks, effects, solvers and loads."""
+    if form != "markdown":
+        return "\n".join(make().plain for _, make in _everything())
+    chapters = [_HANDBOOK, "## Findings about files and numbers\n"]
+    chapters += [_finding(code, text).markdown for code, text in CODES.items()]
+    for kind in map(load_kind, kind_names()):
+        for title, entries in _chapters(kind):
+            chapters.append(f"## {kind.name}: {title}\n")
+            chapters += [make().markdown for _, make in entries]
+    return "\n".join(chapters)
+
+
+Entries = list[tuple[str, Callable[[], Explanation]]]
+
+
+def _everything() -> Iterator[tuple[str, Callable[[], Explanation]]]:
+    """Names and how to write what they are: only what is asked for is written."""
+    for code, text in CODES.items():
+        yield code, partial(_finding, code, text)
+    for kind in map(load_kind, kind_names()):
+        for _, entries in _chapters(kind):
+            yield from entries
+
+
+def _chapters(whole: AnyKind) -> Iterator[tuple[str, Entries]]:
+    """What a kind has, its types one after the other; what two types share stands with the first."""
+    of: dict[str, dict[str, Callable[[], Explanation]]] = {"checks": {}, "effects": {}, "solvers": {}, "loads": {}}
+    for kind in whole.manifests:
+        for check in kind.checks:
+            of["checks"].setdefault(check.code, partial(_check, whole, kind, check))
+        for effect in kind.effects:
+            of["effects"].setdefault(effect.name, partial(_effect, whole, kind, effect))
+        for solver in (*kind.solvers, *kind.witnesses):
+            of["solvers"].setdefault(solver.name, partial(_solver, whole, kind, solver))
+        for load in kind.loads:
+            of["loads"].setdefault(load.name, partial(_load, whole, kind, load))
+    for title, entries in of.items():
+        yield title, list(entries.items())
+
+
+# -- what is said of each -------------------------------------------------------------------------------------------
+
+
+def _finding(code: str, text: CodeText) -> Explanation:
+    parts = [Part("", text.why), Part("What to do", text.fix), *_example(EXAMPLES.get(code))]
+    return Explanation(code, f"is there {text.title}?", "", tuple(parts))
+
+
+def _check(whole: AnyKind, kind: AnyKind, check: AnyCheck) -> Explanation:
+    scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
+    value = [Part("Value", _doc(check.value))] if check.value and check.value.__doc__ else []
+    parts = [
+        Part("", check.what),
+        Part("", check.why),
+        *_formula("Formula", check.formula),
+        *_symbols(kind, check.code, check.formula),
+        Part("Reads", ", ".join(check.loads)),
+        *value,
+        Part("Limit", _doc(check.limit)),
+        Part("Source", check.source),
+        *_example(whole.examples().get(check.code)),
+    ]
+    return Explanation(check.code, f"is there {check.title}?", f"{kind.label}; scenes: {scenes}", tuple(parts))
+
+
+def _effect(whole: AnyKind, kind: AnyKind, effect: AnyEffect) -> Explanation:
+    criterion, bound = _doc(effect.criterion), _doc(effect.bound)
+    parts = [
+        *([Part("Part of", effect.part_of)] if effect.part_of else []),
+        Part("When it matters", criterion, displayed=True),
+        *_latex(criterion),
+        Part(f"What leaving it out can change{' (calibrated)' * effect.calibrated}", bound, displayed=True),
+        *_latex(bound),
+        *_symbols(kind, effect.name, displayed(criterion) + "\n" + displayed(bound)),
+        *_example(whole.examples().get(effect.name)),
+    ]
+    return Explanation(effect.name, effect.title, kind.label, tuple(parts))
+
+
+def _solver(whole: AnyKind, kind: AnyKind, solver: AnySolver) -> Explanation:
+    remarks = ["Effects it carries: " + (", ".join(sorted(solver.represents)) or "none")]
+    if not solver.decides:
+        remarks.append("It is shown beside the reported load and never decides.")
+    if solver in kind.witnesses:
+        remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
+    same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
+    if same:
+        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` takes neither as a witness of the other.")
+    text = _doc(solver.run)
+    parts = [
+        Part("", "\n".join(remarks)),
+        Part("", text),
+        *_latex(text),
+        *_symbols(kind, solver.name, displayed(text)),
+        *_example(whole.examples().get(solver.name)),
+    ]
+    return Explanation(solver.name, solver.title, kind.label, tuple(parts))
+
+
+def _load(whole: AnyKind, kind: AnyKind, load: LoadInfo) -> Explanation:
+    giving = [one for one in kind.solvers if load.name in one.gives]
+    reading = [check.code for check in kind.checks if load.name in check.loads]
+    family = f"One for each part of the machine: `{load.name}[name]`.\n" if _is_family(kind, load) else ""
+    lines = [f"Found by: {', '.join(one.name for one in giving) or 'none'}"]
+    lines += [f"Read by: {', '.join(reading)}"] if reading else []
+    parts = [Part("", f"{family}In reports it is in {load.quantity.si} (JSON) or a unit of that size.")]
+    parts += [Part("", "\n".join(lines))]
+    parts += [Part("Range, error and source", _where(giving), displayed=True)] if giving else []
+    parts += _example(whole.examples().get(load.name))
+    return Explanation(load.name, f"{load.title} [{load.quantity.si}]", f"{kind.label}; load", tuple(parts))
+
+
+def _is_family(kind: AnyKind, load: LoadInfo) -> bool:
+    return kind.parts is not None and any(load.name in check.loads and check.each is not None for check in kind.checks)
+
+
+def _where(giving: Iterable[AnySolver]) -> str:
+    """Of each solver that finds a load, what holds for its numbers."""
+    said = []
+    for one in giving:
+        told = {mark: part_of(_doc(one.run), mark) for mark in ("Range", "Error", "Source")}
+        said.append(f"- {one.name}: " + " ".join(f"**{mark}** {text}" for mark, text in told.items() if text))
+    return "\n".join(said)
+
+
+# -- parts ----------------------------------------------------------------------------------------------------------
+
+
+def _doc(function: Any) -> str:
+    return inspect.cleandoc(function.__doc__ or "")
+
+
+def part_of(text: str, name: str) -> str:
+    """One marked paragraph of a docstring on one line."""
+    match = re.search(rf"\*\*{name}\*\*(.*?)(?=\*\*[A-Z]|\Z)", text, re.DOTALL)
+    return " ".join(match[1].split()) if match else ""
+
+
+def displayed(text: str) -> str:
+    """The formulas of a docstring."""
+    return "\n".join(textwrap.dedent(match[0]) for match in _DISPLAYED.finditer(inspect.cleandoc(text)))
+
+
+def _formula(heading: str, plain: str) -> list[Part]:
+    tex = Part("In LaTeX", formula.latex(plain), displayed=True, tex=True)
+    return [Part(heading, plain, displayed=True), tex]
+
+
+def _latex(text: str) -> list[Part]:
+    shown = displayed(text)
+    return [Part("In LaTeX", formula.latex(shown), displayed=True, tex=True)] if shown else []
+
+
+def _symbols(kind: AnyKind, name: str, plain: str) -> list[Part]:
+    """What the letters of a formula mean, as far as the kind lists them."""
+    listed = kind.symbols()
+    lines = [f"{one}: {said}" for one in formula.symbols(plain) if (said := meaning(listed, name, one))]
+    return [Part("Symbols", "\n".join(lines), displayed=True)] if lines else []
+
+
+def meaning(listed: Symbols, name: str, symbol: str) -> str:
+    """Of a letter with its index; where that is not listed, of the letter."""
+    stem, index = formula.base(symbol)
+    for key in ((name, symbol), (name, stem), ("", symbol), ("", stem)):
+        if key in listed:
+            which = f", {index}" if key[1] != symbol and len(index) > 2 else ""
+            return f"{listed[key].meaning}{which} [{listed[key].unit}]"
+    return ""
+
+
+def _example(example: Example | None) -> list[Part]:
+    if example is None:
+        return []
+    file = [Part("Example, design.yaml", example.file.rstrip(), displayed=True)] if example.file else []
+    return [*file, Part("Example", f"$ {example.command}\n{example.says}".rstrip(), displayed=True)]

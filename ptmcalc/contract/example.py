@@ -1,0 +1,79 @@
+"""What `explain` adds to a check, an effect, a solver or a load: its symbols, and an example that runs.
+
+Both are files in the folder of a kind, read only where somebody asks. `symbols.txt` is written by hand: `S: tension of
+the belt [N]`; a line `CNV112 S: ...` holds for the formulas of that name alone. `examples.json` is written by the test
+that holds it (`tests/house/test_examples.py`).
+"""
+
+import json
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+SYMBOLS, EXAMPLES = "symbols.txt", "examples.json"
+_LINE = re.compile(r"(?:(\w+) )?([^\s:]+): (.+) \[([^\[\]\s]+)\]")
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A letter of a formula: what it means, and its unit."""
+
+    meaning: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A line for a shell, in the top folder of the project, and what the program says of the matter then.
+
+    `file` is the text of `design.yaml` where the command reads one.
+    """
+
+    command: str
+    says: str
+    file: str = ""
+
+
+Symbols = Mapping[tuple[str, str], Symbol]
+"""By the name whose formula it is in, empty for all, and the letter."""
+
+
+def no_symbols() -> Symbols:
+    """For a kind that lists none."""
+    return {}
+
+
+def no_examples() -> Mapping[str, Example]:
+    """For a kind that lists none."""
+    return {}
+
+
+def symbols_in(package: str) -> Callable[[], Symbols]:
+    """The `symbols.txt` in the folder of a kind."""
+
+    def read() -> Symbols:
+        lines = [line for line in _file(package, SYMBOLS).splitlines() if line and not line.startswith("#")]
+        found = {}
+        for line in lines:
+            match = _LINE.fullmatch(line)
+            if match is None or (match[1] or "", match[2]) in found:
+                raise ValueError(f"{SYMBOLS} of {package}: `{line}` is no new `symbol: meaning [unit]`")
+            found[match[1] or "", match[2]] = Symbol(match[3], match[4])
+        return found
+
+    return read
+
+
+def examples_in(package: str) -> Callable[[], Mapping[str, Example]]:
+    """The `examples.json` in the folder of a kind."""
+
+    def read() -> Mapping[str, Example]:
+        return {name: Example(*one) for name, one in json.loads(_file(package, EXAMPLES)).items()}
+
+    return read
+
+
+def _file(package: str, name: str) -> str:
+    from importlib import resources
+
+    return resources.files(package).joinpath(name).read_text("utf-8")

@@ -1,0 +1,142 @@
+"""Every code is explained with formula, symbols, range, source and an example that runs (`ptmcalc explain`).
+
+Examples of checks, effects, solvers and loads are in `examples.json` of each kind. Those that show a file of `specs/`
+are held by `test_specs.py`, which checks those files anyway; those with a design file of their own are run here. To
+write them anew after numbers have changed on purpose, and to find some for names that are new:
+
+    PTMCALC_UPDATE_EXAMPLES=1 python -m pytest -n 0 tests/house/test_specs.py tests/house/test_explain.py
+"""
+
+import re
+from contextlib import chdir
+from pathlib import Path
+
+import pytest
+from support.command import ROOT, ptmcalc
+from support.examples import UPDATE, again, as_said, from_blocks, keep, names, pages_of, stored
+
+from ptmcalc.base.diagnostic import BROKEN, CODES
+from ptmcalc.base.units import unit_of
+from ptmcalc.cli import examples
+from ptmcalc.cli.explain import explanation, meaning
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.engine.registry import kind_names, load_kind
+from ptmcalc.report import formula
+
+KINDS = [load_kind(name) for name in kind_names()]
+TYPES = {one.label: (whole, one) for whole in KINDS for one in whole.manifests}
+
+of_every_kind = pytest.mark.parametrize("kind", KINDS, ids=kind_names())
+of_every_type = pytest.mark.parametrize("kind", [one for _, one in TYPES.values()], ids=TYPES)
+
+
+# -- findings -------------------------------------------------------------------------------------------------------
+
+
+def test_every_finding_has_an_example_and_no_other() -> None:
+    assert set(examples.EXAMPLES) == set(CODES)
+
+
+@pytest.mark.parametrize("code", [code for code in CODES if code != BROKEN])
+def test_the_example_of_a_finding_brings_it_up(code: str, tmp_path: Path) -> None:
+    """In a folder with the design files of the project; what `sed` does to a template is done by its like here."""
+    example = examples.EXAMPLES[code]
+    (tmp_path / "design.yaml").write_text(example.file, encoding="latin-1" if code == "TXT103" else "utf-8")
+    for name in ("specs", "tests", "docs"):
+        (tmp_path / name).symlink_to(ROOT / name, target_is_directory=True)
+    command = example.command
+    made = re.fullmatch(r"ptmcalc new (\w+) \| sed 's/(.*)/(.*)/' > design.yaml && (.*)", command)
+    if made:
+        template = load_kind(made[1]).template
+        changed = re.sub(made[2], made[3], template)
+        assert changed != template
+        (tmp_path / "design.yaml").write_text(changed, encoding="utf-8")
+        command = made[4]
+    with chdir(tmp_path):
+        done = ptmcalc(*command.split()[1:])
+    assert code in example.says
+    assert example.says in done.out + done.err
+    assert "internal error" not in done.err
+
+
+def test_a_file_of_an_example_has_one_fault() -> None:
+    """The finding it is for, and none besides that a reader would wonder about."""
+    for code, example in examples.EXAMPLES.items():
+        if code.startswith(("TXT", "SPC")) and example.file:
+            assert example.command == "ptmcalc check design.yaml", code
+
+
+# -- checks, effects, solvers, loads --------------------------------------------------------------------------------
+
+
+@of_every_type
+def test_every_symbol_of_a_check_is_listed_with_its_unit(kind: AnyKind) -> None:
+    listed = kind.symbols()
+    missing = {
+        f"{check.code} {symbol}"
+        for check in kind.checks
+        for symbol in formula.symbols(check.formula)
+        if not meaning(listed, check.code, symbol)
+    }
+    assert missing == set()
+
+
+@of_every_type
+def test_units_of_symbols_are_units_and_names_are_names(kind: AnyKind) -> None:
+    whole = TYPES[kind.label][0]
+    for (name, letter), symbol in kind.symbols().items():
+        factor, _ = unit_of(symbol.unit)
+        assert factor == 1.0 or symbol.unit == "1/h", f"{letter}: [{symbol.unit}] is not an SI unit of the table"
+        assert name in {"", *names(whole)}, f"{name} {letter} is of nothing"
+
+
+@of_every_kind
+def test_every_check_and_effect_has_an_example(kind: AnyKind) -> None:
+    """A solver or a load too, unless nothing in the project shows it."""
+    found = stored(kind)
+    wanted = [check.code for check in kind.checks] + [effect.name for effect in kind.effects]
+    missing = [name for name in names(kind) if name not in found]
+    if UPDATE and missing:
+        keep(kind, found | from_blocks(kind, missing, pages_of(kind, missing)))
+        found = stored(kind)
+    assert [name for name in wanted if name not in found] == []
+    assert [name for name in found if name not in names(kind)] == []
+    assert len(found) > 0.9 * len(names(kind))
+
+
+@of_every_kind
+def test_an_example_with_a_file_of_its_own_says_what_is_said(kind: AnyKind) -> None:
+    found = stored(kind)
+    now = again(kind, found)
+    if UPDATE:
+        keep(kind, found | now)
+    wrong = {name: line for name, (_, line, _) in now.items() if not as_said(line, found[name][1])}
+    assert wrong == {}
+
+
+@of_every_kind
+def test_everything_of_a_kind_is_explained_in_both_formats(kind: AnyKind) -> None:
+    for check in kind.checks:
+        text, page = explanation(check.code), explanation(check.code, "markdown")
+        for part in ("Formula", "In LaTeX", "Reads", "Source", "Example\n    $ ptmcalc "):
+            assert part in text, (check.code, part)
+        for part in ("**Formula**", "$$\n", "**Reads**", "**Range**", "**Source**", "**Example**"):
+            assert part in page, (check.code, part)
+    for effect in kind.effects:
+        assert "Example\n    $ ptmcalc " in explanation(effect.name)
+    for load in kind.loads:
+        assert f"[{load.quantity.si}]" in explanation(load.name)
+
+
+def test_the_handbook_has_them_all() -> None:
+    page = ptmcalc("explain", "--all", "--format", "markdown").out
+    titles = re.findall(r"^### (\w+): ", page, re.MULTILINE)
+    assert set(titles) == {*CODES, *(name for kind in KINDS for name in names(kind))}
+    assert page.startswith("# Handbook\n")
+
+
+@pytest.mark.parametrize("arguments", [(), ("CNV101", "--all")])
+def test_a_name_or_all(arguments: tuple[str, ...]) -> None:
+    done = ptmcalc("explain", *arguments)
+    assert done.status == 2
+    assert "explain takes a name, or --all" in done.err
