@@ -88,7 +88,7 @@ def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False) ->
     """
     system = MastSystem(case)
     mode, z = system.start()
-    record = march(system, mode, z, end, refined=refined, keep=keep, most_events=MOST_EVENTS)
+    record = march(system, mode, z, end, refined=refined, keep=keep, most_events=MOST_EVENTS, unsought=system.unsought)
     put, damped = system.works(record.integrals)
     before, after = system.energy(mode, z), system.energy(record.mode, record.state)
     fastest = max(abs(record.top.values[1]), abs(record.bottom.values[1]))
