@@ -10,10 +10,13 @@ import pytest
 # One process a core is busy enough: threads of matrices that wait for each other's core burn it. Set before numpy is
 # there, and for the processes of a run, which inherit it.
 os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = os.environ["MKL_NUM_THREADS"] = "1"
+# Where nobody may write what is compiled, each process of a run compiles the package and the tests again.
+os.environ["PYTHONDONTWRITEBYTECODE"] = ""
 sys.path.insert(0, str(Path(__file__).parent))
 
 from support.markdown import MarkdownFile
 
+sys.dont_write_bytecode = False
 LONGEST_FIRST = ("coverage", "stability", "machines", "house", "numerics", "engine", "cli", "reference", "order")
 """Rooms whose files take longest: begun first, none of them is left to one process at the end."""
 
