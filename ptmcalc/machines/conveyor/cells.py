@@ -189,7 +189,7 @@ def _braked(held: FloatArray, step: float, brakes: Sequence[Callable[[float], fl
     """What brakes hold over time: looked up at every step several times, and between steps where a drum is caught."""
     if not brakes and not held.any():
         return no_brake
-    table = held.tolist()
+    table: list[float] = held.tolist()
     known: dict[int, float] = {}
 
     def capacity(time: float) -> float:
