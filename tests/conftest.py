@@ -10,10 +10,13 @@ import pytest
 # One process a core is busy enough: threads of matrices that wait for each other's core burn it. Set before numpy is
 # there, and for the processes of a run, which inherit it.
 os.environ["OPENBLAS_NUM_THREADS"] = os.environ["OMP_NUM_THREADS"] = os.environ["MKL_NUM_THREADS"] = "1"
+# Where nobody may write what is compiled, each process of a run compiles the package and the tests again.
+os.environ["PYTHONDONTWRITEBYTECODE"] = ""
 sys.path.insert(0, str(Path(__file__).parent))
 
 from support.markdown import MarkdownFile
 
+sys.dont_write_bytecode = False
 LONGEST_FIRST = ("coverage", "stability", "machines", "house", "numerics", "engine", "cli", "reference", "order")
 """Rooms whose files take longest: begun first, none of them is left to one process at the end."""
 
@@ -27,6 +30,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def pytest_collection_finish() -> None:
     gc.freeze()  # all tests stay to the end: a collection need not go through them again (a twentieth of the run)
+    gc.set_threshold(50_000)  # after every 700 objects it takes another sixteenth
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:

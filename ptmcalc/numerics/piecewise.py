@@ -9,6 +9,7 @@ between the nodes where the sign changes, and at every dip that could reach 0 an
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -53,6 +54,7 @@ def march(
     keep: bool = False,
     most_events: int = MOST_EVENTS,
     most_work: float = math.inf,
+    unsought: Sequence[int] = (),
 ) -> Record:
     """The motion from a state at time 0 to `end`, through all events.
 
@@ -66,11 +68,13 @@ def march(
         keep: whether signals are kept over time.
         most_events: where a chattering contact is given up.
         most_work: where the march is given up, in panels; looks that come to nothing count too.
+        unsought: watched signals whose summits between the nodes of long panels nobody asks for: a factor of a power
+            that rings on would have to be looked at in every swing.
 
     Raises:
         NumericsError: NUM101, too many events or steps or a nonlinear input that no stretch resolves.
     """
-    return _March(system, tolerance, refined, most_events, most_work).go(mode, state, end, keep)
+    return _March(system, tolerance, refined, most_events, most_work).go(mode, state, end, keep, unsought)
 
 
 class _March:
@@ -85,13 +89,14 @@ class _March:
         self.glides: dict[Flow, Glide] = {}
         self.reach = math.inf
 
-    def go(self, mode: Mode, state: FloatArray, end: float, keep: bool) -> Record:
+    def go(self, mode: Mode, state: FloatArray, end: float, keep: bool, unsought: Sequence[int]) -> Record:
         system = self.system
         reaction = system.react(mode, 0.0, state, None)
         first = tuple(event for event in reaction.events if event.after == JAMMED)
         reaction = replace(reaction, events=first)  # how it starts is no event
         record = Record.starting(self._piece(reaction.mode).now(reaction.state), self.products, keep)
         record.began = reaction.mode
+        record.unsought = np.array(unsought, dtype=np.intp)
         record.most_looks = min(record.most_looks, self.most_work / LONG)
         still = 0
         while True:

@@ -97,9 +97,13 @@ class Record:
     long: int = 0
     """of the steps, the long ones"""
     crossings: int = 0
+    """guards that were crossed, also where that is no event worth a name"""
     most_looks: float = _MOST_LOOKS
     """where looks for the summits within long panels are given up"""
-    """guards that were crossed, also where that is no event worth a name"""
+    looks: int = 0
+    """parts of long panels that were looked at again for a summit"""
+    unsought: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    """signals whose summits within long panels nobody asks for: those at the nodes do"""
     _waiting: list["_Panels"] = field(default_factory=list)
     _count: int = 0
     _sizes: FloatArray = field(default_factory=lambda: np.empty(0))
@@ -196,6 +200,7 @@ class Record:
         self.top.see(starts, lengths, nodes, smooth)
         self.bottom.see(starts, lengths, nodes, smooth)
         low[smooth], high[smooth] = np.inf, -np.inf
+        low[:, self.unsought], high[:, self.unsought] = np.inf, -np.inf
         read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
         promising = self._promising(read)
         self._kept += [one for one, beyond in zip(read, promising, strict=True) if beyond.any()]
@@ -215,21 +220,21 @@ class Record:
         """The extremes in long panels, best first: of each signal the panel that promises most is divided, until none
         promises more than what has been found; all of them where that takes long."""
         self._look()
-        looks = rounds = 0
+        rounds = 0
         while self._kept:
             self.top.settle()
             self.bottom.settle()
             beyond = self._promising(self._kept)
             chosen: NDArray[np.bool_] = np.any(beyond, axis=1)
-            if looks < _LOOKS_ONE_BY_ONE:
+            if self.looks < _LOOKS_ONE_BY_ONE:
                 chosen &= np.isin(np.arange(len(chosen)), beyond.argmax(axis=0))
             kept, self._kept = self._kept, []
             self._passed = list(_divided([kept[k] for k in np.flatnonzero(chosen)]))
             self._kept = [kept[k] for k in np.flatnonzero(np.any(beyond, axis=1) & ~chosen)]
-            looks += len(self._passed)
+            self.looks += len(self._passed)
             self._look()
             rounds += 1
-            if looks + _ROUND * rounds > self.most_looks:
+            if self.looks + _ROUND * rounds > self.most_looks:
                 raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be told apart")
 
     def _watched(self, lengths: FloatArray) -> FloatArray:

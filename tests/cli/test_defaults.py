@@ -47,16 +47,17 @@ def test_the_command_line_is_stronger(project: Path) -> None:
 
 def test_every_default_reaches_its_option(project: Path) -> None:
     (project / "ptmcalc.toml").write_text(
-        'select = ["CNV101"]\naccuracy = "1 %"\nbudget = "5 s"\nrepairs = false\neffects = ["sag=off"]\n'
+        'select = ["CNV101"]\naccuracy = "1 %"\nbudget = "0.3 s"\nrepairs = false\neffects = ["sag=off"]\n'
         'fail-level = "warning"\nformat = "plain"\n',
         encoding="utf-8",
     )
     by_file = checked()
     (project / "ptmcalc.toml").unlink()
-    options = ("--select", "CNV101", "--accuracy", "1 %", "--budget", "5 s", "--no-repairs", "--effects", "sag=off")
+    options = ("--select", "CNV101", "--accuracy", "1 %", "--budget", "0.3 s", "--no-repairs", "--effects", "sag=off")
     by_hand = checked(*options, "--fail-level", "warning", "--format", "plain")
     assert (by_file.status, by_file.out, by_file.err) == (by_hand.status, by_hand.out, by_hand.err)
     assert "without sag" in by_file.out
+    assert last(by_file).endswith("7 ignored"), "that so little work does not bring the accuracy is one more"
     assert "passes with" not in by_file.out
 
 

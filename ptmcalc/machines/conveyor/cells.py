@@ -18,10 +18,12 @@ from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.march import place_at
-from ptmcalc.numerics.belt.station import Drum, Station, TakeUp
+from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
 from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
+_ON_THE_GRID = 1e-6
+"""Share of a step by which rounding may move a time that lies on the grid."""
 _MOST_GRIP = 700.0
 """mu alpha above which no tension makes a drum slip: exp of it is the largest number there is."""
 
@@ -153,7 +155,7 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
     brakes = [braking(spec, brake).at for brake in brakes_of(spec, case.scene).values() if brake.at == at]
     backstop = at == "head" and spec.backstop is not None
     if not drives:
-        return [Drum("tail", line.tail_mass, brake=lambda time: sum((brake(time) for brake in brakes), 0.0))]
+        return [Drum("tail", line.tail_mass, brake=_braked(np.zeros_like(times), float(times[1]), brakes))]
     forces = {name: case.pulls[name](times) for name, _ in drives}
     together = sum(forces.values(), np.zeros_like(times))
     held = np.where(together < pulled, _FAST, 0.0) if isinstance(case.scene, Start) else np.zeros_like(times)
@@ -184,5 +186,20 @@ def _read(values: FloatArray, step: float) -> Callable[[float, float], tuple[flo
 
 
 def _braked(held: FloatArray, step: float, brakes: Sequence[Callable[[float], float]]) -> Callable[[float], float]:
-    table = held.tolist()
-    return lambda time: table[round(time / step)] + sum((brake(time) for brake in brakes), 0.0)
+    """What brakes hold over time: looked up at every step several times, and between steps where a drum is caught."""
+    if not brakes and not held.any():
+        return no_brake
+    table: list[float] = held.tolist()
+    known: dict[int, float] = {}
+
+    def capacity(time: float) -> float:
+        place = time / step
+        k = round(place)
+        if abs(place - k) > _ON_THE_GRID:
+            return table[k] + sum((brake(time) for brake in brakes), 0.0)
+        found = known.get(k)
+        if found is None:
+            found = known[k] = table[k] + sum((brake(k * step) for brake in brakes), 0.0)
+        return found
+
+    return capacity

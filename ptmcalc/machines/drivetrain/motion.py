@@ -78,7 +78,7 @@ def run(case: Case, end: float, tolerance: float, refined: float = 1.0, *, keep:
     """One run of a case to a time."""
     system = TrainSystem(case.train)
     start = system.start()
-    record = march(system, *start, end, tolerance=tolerance, refined=refined, keep=keep)
+    record = march(system, *start, end, tolerance=tolerance, refined=refined, keep=keep, unsought=system.unsought)
     return Course(case, system, record, ledger(system, start, record))
 
 

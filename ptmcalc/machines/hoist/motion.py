@@ -91,6 +91,7 @@ def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0
         keep=keep,
         most_events=_MOST_EVENTS,
         most_work=_most_work(case, tolerance),
+        unsought=system.unsought,
     )
     return Course(case, system, record, ledger(system, start, record))
 

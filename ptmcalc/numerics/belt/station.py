@@ -21,6 +21,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.strand import weights
@@ -83,8 +84,7 @@ class Place:
     belt_line_mass: float
 
 
-@dataclass(frozen=True, slots=True)
-class Seen:
+class Seen(NamedTuple):
     """A station at a time: tensions before, between and behind its drums [N], speeds [m/s], slip of each drum, and by
     how much the belt leaves the drums faster than it comes."""
 
@@ -361,6 +361,8 @@ class Station:
 
         Either the belt's speed, or their own where they slip: m v' = F - pull - B sgn v.
         """
+        if not any(self.slips):
+            return [move.belt] * len(self.drums), move.forces
         speeds, forces = [], list(move.forces)
         for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)):
             if not sense:

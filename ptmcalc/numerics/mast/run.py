@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.memory import kept_for
 from ptmcalc.numerics.energy import residual
 from ptmcalc.numerics.mast.modes import left_out
 from ptmcalc.numerics.mast.parts import FloatArray
@@ -74,7 +75,7 @@ class Course:
         return _stays(self)
 
 
-def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False) -> Course:
+def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False, most_work: float = math.inf) -> Course:
     """One run of a case from a straight mast on.
 
     Args:
@@ -82,13 +83,24 @@ def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False) ->
         end: time to march to [s].
         refined: panels over the usual ones; two runs of unlike panels share no rounding.
         keep: whether signals are kept over time.
+        most_work: panels after which the run is given up.
 
     **Error** rounding; what the modes left out could add is told by runs with more of them.
     **Source** `numerics.piecewise`, `numerics.mast.system`.
     """
     system = MastSystem(case)
     mode, z = system.start()
-    record = march(system, mode, z, end, refined=refined, keep=keep, most_events=MOST_EVENTS)
+    record = march(
+        system,
+        mode,
+        z,
+        end,
+        refined=refined,
+        keep=keep,
+        most_events=MOST_EVENTS,
+        most_work=most_work,
+        unsought=system.unsought,
+    )
     put, damped = system.works(record.integrals)
     before, after = system.energy(mode, z), system.energy(record.mode, record.state)
     fastest = max(abs(record.top.values[1]), abs(record.bottom.values[1]))
@@ -155,8 +167,7 @@ def settled(course: Course, place: float, window: float, lean: float = 0.0, doub
         raise NumericsError("NUM103", f"by {course.record.time:.4g} s the base is not yet held for good")
     system, mast = course.system, course.case.mast
     since = course.held_since
-    again = play(course.case, since + _JUST_AFTER / float(system.w[-1])) if since else course
-    z = again.record.state if since else system.start()[1]
+    z = _just_held(course) if since else system.start()[1]
     strays = 2 * left_out(mast, math.inf, place, system.count, 0.0, course.largest("acceleration")[0])
     ring = ring_of(system, z, mast.at(place)[: system.count])
     if course.case.guide is not None:
@@ -164,6 +175,12 @@ def settled(course: Course, place: float, window: float, lean: float = 0.0, doub
         if ring_of(system, z, beside).envelope(0.0) >= gap:
             return _beyond_guide(course, place, window, lean, doubt + strays)
     return settling(ring, window, lean, doubt + strays)
+
+
+@kept_for(64)
+def _just_held(course: Course) -> FloatArray:
+    """The state in which the base of a run is held for good: asked for with every lean, window and doubt."""
+    return play(course.case, course.held_since + _JUST_AFTER / float(course.system.w[-1])).record.state
 
 
 def _beyond_guide(course: Course, place: float, window: float, lean: float, doubt: float) -> Settled:

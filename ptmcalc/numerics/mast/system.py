@@ -97,6 +97,11 @@ class MastSystem:
         return {name: index for index, name in enumerate(names)}
 
     @cached_property
+    def unsought(self) -> list[int]:
+        """Signals that are watched for their works alone."""
+        return [index for (what, _), index in self.watched.items() if what in ("dash", "dash_rate", "rate")]
+
+    @cached_property
     def products(self) -> list[tuple[int, int]]:
         """Pairs whose product is a power, or over 2 zeta w one."""
         at = self.watched

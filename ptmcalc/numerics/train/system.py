@@ -258,6 +258,12 @@ class TrainSystem:
         return {name: index for index, name in enumerate(names)}
 
     @cached_property
+    def unsought(self) -> list[int]:
+        """Signals that are watched for their works alone."""
+        factors = ("link_rate", "link_loss", "mesh_inner", "mesh_inner_speed", "mesh_outer_speed", "grip_speed")
+        return [index for (what, _), index in self.watched.items() if what in factors]
+
+    @cached_property
     def works(self) -> dict[tuple[str, int], tuple[int, int]]:
         """Pairs of watched signals whose product is a power, and the square of every drive's torque."""
         at, train = self.watched, self.train

@@ -7,6 +7,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.base.memory import kept_for
 from ptmcalc.machines.crane.stacking import march, model, starts
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.march import Happening
@@ -158,6 +159,7 @@ def _above_zero(offsets: dict[str, Interval], loads: Loads) -> dict[str, Interva
     return {name: Interval(max(one.low, -max(loads[name].low, 0.0)), one.high) for name, one in offsets.items()}
 
 
+@kept_for(64)
 def _last_pace(course: Course) -> float:
     """Acceleration with which the base came to where it was first held, whichever way it was moved [m/s^2]."""
     held = next((float(event.time) for event in course.record.events if event.element == "base"), 0.0)

@@ -154,10 +154,9 @@ def ramp(speed: float, size: float, rise: float) -> tuple[Signal, float]:
     return Signal(times, values, slopes), 2 * up + even
 
 
-def damping_ratio(spec: Stacker, moves: Happening, mast: Mast) -> float:
+def damping_ratio(decrement: float | None, moves: Happening, mast: Mast) -> float:
     """Damping ratio of every mode over a base that is held: the lowest one has the decrement of the file where the
     column swings beside a base that rolls, or beside one that follows a ramp."""
-    decrement = spec.column.log_decrement
     if decrement is None:
         return 0.0
     ratio = decrement / math.hypot(2 * math.pi, decrement)
@@ -170,5 +169,5 @@ def case_of(spec: Stacker, moves: Happening, elements: int, modes: int) -> Case:
     """What is marched: the mast in so many elements and modes."""
     length = moves.column.column.length
     mast = Mast.of(moves.column.column, elements, (length,))
-    ratios = np.full(min(modes, len(mast.frequencies)), damping_ratio(spec, moves, mast))
+    ratios = np.full(min(modes, len(mast.frequencies)), damping_ratio(spec.column.log_decrement, moves, mast))
     return Case(mast, ratios, moves.base, (length,), moves.obstacle, moves.column.guide)

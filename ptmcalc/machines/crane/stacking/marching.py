@@ -82,7 +82,7 @@ def play(train: Train, window: float, refined: float = 1.0) -> Played:
     """One run from the start of a train to the end of its window."""
     system = TrainSystem(train)
     start = system.start()
-    record = march(system, *start, window, refined=refined, most_events=_MOST_EVENTS)
+    record = march(system, *start, window, refined=refined, most_events=_MOST_EVENTS, unsought=system.unsought)
     return Played(train, system, record, ledger(system, start, record))
 
 

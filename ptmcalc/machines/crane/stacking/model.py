@@ -122,7 +122,8 @@ def carriage_place(spec: Stacker, scene: StackerScene) -> float:
     """Distance of the carriage from the root of the column, along it [m]."""
     foot, head = ends(spec)
     height = carriage_height(spec, scene)
-    return head - height if hangs(spec) else height - foot
+    place = head - height if hangs(spec) else height - foot
+    return min(max(place, 0.0), spec.column.length)  # far above the floor a short column is not known better
 
 
 def trolley_place(spec: OverheadStacker) -> float:

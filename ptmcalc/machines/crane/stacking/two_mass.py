@@ -4,21 +4,26 @@ import math
 
 import numpy as np
 
+from ptmcalc.base.memory import remembered
 from ptmcalc.laws import mast as law
 from ptmcalc.machines.crane.stacking import march
 from ptmcalc.machines.crane.stacking.march import Happening
-from ptmcalc.machines.crane.stacking.mast import swinging
+from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of
 from ptmcalc.numerics.mast.assumed import one_shape
 from ptmcalc.numerics.mast.modes import Mast
+from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.numerics.mast.system import Case
 
 SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""
 _DOUBLINGS = 5
+_MOST_WORK = 2e5
+"""Panels of a run that nobody looks at: a column that rings a hundred thousand times before it lets its base rest is
+left to the others, and bounds nothing."""
 
 
 def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, heavier: float = 1.0) -> Mast:
@@ -26,7 +31,10 @@ def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, 
 
     `heavier`: factor on the mass that swings beside a base at rest, by which a frequency may be set right.
     """
-    given = swinging(spec, scene, push_of(spec, scene).rotors)
+    return _lumped(swinging(spec, scene, push_of(spec, scene).rotors), moves.column.column, gravity, heavier)
+
+
+def _lumped(given: Swinging, column: Column, gravity: bool, heavier: float) -> Mast:
     gives, one = given.compliance, given.exact
     rotation, translation = gives.rotation_share, gives.translation_share
 
@@ -39,9 +47,9 @@ def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, 
     at = one.place * one.length
     bent = translation / 2 + rotation / 3 + (1 - rotation - translation) * law.FIRST_MOMENT
     turned = one.tip_mass * at * shape(at) + one.column_mass * one.length * bent
-    pull = moves.column.column.pull if gravity else 0.0
+    pull = column.pull if gravity else 0.0
     return one_shape(
-        moves.column.column,
+        column,
         shape,
         given.stiffness + (given.weight if gravity else 0.0),
         (square * heavier, mean),
@@ -53,19 +61,33 @@ def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, 
 def course_of(spec: Stacker, scene: StackerScene, gravity: bool, heavier: float = 1.0, *, keep: bool = False) -> Course:
     """A start or a stop of two masses, until the base is held for good and some swings beyond."""
     moves = march.happening(spec, scene, gravity=gravity)
-    two = lumped(spec, scene, moves, gravity, heavier)
-    ratios = np.array([march.damping_ratio(spec, moves, two)])
-    return _until_held(Case(two, ratios, moves.base, (spec.column.length,)), moves, keep)
+    given = swinging(spec, scene, push_of(spec, scene).rotors)
+    if keep:
+        return _until_held(_case(given, moves, gravity, heavier, spec.column.log_decrement), moves, keep)
+    return _course(given, moves, gravity, heavier, spec.column.log_decrement)
+
+
+@remembered(64)
+def _course(given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None) -> Course:
+    """Every bound asks for the same few; another limit in the file makes no other machine."""
+    return _until_held(_case(given, moves, gravity, heavier, decrement), moves, keep=False)
+
+
+def _case(given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None) -> Case:
+    two = _lumped(given, moves.column.column, gravity, heavier)
+    ratios = np.array([march.damping_ratio(decrement, moves, two)])
+    return Case(two, ratios, moves.base, (given.exact.length,))
 
 
 def _until_held(case: Case, moves: Happening, keep: bool) -> Course:
     swing = 2 * math.pi / float(case.mast.frequencies[0])
     end = moves.lasts + SWINGS * swing
-    course = play(case, end, keep=keep)
+    most = math.inf if keep else _MOST_WORK
+    course = play(case, end, keep=keep, most_work=most)
     for _ in range(_DOUBLINGS):
         since = course.held_since
         if since + SWINGS * swing <= course.record.time * (1 + 1e-9):
             break
         end = since + SWINGS * swing if math.isfinite(since) else 2 * end
-        course = play(case, end, keep=keep)
+        course = play(case, end, keep=keep, most_work=most)
     return course
