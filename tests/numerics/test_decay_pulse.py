@@ -4,6 +4,7 @@ Witness: z' = A z, z = (x, v, two force states), by scipy's expm during the puls
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -115,6 +116,24 @@ class TestLargest:
         transform = abs(1 / (3 + 1j * natural) - 1 / (96 + 1j * natural))
         assert abs(summit.value) == pytest.approx(transform / natural, rel=1e-6)
         assert summit.time > 5.0
+
+    @pytest.mark.parametrize("natural", [0.7, 9.3, 170.0])
+    def test_of_equal_ones_the_first_counts(self, natural: float) -> None:
+        """A force that comes and stays, no damping: x = a/w^2 - (what comes back every period), f = a (1 - exp(-l t)).
+
+        x = a (1/w^2 - exp(-l t)/(w^2 + l^2) - r cos(w t - p)/w),   r = l/(w^2 + l^2)^(1/2)/w,   tan p = w/l
+        """
+        rate = 40 * natural
+        pulse = DecayPulse(natural, 0.0, 0.0, rate, 2.0, 800.0 / natural)
+        summit = pulse.largest()
+        whole = natural**2 + rate**2
+        top = 2.0 * (1 / natural**2 + rate / math.sqrt(whole) / natural**2)
+        assert summit.value == pytest.approx(top, rel=1e-13)
+        assert natural * summit.time == pytest.approx(math.pi + math.atan(natural / rate), rel=1e-9)
+        assert summit.error <= 1e-10 * top
+        assert DecayPulse(natural, 0.0, 0.0, rate, -2.0, 800.0 / natural).largest() == replace(
+            summit, value=-summit.value
+        )
 
     def test_of_nothing_is_nothing(self) -> None:
         for pulse in (DecayPulse(5.0, 0.0, 3.0, 96.0, 0.0, 5.0), DecayPulse(5.0, 0.0, 3.0, 3.0, 1.0, 5.0)):
