@@ -78,3 +78,9 @@ def test_ballast_is_told_where_there_is_some() -> None:
     assert not any("ballast" in one for one in none)
     assert len(similarity.distortions(similarity.GEOMETRIC, 0.5)) == len(none) + 3
     assert len(similarity.distortions(similarity.GEOMETRIC, 0.5, density=2.0)) == len(none)
+
+
+def test_scales_fit_to_rounding_or_not_at_all() -> None:
+    assert similarity.scales(similarity.FULL, 0.5, density=2.0 * (1 + 1e-10)).force == pytest.approx(0.25, rel=1e-9)
+    with pytest.raises(ValueError, match="needs"):
+        similarity.scales(similarity.FULL, 0.5, density=2.0 * (1 + 1e-7))

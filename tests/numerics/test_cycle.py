@@ -182,3 +182,18 @@ def test_what_a_motion_says_of_its_slope() -> None:
         assert np.all(away <= orbit.tail() + 1e-13)
         if order < 12:
             assert np.all(orbit.tail() <= 3000 * away)
+
+
+def test_a_corner_at_an_edge_is_the_summit_and_nothing_beyond_it() -> None:
+    """e rises and falls in straight lines: the largest is that of the edge between them, the smallest those outside."""
+    g = Grid(np.array([0.0, 1.3, 2.9]), 5)
+    slopes = np.array([0.7, -0.4])[:, None]
+    for sign in (1.0, -1.0):
+        rates = np.broadcast_to(sign * slopes, g.angles.shape)
+        orbit = solve(g, lambda e, rates=rates: (rates.copy(), np.zeros(e.shape)), np.full(g.angles.shape, 4.0), 4.0)
+        assert orbit is not None
+        low, high = orbit.extremes()
+        if sign < 0:
+            low, high = high, low
+        assert high == pytest.approx((4.0 + sign * 0.91, 1.3), rel=1e-13)
+        assert low == pytest.approx((4.0, 0.0), rel=1e-13)
