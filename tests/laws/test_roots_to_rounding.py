@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from ptmcalc.laws import buffer, rope_rod, slewing
+from ptmcalc.laws import buffer, mast_modes, pendulum, rope_rod, slewing
 
 Long = np.longdouble
 PI = 4 * np.arctan(Long(1))
@@ -91,3 +91,46 @@ def test_a_mean_of_torques_has_their_unit(size: float) -> None:
     mean = sum(share * abs(torque) ** 3 for share, torque in zip(shares, torques, strict=True)) ** (1 / 3)
     found = slewing.fatigue_torque(shares, [torque * size for torque in torques], 3.0)
     assert found == pytest.approx(mean * size, rel=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_what_small_angles_leave_out_is_the_smaller_root_of_its_cubic(seed: int) -> None:
+    """E = phase H^3/6 + push H^2/2, H = A + E, up to where both roots meet and none is left."""
+    rng = np.random.default_rng(seed)
+    angle, phase, push = 10 ** rng.uniform(-3, -0.7), 10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-2, 0)
+
+    def beyond(error: np.longdouble) -> np.longdouble:
+        return phase * (angle + error) ** 3 / 6 + push * (angle + error) ** 2 / 2 - error
+
+    found = pendulum.small_angle_error(angle, phase, push)
+    slope = -push + math.sqrt(push**2 + 2 * phase)
+    lowest = Long(slope / phase - angle)  # where the rest is least
+    if lowest <= 0 or beyond(lowest) > 0:
+        assert found == math.inf
+    else:
+        root = bisected(beyond, Long(1e-30), lowest)
+        assert found == pytest.approx(float(root), rel=1e-12)
+
+
+class TestColumns:
+    @pytest.mark.parametrize("root_mass", [0.0, 0.4, 2.0, 7.0])
+    def test_a_column_without_mass_is_a_spring_between_two(self, root_mass: float) -> None:
+        """Where nothing shifts the root is part of the base: w^2 = 3 E J/l^3 (1/(m_1 + m_r) + 1/m_2)."""
+        mast = mast_modes.Mast(3.1, 7.3e4, 0.0, 1.0, 3.0, root_mass=root_mass)
+        stiffness = 3 * 7.3e4 / 3.1**3
+        expected = math.sqrt(stiffness * (1 / (1.0 + root_mass) + 1 / 3.0))
+        assert mast_modes.mast_frequency(mast, 1) == pytest.approx(expected, rel=1e-12)
+        assert mast_modes.mast_frequency(mast, 2) == math.inf
+
+    @pytest.mark.parametrize("unlike", [1.0, 1e3, 1e7])
+    def test_a_shape_is_found_in_any_units(self, unlike: float) -> None:
+        """Rows and columns of very different sizes: the vector that nothing is left of, but for rounding."""
+        rng = np.random.default_rng(5)
+        part = rng.normal(size=(4, 3))
+        matrix = part @ part.T
+        null = np.linalg.svd(matrix)[2][-1]
+        sizes = unlike ** np.array([-1.0, 0.0, 0.5, 1.0])
+        found = mast_modes._null_vector(matrix * sizes[:, None] * sizes)
+        expected = null / sizes
+        expected = expected / np.abs(expected).max()
+        assert found * np.sign(found @ expected) == pytest.approx(expected, rel=1e-7)

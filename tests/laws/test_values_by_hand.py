@@ -2,9 +2,25 @@
 
 import math
 
+import numpy as np
 import pytest
+from scipy.optimize import brentq
 
-from ptmcalc.laws import carriage, chain_start, chain_wear, hoisting, mast, mast_modes, polygon, reeving, similarity
+from ptmcalc.laws import (
+    buffer,
+    carriage,
+    chain_start,
+    chain_wear,
+    hoisting,
+    mast,
+    mast_modes,
+    polygon,
+    reeving,
+    shaft,
+    similarity,
+    skew,
+    slewing,
+)
 
 
 def test_a_roller_turns_on_its_pin_and_rolls() -> None:
@@ -84,3 +100,49 @@ def test_scales_fit_to_rounding_or_not_at_all() -> None:
     assert similarity.scales(similarity.FULL, 0.5, density=2.0 * (1 + 1e-10)).force == pytest.approx(0.25, rel=1e-9)
     with pytest.raises(ValueError, match="needs"):
         similarity.scales(similarity.FULL, 0.5, density=2.0 * (1 + 1e-7))
+
+
+def test_how_far_a_slewing_load_can_swing_out() -> None:
+    """2 g L (1 - cos t) = w^2 ((R + L sin t)^2 + J/m): the first angle, or any by a fast drive."""
+    inertia, mass, radius, rope, gravity = 4e4, 1.1e3, 5.3, 6.7, 9.81
+    for speed in (0.03, 0.21, 0.4):
+
+        def spare(t: float, speed: float = speed) -> float:
+            reach = radius + rope * math.sin(t)
+            return 2 * gravity * rope * (1 - math.cos(t)) - speed**2 * (reach**2 + inertia / mass)
+
+        angle = brentq(spare, 0.0, 1.4, xtol=1e-14)
+        reach, lean = slewing.swing_reach(inertia, mass, radius, rope, speed, gravity)
+        assert angle <= lean <= angle * (1 + 2e-9) + 2e-9
+        assert radius + rope * math.sin(angle) <= reach <= (radius + rope * math.sin(angle)) * (1 + 3e-9)
+    assert slewing.swing_reach(inertia, mass, radius, rope, 3.0, gravity) == (pytest.approx(12.0, rel=1e-14), math.pi)
+
+
+def test_the_sense_of_power_in_a_gear_goes_by_both_inertias_however_small() -> None:
+    """N has the sign of M J + u J_m R: of a light shaft that a load drives, the load decides."""
+    for unit in (1e-6, 1.0, 1e6):
+        for resistance, factor in ((-0.09, 0.9), (-0.11, 1 / 0.7), (5.0, 0.9)):
+            found = shaft.gear_factor(1.0 * unit, 0.01 * unit, 0.01 * unit, 10.0, resistance * unit, 0.9, 0.7)
+            assert float(found) == pytest.approx(factor, rel=1e-15)
+
+
+def test_phi_7_by_two_values_changes_at_one_half() -> None:
+    for share, factor in ((0.0, 1.25), (0.5, 1.25), (0.5001, 1.6), (1.0, 1.6)):
+        assert buffer.buffer_factor(share, buffer.TWO_VALUES) == factor
+    for share, factor in ((0.3, 1.25), (0.5, 1.25), (0.7, 1.39), (1.0, 1.6)):
+        assert buffer.buffer_factor(share) == pytest.approx(factor, rel=1e-15)
+
+
+@pytest.mark.parametrize("angle", [1e-7, 3.5e-5, 3e-3])
+def test_a_skewing_crane_is_in_balance_at_any_angle(angle: float) -> None:
+    """Coupled pairs: nothing along in all, and the forces across turn the crane as those along rail 2 do."""
+    distances, weights = np.array([0.3, 2.9, 4.7]), np.array([8e4, 1.3e5, 6e4])
+    across_one, across_two, along_one, along_two = skew.skew_equilibrium(
+        0.3, angle, distances, np.ones(3), weights, 0.37, 22.5, skew.FIXED
+    )
+    size = float(np.abs(across_one).sum() + np.abs(across_two).sum())
+    assert np.sum(along_one) + np.sum(along_two) == pytest.approx(0.0, abs=1e-7 * size)
+    turning = float(distances @ (across_one + across_two))
+    assert turning == pytest.approx(22.5 * float(np.sum(along_two)), rel=0, abs=1e-6 * size)
+    if angle < 1e-6:
+        assert size == pytest.approx(0.3 * 250 * angle * 2.7e5, rel=0.5)

@@ -135,6 +135,37 @@ class TestLargest:
             summit, value=-summit.value
         )
 
+    def test_rounding_of_a_late_summit_grows_with_its_phase(self) -> None:
+        """A million radians of a stiff spring: each may be off by a last digit."""
+        summit = DecayPulse(1000.0, 0.02, 0.001, 0.0011, 1.0, 2000.0).largest()
+        phase = 1000.0 * summit.time
+        assert phase > 9e5
+        assert summit.error >= 1e-12 * summit.value
+        late = DecayPulse(1000.0, 0.02, 1e-6, 1.1e-6, 1.0, 2e6).largest()
+        assert late.error >= np.finfo(float).eps * 1000.0 * late.time * late.value > 1e-11 * late.value
+        assert late.error <= 1e-5 * late.value
+
+    @pytest.mark.parametrize(("natural", "zeta"), [(5.0, 0.0), (60.0, 0.1), (20.0, 0.3)])
+    def test_what_is_behind_a_time_is_bounded(self, natural: float, zeta: float) -> None:
+        """From the inflection of the force on, after twice the time of its crest."""
+        pulse = DecayPulse(natural, zeta, 3.0, 96.0, 2.0, 5.0)
+        inflection = 2 * math.log(96 / 3) / 93
+        assert pulse._most_behind(inflection * 0.999) == math.inf
+        for time in (inflection * 1.001, 0.2, 0.45):
+            for sign in (1.0, -1.0):
+                bound = replace(pulse, acceleration=2.0 * sign)._most_behind(time)
+                behind = float(np.abs(pulse.at(time + np.linspace(0, 4, 20_001))[0]).max())
+                assert behind <= bound
+        for time in (inflection * 1.001, 0.2, 0.45):  # f + what swings about f/w^2, its speed, and 2 zeta f
+            x, v = (float(one) for one in pulse.at(time))
+            f, slope = (
+                2 * (math.exp(-3 * time) - math.exp(-96 * time)),
+                2 * (96 * math.exp(-96 * time) - 3 * math.exp(-3 * time)),
+            )
+            energy = math.hypot(natural**2 * x - f, (natural**2 * v - slope) / natural)
+            expected = (f * (1 + 2 * zeta) + energy + abs(slope) / natural) / natural**2
+            assert pulse._most_behind(time) == pytest.approx(expected, rel=1e-12)
+
     def test_of_nothing_is_nothing(self) -> None:
         for pulse in (DecayPulse(5.0, 0.0, 3.0, 96.0, 0.0, 5.0), DecayPulse(5.0, 0.0, 3.0, 3.0, 1.0, 5.0)):
             assert pulse.largest().value == 0.0
