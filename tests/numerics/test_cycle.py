@@ -197,3 +197,19 @@ def test_a_corner_at_an_edge_is_the_summit_and_nothing_beyond_it() -> None:
             low, high = high, low
         assert high == pytest.approx((4.0 + sign * 0.91, 1.3), rel=1e-13)
         assert low == pytest.approx((4.0, 0.0), rel=1e-13)
+
+
+@pytest.mark.parametrize("stretches", [2, 3, 8])
+@pytest.mark.parametrize("phase", [0.0, 0.4, 2.2])
+def test_summits_between_the_places_looked_at_are_exact(stretches: int, phase: float) -> None:
+    """e = 5 + cos(phi - p - q)/(1 + k^2)^(1/2), tan q = 1/k, for de/dphi = -k (e - 5) + cos(phi - p)."""
+    k, g = 0.7, grid(stretches, 24)
+    orbit = solve(
+        g, lambda e: (-k * (e - 5) + np.cos(g.angles - phase), np.full(e.shape, -k)), np.full(g.angles.shape, 3.0)
+    )
+    assert orbit is not None
+    (low, low_at), (high, high_at) = orbit.extremes()
+    size, late = 1 / math.sqrt(1 + k * k), phase + math.atan(1 / k)
+    assert (low, high) == pytest.approx((5 - size, 5 + size), rel=1e-13)
+    assert high_at % TURN == pytest.approx(late % TURN, abs=3e-7)
+    assert low_at % TURN == pytest.approx((late + math.pi) % TURN, abs=3e-7)

@@ -109,3 +109,18 @@ def test_the_distance_from_the_range_of_others_beside() -> None:
     assert gap(others - 7.0, others, 0) == pytest.approx(7.0, rel=1e-15)
     assert gap(np.array([9.0, 0, 0, 0, 0, 0]), others, 2) == pytest.approx(5.0, rel=1e-15)  # over 0, 1 and 4
     assert gap(np.array([9.0, 0, 0, 0, 0, 0]), others, 1) == pytest.approx(8.0, rel=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_vertex_beside_a_corner_in_its_cell_is_seen_exactly(seed: int, mirrored: bool) -> None:
+    """A parabola turns, and breaks off before the next sample."""
+    rng = np.random.default_rng(seed)
+    top, bend, height = 6 + rng.uniform(0.15, 0.4), -rng.uniform(0.2, 2.0), rng.normal()
+    corner, down, other = 6 + rng.uniform(0.6, 0.9), rng.uniform(3.0, 9.0), -rng.uniform(0.01, 0.3)
+    x = np.arange(14.0)
+    behind = height + bend * (corner - top) ** 2 - down * (x - corner) + other * (x - corner) ** 2
+    signal = np.where(x < corner, height + bend * (x - top) ** 2, behind)
+    value, time = largest(signal[::-1] if mirrored else signal, 0.25)
+    assert value == pytest.approx(height, rel=1e-11, abs=1e-11)
+    assert time == pytest.approx(0.25 * (13 - top if mirrored else top), rel=1e-6)
