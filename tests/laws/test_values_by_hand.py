@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from ptmcalc.laws import (
     buffer,
     carriage,
+    chain_selection,
     chain_start,
     chain_wear,
     hoisting,
@@ -146,3 +147,12 @@ def test_a_skewing_crane_is_in_balance_at_any_angle(angle: float) -> None:
     assert turning == pytest.approx(22.5 * float(np.sum(along_two)), rel=0, abs=1e-6 * size)
     if angle < 1e-6:
         assert size == pytest.approx(0.3 * 250 * angle * 2.7e5, rel=0.5)
+
+
+def test_a_chain_that_just_reaches_round_two_equal_sprockets() -> None:
+    """Half of what it has beyond one of them, pitch by pitch; one that has nothing beyond is refused."""
+    for beyond in (1e-3, 0.6, 30.0):
+        found = chain_selection.centre_distance(20 + beyond, 0.0254, 20, 20)
+        assert found == pytest.approx(0.0254 * beyond / 2, rel=1e-11)
+    with pytest.raises(ValueError, match="do not reach"):
+        chain_selection.centre_distance(20.0, 0.0254, 20, 20)
