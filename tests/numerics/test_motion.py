@@ -84,3 +84,17 @@ def test_a_curve_counts_with_its_tangent(size: float) -> None:
         ([0.0, 1.0, 0.9, 0.0], [1, 1]),
     ):
         assert Look(Still(told), size * np.array(state)).sides("any").tolist() == sides, state
+
+
+@pytest.mark.parametrize("order", [0, 1, 2, 3, 4, 5])
+@pytest.mark.parametrize("curved", [False, True])
+def test_a_guard_may_rest_up_to_its_fourth_derivative(order: int, curved: bool) -> None:
+    """A chain of six, and the same with a curve that is still at 0 and drives its last state."""
+    rate, guard = np.eye(6, k=1), np.eye(6)[:1]
+    told = Motion(rate, np.zeros((6, 0)), guard, guard)
+    if curved:
+        still = Curve(np.eye(6)[:1], lambda y: 0.0 * y[0], lambda y: 0.0, 1.0, 0.1)
+        told = Motion(rate, np.eye(6)[:, -1:], np.array([[1.0, 0, 0, 0, 0, 0, 0]]), np.zeros((1, 7)), (still,))
+    for sign in (1, -1):
+        look = Look(Still(told, own=6, scale=np.ones(6)), sign * 0.7 * np.eye(6)[order])
+        assert look.sides("any").tolist() == [sign]
