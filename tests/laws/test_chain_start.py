@@ -234,3 +234,15 @@ class TestPassingBound:
         bound = chain_start.passing_bound(np.array([30.0]), np.array([0.0]), 1.0, 0.0, 0.2, 12, math.inf)
         assert bound[0] == math.inf
         assert math.isfinite(chain_start.passing_bound(np.array([30.0]), np.array([0.0]), 1.0, 0.0, 0.2, 12, 1e6)[0])
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.3, 0.999, 1.0, 1.7, 2.0, 2.3, 30.0])
+def test_what_a_jump_of_the_input_leaves_of_its_energy(zeta: float) -> None:
+    """d'' + 2 zeta w d' + w^2 d = 0 from d = -1, d' = 2 zeta w, by the matrix exponential."""
+    w = 13.0
+    times = np.array([1e-3, 0.02, 0.31, 1.7])
+    matrix = np.array([[0.0, 1.0], [-w * w, -2 * zeta * w]])
+    states = [expm(matrix * t) @ [-1.0, 2 * zeta * w] for t in times]
+    expected = [math.hypot(d, v / w) for d, v in states]
+    found = chain_start._left_energy(np.array([w]), np.array([zeta]), times[:, None])[:, 0]
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-14)

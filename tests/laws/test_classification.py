@@ -67,3 +67,15 @@ class TestClasses:
         for k in np.linspace(0.07, 1.0, 94):
             assert classification.load_class_en_13001(k) == classification.load_class(k) + 1 or k <= 0.125
         assert [classification.load_class_en_13001(k) for k in (0.03, 0.06, 0.12)] == [0, 1, 2]
+
+
+def test_a_class_holds_its_limit_to_the_last_digits_and_no_more() -> None:
+    for classify, limits, first in (
+        (classification.use_of_cycles, classification.USE_CYCLES, 0),
+        (classification.use_of_hours, classification.USE_HOURS, 0),
+        (classification.load_class_en_13001, classification.SPECTRA_EN_13001[:-1], 0),
+        (classification.load_class, classification.SPECTRA[:-1], 1),
+    ):
+        for number, limit in enumerate(limits, first):
+            assert classify(limit * (1 + 3e-14)) == number
+            assert classify(limit * (1 + 1e-10)) == number + 1

@@ -173,12 +173,12 @@ class TestAngle:
 
     def test_editions_differ_for_little_play_only(self) -> None:
         by = {
-            edition: [skew.skew_angle(x, 0.0, 1.0, 0.01, 0.0, edition) for x in (0.008, 0.012, 0.04)]
+            edition: [skew.skew_angle(x, 0.0, 1.0, 0.01, 0.0, edition) for x in (0.008, 0.012, 0.01325, 0.0134, 0.04)]
             for edition in (skew.FULL_PLAY, skew.EN_13001_2, skew.EN_1991_3)
         }
-        assert by[skew.FULL_PLAY] == pytest.approx([0.008, 0.012, 0.04])
-        assert by[skew.EN_13001_2] == pytest.approx([0.008, 0.012, 0.03])
-        assert by[skew.EN_1991_3] == pytest.approx([0.01, 0.01, 0.03])
+        assert by[skew.FULL_PLAY] == pytest.approx([0.008, 0.012, 0.01325, 0.0134, 0.04])
+        assert by[skew.EN_13001_2] == pytest.approx([0.008, 0.012, 0.01325, 0.01005, 0.03])
+        assert by[skew.EN_1991_3] == pytest.approx([0.01, 0.01, 0.01, 0.01005, 0.03])
 
 
 class TestStart:

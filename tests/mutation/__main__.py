@@ -4,7 +4,8 @@
     python -m tests.mutation run --seed 1     draws 50 faults and tries them; the log names the seed and each fault
 
 Each fault is tried in a copy of the project with the files of tests that run the function it stands in, the nearest
-and cheapest first, up to a limit of processor seconds. Caught is what a test fails on and what runs without end.
+and cheapest first, up to a limit of processor seconds, in a fork of a process that has collected them all (`warm`);
+what such a fork cannot show, in a process of its own. Caught is what a test fails on and what runs without end.
 What no test can see stands in `equivalent.toml` with its reason and leaves the count. Fewer than 95 % caught is a
 failure. mutmut and cosmic-ray were left: neither draws a sample by a seed, chooses tests by what they reach, nor keeps
 a reason for a survivor, and each would need most of what stands here around it.
@@ -16,6 +17,7 @@ import json
 import math
 import os
 import random
+import re
 import resource
 import shutil
 import sys
@@ -31,6 +33,7 @@ import pytest
 
 from .mutants import Mutant, population
 from .reach import CHOSEN, KEPT, make_speak
+from .warm import Session
 
 ROOT = Path(__file__).parents[2]
 EQUIVALENT = Path(__file__).parent / "equivalent.toml"
@@ -77,7 +80,9 @@ def copy_project(place: Path) -> None:
             shutil.copy(source, place / part)
 
 
-def run_tests(place: Path, *arguments: str, limit: float = 0, **more: str) -> tuple[int | None, list[str]]:
+def run_tests(
+    place: Path, *arguments: str, limit: float = 0, plugins: tuple[object, ...] = (), **more: str
+) -> tuple[int | None, list[str]]:
     """Tests of the copy, in a fork that has the libraries already: (exit status, None without an end, output)."""
     out = place / "out.txt"
     child = os.fork()
@@ -97,7 +102,7 @@ def run_tests(place: Path, *arguments: str, limit: float = 0, **more: str) -> tu
         status = 70
         try:
             ours = "-q -n 0 -p no:cacheprovider -p mutation.reach -W ignore::pytest.PytestAssertRewriteWarning"
-            status = pytest.main([*ours.split(), *arguments])
+            status = pytest.main([*ours.split(), *arguments], plugins)
         except BaseException:
             traceback.print_exc()
         finally:
@@ -115,19 +120,28 @@ def read_reach(kept: Path) -> Reach:
     return found or sys.exit(f"nothing in {kept}: `python -m tests.mutation reach` comes first")
 
 
+def _names(file: Path, module: str) -> bool:
+    """Whether a file of tests may read a number of a module without running anything of it."""
+    return file.exists() and re.search(rf"\b{module}\b", file.read_text("utf-8")) is not None
+
+
 def batches(mutant: Mutant, reach: Reach, most: float) -> list[list[str]]:
     """The tests to try, by files: those of the law first, then by rooms and cost; of a dear file only what reaches."""
-    module, _, function = mutant.function.partition(":")
+    module = mutant.function.partition(":")[0]
+    runs = any(mutant.function in noted for _, noted in reach.values())  # neither a module does nor a class
+
+    stem = mutant.path.stem
+    reads = {} if runs else {file: _names(ROOT / file, stem) for file in {test.partition("::")[0] for test in reach}}
 
     def reaches(noted: set[str]) -> bool:
-        return mutant.function in noted if function else any(name.startswith(f"{module}:") for name in noted)
+        return mutant.function in noted if runs else any(name.startswith(f"{module}:") for name in noted)
 
     files: dict[str, list[str]] = collections.defaultdict(list)
     for test in reach:
         files[test.partition("::")[0]].append(test)
     options = []
     for file, tests in files.items():
-        hits = [test for test in tests if reaches(reach[test][1])]
+        hits = [test for test in tests if reads.get(file) or reaches(reach[test][1])]
         if hits:
             chosen = tests if sum(reach[test][0] for test in tests) < FIRST / 2 else hits
             room = Path(file).parts[1]
@@ -175,10 +189,47 @@ def attempt(mutant: Mutant, tests: list[list[str]], place: Path, reach: Reach, t
         shutil.copy2(mutant.path, copy)
 
 
+def attempt_all(drawn: list[tuple[int, Mutant]], place: Path, reach: Reach, most: float) -> dict[int, Outcome]:
+    """Tries faults one after the other in forks of one process, telling of each; without those that are stale there."""
+    tests = {k: [test for batch in batches(mutant, reach, most) for test in batch] for k, mutant in drawn}
+    files = sorted({test.partition("::")[0] for chosen in tests.values() for test in chosen})
+    limits = {test: LIMIT * (cost + START) for test, (cost, _) in reach.items()}
+    told, screen = place / "told.json", os.dup(sys.stdout.fileno())
+
+    def work(session: Session) -> None:
+        found = {}
+        for k, mutant in drawn:
+            start, copy = time.perf_counter(), place / mutant.path.relative_to(ROOT)
+            copy.write_bytes(mutant.source)  # for processes that tests start
+            os.utime(copy, (10**9 + k, 10**9 + k))  # see `attempt`
+            module = ".".join(copy.relative_to(place).with_suffix("").parts)
+            end, by = session.attempt(tests[k], limits, module, mutant.source)
+            shutil.copy2(mutant.path, copy)
+            if end != "stale":
+                found[k] = end, by if end == "killed" else f"{len(tests[k])} tests, the last {by}"
+                line = f"{k:3} {Outcome(mutant, *found[k])}  ({time.perf_counter() - start:.1f} s)\n"
+                os.write(screen, line.encode())
+        told.write_text(json.dumps(found), "utf-8")
+
+    told.unlink(missing_ok=True)
+    said = run_tests(place, *files, plugins=(Session(work),))[1] if files else []
+    if not told.exists():
+        sys.exit("\n".join(said))
+    chosen = dict(drawn)
+    return {int(k): Outcome(chosen[int(k)], *one) for k, one in json.loads(told.read_text("utf-8")).items()}
+
+
 def reasons() -> dict[tuple[str, str, str], str]:
-    """Why a fault changes nothing a test could see, by its file and its line before and after."""
-    listed = tomllib.loads(EQUIVALENT.read_text("utf-8")).get("mutant", [])
-    return {(entry["file"], entry["line"], entry["becomes"]): entry["because"] for entry in listed}
+    """Why a fault changes nothing a test could see, by its file and its line before and after.
+
+    A reason may hold for several faults of one line; each of them is named.
+    """
+    found: dict[tuple[str, str, str], str] = {}
+    for entry in tomllib.loads(EQUIVALENT.read_text("utf-8")).get("mutant", []):
+        several = entry["becomes"]
+        for one in several if isinstance(several, list) else [several]:
+            found[entry["file"], entry["line"], one] = entry["because"]
+    return found
 
 
 def main() -> None:
@@ -189,6 +240,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
     parser.add_argument("--number", type=int, default=50)
     parser.add_argument("--most", type=float, default=MOST, help="processor seconds of tests for a fault")
+    parser.add_argument("--doubt", action="store_true", help="try what is explained too: a reason may be none")
     parser.add_argument("--only", nargs="*", type=int, help="of the faults drawn, these: to try survivors again")
     given = parser.parse_args()
     given.kept.mkdir(parents=True, exist_ok=True)
@@ -205,17 +257,21 @@ def main() -> None:
         drawn = random.Random(given.seed).sample(list(population(ROOT / "ptmcalc")), given.number)
         ends: collections.Counter[str] = collections.Counter()
         print(f"seed {given.seed}: {given.number} faults", flush=True)
-        for k, mutant in enumerate(drawn):
-            if given.only and k not in given.only:
-                continue
-            start, key = time.perf_counter(), (mutant.path.relative_to(ROOT).as_posix(), *mutant.lines)
-            outcome = (
-                Outcome(mutant, "equivalent", known[key])
-                if key in known
-                else attempt(mutant, batches(mutant, reach, given.most), place, reach, 10**9 + k)
-            )
-            ends[outcome.end] += 1
-            print(f"{k:3} {outcome}  ({time.perf_counter() - start:.0f} s)", flush=True)
+        chosen = [(k, mutant) for k, mutant in enumerate(drawn) if not given.only or k in given.only]
+        keys = {k: (mutant.path.relative_to(ROOT).as_posix(), *mutant.lines) for k, mutant in chosen}
+        for k, mutant in chosen:
+            if keys[k] in known and not given.doubt:
+                ends["equivalent"] += 1
+                print(f"{k:3} {Outcome(mutant, 'equivalent', known[keys[k]])}", flush=True)
+        open_ones = [(k, mutant) for k, mutant in chosen if keys[k] not in known or given.doubt]
+        found = attempt_all(open_ones, place, reach, given.most)
+        for k, mutant in open_ones:
+            if k not in found:
+                start = time.perf_counter()
+                found[k] = attempt(mutant, batches(mutant, reach, given.most), place, reach, 10**9 + 10**4 + k)
+                print(f"{k:3} {found[k]}  ({time.perf_counter() - start:.0f} s)", flush=True)
+            explained = keys[k] in known and found[k].end == "survived"
+            ends["equivalent" if explained else found[k].end] += 1
         caught, counted = ends["killed"] + ends["endless"], sum(ends.values()) - ends["equivalent"]
         print(f"seed {given.seed}: {dict(ends)}, {caught} of {counted} caught")
         sys.exit(caught < 0.95 * counted)

@@ -9,6 +9,8 @@ one float only.
 """
 
 import ast
+import bisect
+import functools
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -48,18 +50,28 @@ class Mutant:
 
     @property
     def source(self) -> bytes:
-        old = self.path.read_bytes()
+        old = _text(self.path)[0]
         return old[: self.start] + self.new + old[self.end :]
 
     @property
     def line(self) -> int:
-        return self.path.read_bytes()[: self.start].count(b"\n") + 1
+        return bisect.bisect_right(_text(self.path)[1], self.start)
 
     @property
     def lines(self) -> tuple[str, str]:
         """The line as it is and as it becomes."""
-        changed = self.source.decode().splitlines()[self.line - 1]
-        return self.path.read_text("utf-8").splitlines()[self.line - 1].strip(), changed.strip()
+        text, starts = _text(self.path)
+        begin = starts[self.line - 1]
+        line = text[begin:].splitlines()[0] if self.line == len(starts) else text[begin : starts[self.line] - 1]
+        changed = line[: self.start - begin] + self.new + line[self.end - begin :]
+        return line.decode().strip(), changed.decode().strip()
+
+
+@functools.cache
+def _text(path: Path) -> tuple[bytes, list[int]]:
+    """The bytes of a file and where each of its lines begins."""
+    text = path.read_bytes()
+    return text, list(itertools.accumulate((len(line) for line in text.splitlines(keepends=True)[:-1]), initial=0))
 
 
 def grown(number: float, factor: bool) -> bytes:

@@ -151,3 +151,65 @@ def test_a_quadrature_over_the_motion_sees_all_of_it() -> None:
     assert np.all(e == 2.0)
     assert np.sum(weights) == pytest.approx(TURN, rel=1e-14)
     assert np.sum(np.sin(angles / 2) * weights) == pytest.approx(4.0, rel=1e-4)
+
+
+def test_what_a_motion_says_of_its_slope() -> None:
+    """de/dphi = -k (e - 5) + cos phi again, at nodes, at those of a quadrature, and how far off it may be."""
+    k = 0.7
+    for order, tolerance in ((4, 1e-3), (6, 1e-5), (12, 1e-12)):
+        g = grid(8).with_order(order)
+        assert (g.order, g.angles.shape) == (order, (8, order))
+        orbit = solve(
+            g, lambda e, g=g: (-k * (e - 5) + np.cos(g.angles), np.full(e.shape, -k)), np.full(g.angles.shape, 3.0)
+        )
+        assert orbit is not None
+
+        def exact(phi: np.ndarray) -> np.ndarray:
+            return 5 + (k * np.cos(phi) + np.sin(phi)) / (1 + k * k)
+
+        def slope(phi: np.ndarray) -> np.ndarray:
+            return (np.cos(phi) - k * np.sin(phi)) / (1 + k * k)
+
+        assert orbit.multiplier == pytest.approx(math.exp(-k * TURN), rel=10 * tolerance)
+        assert orbit.rates == pytest.approx(slope(g.angles), abs=3 * tolerance)
+        assert orbit.rates == pytest.approx(-k * (orbit.nodes - 5) + np.cos(g.angles), abs=1e-12)
+        angles, energies, weights = orbit.sample(7)
+        assert orbit.derivative(7) == pytest.approx(slope(angles), abs=3 * tolerance)
+        assert energies == pytest.approx(exact(angles), abs=tolerance)
+        assert weights.sum(axis=1) == pytest.approx(g.lengths, rel=1e-14)
+        places = np.linspace(0, 1, 41)
+        away = np.abs(orbit.within(places) - exact(g.edges[:-1, None] + g.lengths[:, None] * places)).max(axis=1)
+        assert np.all(away <= orbit.tail() + 1e-13)
+        if order < 12:
+            assert np.all(orbit.tail() <= 3000 * away)
+
+
+def test_a_corner_at_an_edge_is_the_summit_and_nothing_beyond_it() -> None:
+    """e rises and falls in straight lines: the largest is that of the edge between them, the smallest those outside."""
+    g = Grid(np.array([0.0, 1.3, 2.9]), 5)
+    slopes = np.array([0.7, -0.4])[:, None]
+    for sign in (1.0, -1.0):
+        rates = np.broadcast_to(sign * slopes, g.angles.shape)
+        orbit = solve(g, lambda e, rates=rates: (rates.copy(), np.zeros(e.shape)), np.full(g.angles.shape, 4.0), 4.0)
+        assert orbit is not None
+        low, high = orbit.extremes()
+        if sign < 0:
+            low, high = high, low
+        assert high == pytest.approx((4.0 + sign * 0.91, 1.3), rel=1e-13)
+        assert low == pytest.approx((4.0, 0.0), rel=1e-13)
+
+
+@pytest.mark.parametrize("stretches", [2, 3, 8])
+@pytest.mark.parametrize("phase", [0.0, 0.4, 2.2])
+def test_summits_between_the_places_looked_at_are_exact(stretches: int, phase: float) -> None:
+    """e = 5 + cos(phi - p - q)/(1 + k^2)^(1/2), tan q = 1/k, for de/dphi = -k (e - 5) + cos(phi - p)."""
+    k, g = 0.7, grid(stretches, 24)
+    orbit = solve(
+        g, lambda e: (-k * (e - 5) + np.cos(g.angles - phase), np.full(e.shape, -k)), np.full(g.angles.shape, 3.0)
+    )
+    assert orbit is not None
+    (low, low_at), (high, high_at) = orbit.extremes()
+    size, late = 1 / math.sqrt(1 + k * k), phase + math.atan(1 / k)
+    assert (low, high) == pytest.approx((5 - size, 5 + size), rel=1e-13)
+    assert high_at % TURN == pytest.approx(late % TURN, abs=3e-7)
+    assert low_at % TURN == pytest.approx((late + math.pi) % TURN, abs=3e-7)

@@ -4,6 +4,7 @@ Witness: z' = A z, z = (x, v, two force states), by scipy's expm during the puls
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -116,6 +117,55 @@ class TestLargest:
         assert abs(summit.value) == pytest.approx(transform / natural, rel=1e-6)
         assert summit.time > 5.0
 
+    @pytest.mark.parametrize("natural", [0.7, 9.3, 170.0])
+    def test_of_equal_ones_the_first_counts(self, natural: float) -> None:
+        """A force that comes and stays, no damping: x = a/w^2 - (what comes back every period), f = a (1 - exp(-l t)).
+
+        x = a (1/w^2 - exp(-l t)/(w^2 + l^2) - r cos(w t - p)/w),   r = l/(w^2 + l^2)^(1/2)/w,   tan p = w/l
+        """
+        rate = 40 * natural
+        pulse = DecayPulse(natural, 0.0, 0.0, rate, 2.0, 800.0 / natural)
+        summit = pulse.largest()
+        whole = natural**2 + rate**2
+        top = 2.0 * (1 / natural**2 + rate / math.sqrt(whole) / natural**2)
+        assert summit.value == pytest.approx(top, rel=1e-13)
+        assert natural * summit.time == pytest.approx(math.pi + math.atan(natural / rate), rel=1e-9)
+        assert summit.error <= 1e-10 * top
+        assert DecayPulse(natural, 0.0, 0.0, rate, -2.0, 800.0 / natural).largest() == replace(
+            summit, value=-summit.value
+        )
+
+    def test_rounding_of_a_late_summit_grows_with_its_phase(self) -> None:
+        """A million radians of a stiff spring: each may be off by a last digit."""
+        summit = DecayPulse(1000.0, 0.02, 0.001, 0.0011, 1.0, 2000.0).largest()
+        phase = 1000.0 * summit.time
+        assert phase > 9e5
+        assert summit.error >= 1e-12 * summit.value
+        late = DecayPulse(1000.0, 0.02, 1e-6, 1.1e-6, 1.0, 2e6).largest()
+        assert late.error >= np.finfo(float).eps * 1000.0 * late.time * late.value > 1e-11 * late.value
+        assert late.error <= 1e-5 * late.value
+
+    @pytest.mark.parametrize(("natural", "zeta"), [(5.0, 0.0), (60.0, 0.1), (20.0, 0.3)])
+    def test_what_is_behind_a_time_is_bounded(self, natural: float, zeta: float) -> None:
+        """From the inflection of the force on, after twice the time of its crest."""
+        pulse = DecayPulse(natural, zeta, 3.0, 96.0, 2.0, 5.0)
+        inflection = 2 * math.log(96 / 3) / 93
+        assert pulse._most_behind(inflection * 0.999) == math.inf
+        for time in (inflection * 1.001, 0.2, 0.45):
+            for sign in (1.0, -1.0):
+                bound = replace(pulse, acceleration=2.0 * sign)._most_behind(time)
+                behind = float(np.abs(pulse.at(time + np.linspace(0, 4, 20_001))[0]).max())
+                assert behind <= bound
+        for time in (inflection * 1.001, 0.2, 0.45):  # f + what swings about f/w^2, its speed, and 2 zeta f
+            x, v = (float(one) for one in pulse.at(time))
+            f, slope = (
+                2 * (math.exp(-3 * time) - math.exp(-96 * time)),
+                2 * (96 * math.exp(-96 * time) - 3 * math.exp(-3 * time)),
+            )
+            energy = math.hypot(natural**2 * x - f, (natural**2 * v - slope) / natural)
+            expected = (f * (1 + 2 * zeta) + energy + abs(slope) / natural) / natural**2
+            assert pulse._most_behind(time) == pytest.approx(expected, rel=1e-12)
+
     def test_of_nothing_is_nothing(self) -> None:
         for pulse in (DecayPulse(5.0, 0.0, 3.0, 96.0, 0.0, 5.0), DecayPulse(5.0, 0.0, 3.0, 3.0, 1.0, 5.0)):
             assert pulse.largest().value == 0.0
@@ -124,7 +174,8 @@ class TestLargest:
         with pytest.raises(NumericsError, match="no largest deflection"):
             DecayPulse(0.0, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
         with pytest.raises(NumericsError, match="lost its fraction"):
-            DecayPulse(1e15, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+            DecayPulse(2.002e14, 0.0, 3.0, 96.0, 1.0, 5.0).largest()
+        assert DecayPulse(1.998e14, 0.0, 3.0, 96.0, 1.0, 5.0).largest().value > 0
 
     def test_of_the_paper_against_a_general_solver(self) -> None:
         def turn(_: float, y: np.ndarray) -> float:

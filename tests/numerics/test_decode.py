@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import gammaincinv
 
 from ptmcalc.numerics import decode
 
@@ -144,3 +145,52 @@ class TestLine:
         y = 3.0 + scatter * self.DEVIATION * np.array([1, -1, 1, -1, 1])
         fitted, covariance = np.polyfit(self.X, y, 0, w=1 / self.DEVIATION, cov=True if scatter > 1 else "unscaled")
         assert decode.mean(y, self.DEVIATION) == pytest.approx((fitted[0], np.sqrt(covariance[0, 0])), rel=1e-12)
+
+
+@pytest.mark.parametrize(("apart", "taken"), [(3.99, 1), (4.01, 0)])
+def test_stretches_are_taken_as_long_as_twice_their_deviations_have_a_value_in_common(apart: float, taken: int) -> None:
+    fits = np.ones((3, 7, 40))
+    fits[:, 1] = np.array([0.3, 0.3 + apart * 0.7 * 1.1, 50.0])[:, None]
+    fits[:, 3] = 1.1**2
+    assert decode._chosen(fits, 0.7).tolist() == [taken] * 40
+
+
+def test_no_single_sample_stands_out_by_chance() -> None:
+    """The median over fifteen: seven in a row change nothing, eight do."""
+    for count, taken in ((7, 0), (8, 1)):
+        fits = np.zeros((2, 7, 60))
+        fits[:, 3] = 1.0
+        fits[1, 1] = 5.0
+        fits[1, 1, 20 : 20 + count] = 0.0
+        assert int(decode._chosen(fits, 1.0).max()) == taken
+
+
+def test_the_median_of_residuals_is_that_of_chi_squared() -> None:
+    """Nine samples less the four numbers of a cubic leave five degrees of freedom."""
+    assert pytest.approx(2 * float(gammaincinv(2.5, 0.5)) / 5, rel=1e-3) == decode._MEDIAN
+
+
+def test_what_a_stretch_does_not_follow_is_twice_what_it_has_changed_by() -> None:
+    time, speed = corner(0.2)
+    found = decode.fit(time, speed)
+    sizes = (found.last - found.first + 1).tolist()
+    whole = sorted(set(sizes))
+    assert len(whole) >= 4
+    alone = {size: decode.fit(time, speed, size) for size in {9, 13, 19, 27, 39, 57, 83, 121, 177, 259, 379, 555}}
+    shorter = dict(zip(sorted(alone)[1:], sorted(alone), strict=False))
+    looked = 0
+    for k in range(0, len(time), 37):
+        one = alone[sizes[k]]
+        assert found.acceleration[k] == pytest.approx(one.acceleration[k], rel=1e-12)
+        if sizes[k] > 9:
+            changed = one.acceleration[k] - alone[shorter[sizes[k]]].acceleration[k]
+            plain = one.acceleration_variance[k]
+            assert found.acceleration_variance[k] == pytest.approx(plain + 4 * changed**2, rel=1e-9)
+            looked += 1
+    assert looked > 20
+
+
+def test_a_window_too_short_for_a_cubic_is_made_long_enough() -> None:
+    found = decode.fit(TIME, CUBIC(TIME) + np.sin(40 * TIME), 2)
+    assert set((found.last - found.first).tolist()) == {4}
+    assert set((decode.fit(TIME[:12], TIME[:12], 99).last + 1).tolist()) == {12}

@@ -159,7 +159,7 @@ class TestBound:
 
 
 def test_takes_in_three_quarters_of_the_rope_at_once_and_no_more() -> None:
-    for share in (0.747, 0.753):
+    for share in (0.7495, 0.7505):
         even = Map(np.array([0.0, share * 160.0 / 0.15]), np.array([0.15, 0.15]))
         if share < 0.75:
             motion = haul(even, 0.05, ROPE)
@@ -179,3 +179,32 @@ def test_refuses_to_take_in_more_rope_than_there_is() -> None:
         haul(even, 0.996 * speed, ROPE)
     with pytest.raises(NumericsError, match="swings"):
         haul(Map(np.array([0.0, 1.0]), np.array([1e-9, 1e-9])), 1e-6, ROPE)
+
+
+@pytest.mark.parametrize("damping", [0.03, 0.3, 0.6])
+class TestBars:
+    """Of the force from that of the motion: e + 2 z e', where (Y, Y') is wrong by no more than a length."""
+
+    CLIMB = Map(np.array([0.0, 2.0, 14.0]), np.array([0.15, 0.15, 0.162]))
+
+    def test_of_the_force_hold_the_worst_phase_and_little_more(self, damping: float) -> None:
+        motion = haul(self.CLIMB, SPEED, replace(ROPE, length=40.0, damping_ratio=damping))
+        size = (ROPE.rate * float(motion.lengths[-1])) ** 0.25
+        drift = SPEED * 0.162 / (1 + STATIC) / 4 / size**2
+        phases = np.linspace(0, 2 * math.pi, 4001)
+        worst = np.abs(np.cos(phases) + 2 * damping * (np.sin(phases) + drift * np.cos(phases))).max() / size
+        told = float(motion.bar(motion.times[-1])) / float(motion.error[-1])
+        assert worst <= told <= worst * (1 + damping) * (1 + 1e-5)
+
+    def test_of_a_bound_are_a_jump_of_the_offset_in_the_worst_phase(self, damping: float) -> None:
+        """Nothing swings before the climb, so it sets off a swing of its offset: cos and sin of a damped one, at most
+        as large as it begins with, and its force."""
+        slow = 0.02 * SPEED
+        rope = replace(ROPE, length=400.0, damping_ratio=damping)
+        motion, bound = haul(self.CLIMB, slow, rope), largest_possible(self.CLIMB, slow, rope)
+        rise = slow * slow * 0.012 / 12.0 / ROPE.rate
+        assert float(motion.offsets[-1]) == pytest.approx(rise, rel=1e-12)
+        swing = math.hypot(1, damping / math.sqrt(1 - damping**2)) * math.hypot(1, 2 * damping)
+        fourth_root = (float(motion.lengths[1]) / float(motion.lengths[2])) ** 0.25
+        assert bound == pytest.approx(rise * (1 + swing * fourth_root) + float(motion.bar(motion.times[-1])), rel=3e-4)
+        assert motion.extremes()[0].value <= bound

@@ -56,6 +56,11 @@ class TestRoot:
     def test_of_a_line(self, place: float, steep: float) -> None:
         assert panels.root(steep * (place - panels.NODES), 0.0, 1.0) == pytest.approx(place, abs=1e-15)
 
+    @pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+    def test_what_does_not_change_its_sign_has_its_ends(self, size: float) -> None:
+        assert panels.root(size * (1.7 - panels.NODES), 0.1, 0.9) == 0.9
+        assert panels.root(size * (panels.NODES - 1.7), 0.1, 0.9) == 0.1
+
     @pytest.mark.parametrize("seed", range(40))
     def test_of_random_polynomials(self, seed: int) -> None:
         p = random_polynomial(seed)

@@ -126,3 +126,37 @@ def test_what_cannot_be_followed_is_said() -> None:
     phase = Phase(lambda t, a, w: np.full(w.shape, np.nan), marks(), until_time=1.0)
     with pytest.raises(NumericsError):
         follow(phase, State(0.0, 0.0, 1.0), 7, 1e-8)
+
+
+@pytest.mark.parametrize("unit", [1e-7, 1.0, 1e5])
+def test_a_slow_motion_is_followed_as_well_as_a_fast_one(unit: float) -> None:
+    """A pendulum over the top in other units of time: the same steps, each as long in its own unit."""
+    whole = follow(Phase(lambda t, a, w: -9.0 * np.sin(a), marks(), until_angle=9.0), State(0.0, 0.0, 7.0), 7, 1e-7)
+    phase = Phase(lambda t, a, w: -9.0 * unit**2 * np.sin(a), marks(), until_angle=9.0)
+    done = follow(phase, State(0.0, 0.0, 7.0 * unit), 7, 1e-7)
+    assert len(done.steps) == len(whole.steps)
+    assert done.end.time * unit == pytest.approx(whole.end.time, rel=1e-11)
+    assert done.end.speed / unit == pytest.approx(whole.end.speed, rel=1e-11)
+    assert done.end.speed**2 / 2 == pytest.approx(unit**2 * (24.5 - 9 + 9 * math.cos(9.0)), rel=1e-5)
+
+
+def test_a_torque_that_goes_by_the_angle_is_no_harder_than_one_that_goes_by_the_speed() -> None:
+    """w' = -400 a is linear too: one Jacobian and one step of Newton's method for each step of the motion."""
+    phase = Phase(lambda t, a, w: -400.0 * a, marks(), until_time=0.07)
+    done = follow(phase, State(0.0, 0.1, 30.0), 11, 1e-9)
+    assert done.end.angle == pytest.approx(0.1 * math.cos(1.4) + 1.5 * math.sin(1.4), rel=1e-9)
+    assert done.end.speed == pytest.approx(30.0 * math.cos(1.4) - 2.0 * math.sin(1.4), rel=1e-9)
+    assert done.evaluations <= 6 * 11 * len(done.steps)
+
+
+def test_a_torque_whose_last_digits_are_noise_is_followed_to_them() -> None:
+    """Nothing converges below the noise of what is asked: that is no reason to make steps shorter and shorter."""
+
+    def noisy(t: np.ndarray, a: np.ndarray, w: np.ndarray) -> np.ndarray:
+        return -0.5 * w * (1 + 3e-13 * np.sin(1e17 * w))
+
+    done = follow(Phase(noisy, marks(), until_time=3.7), State(0.0, 1.0, 8.0), 11, 1e-9)
+    clean = follow(Phase(lambda t, a, w: -0.5 * w, marks(), until_time=3.7), State(0.0, 1.0, 8.0), 11, 1e-9)
+    assert done.end.speed == pytest.approx(8 * math.exp(-1.85), rel=1e-9)
+    assert len(done.steps) == len(clean.steps)
+    assert done.evaluations <= 4 * clean.evaluations

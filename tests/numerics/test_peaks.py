@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ptmcalc.numerics.peaks import largest, smallest
+from ptmcalc.numerics.peaks import gap, largest, smallest
 
 
 @pytest.mark.parametrize("shift", np.linspace(0, 0.999, 7))
@@ -56,3 +56,71 @@ def test_ends_of_the_window_count() -> None:
     ramp = np.arange(20.0)
     assert largest(ramp, 1.0) == (19.0, 19.0)
     assert smallest(ramp, 1.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_two_parabolas_that_meet_within_a_cell_are_seen_exactly(seed: int) -> None:
+    """A rising one and a falling one, each bent downward: their crossing, or the vertex of either beside it."""
+    rng = np.random.default_rng(seed)
+    step, corner, height = 10 ** rng.uniform(-2, 1), rng.uniform(5.05, 8.95), rng.normal()
+    up, down = rng.uniform(0.05, 3.0, 2)
+    bend, other = -(10 ** rng.uniform(-3, 0, 2))
+    x = np.arange(15.0)
+
+    def signal(at: np.ndarray) -> np.ndarray:
+        t = at - corner
+        return height + np.where(t < 0, up * t + bend * t * t, -down * t + other * t * t)
+
+    value, time = largest(signal(x), step)
+    assert value == pytest.approx(height, rel=1e-11, abs=1e-11)
+    assert time == pytest.approx(corner * step, rel=1e-7)
+    assert smallest(-signal(x), step) == (-value, time)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_the_vertex_of_one_parabola_is_exact_to_rounding(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    step, top, height, bend = 10 ** rng.uniform(-2, 1), rng.uniform(3.02, 10.98), rng.normal(), -rng.uniform(0.1, 3)
+    value, time = largest(height + bend * (np.arange(15.0) - top) ** 2, step)
+    assert value == pytest.approx(height, rel=1e-12, abs=1e-12)
+    assert time == pytest.approx(top * step, rel=1e-7)
+
+
+def test_a_side_that_bends_upward_goes_on_straight() -> None:
+    """Left of the corner t + t^2/4 from below: the last cord, not the parabola, which would overshoot."""
+    x = np.arange(14.0)
+    corner = 6.4
+    signal = np.where(x < corner, 0.05 * x**2, 4.0 - 0.5 * (x - corner))
+    left = 0.05 * 36 + 0.05 * (36 - 25) * (np.linspace(0, 1, 200_001))
+    right = 4.0 - 0.5 * (6 + np.linspace(0, 1, 200_001) - corner)
+    expected = np.minimum(left, right).max()
+    assert largest(signal, 1.0)[0] == pytest.approx(max(expected, signal.max()), rel=1e-5)
+
+
+def test_few_samples_are_what_is_known() -> None:
+    assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0]), 0.5) == (3.1, 1.0)
+    assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0, -0.1]), 0.5)[0] >= 3.1
+
+
+def test_the_distance_from_the_range_of_others_beside() -> None:
+    others = np.array([0.0, 1.0, 4.0, 2.0, -3.0, 0.5])
+    assert gap(others, others, 0) == 0.0
+    assert gap(others[[1, 1, 2, 2, 4, 4]] + 0.3, others, 1) == pytest.approx(0.3, rel=1e-12)  # 4.3 over 1 to 4
+    assert gap(others - 7.0, others, 0) == pytest.approx(7.0, rel=1e-15)
+    assert gap(np.array([9.0, 0, 0, 0, 0, 0]), others, 2) == pytest.approx(5.0, rel=1e-15)  # over 0, 1 and 4
+    assert gap(np.array([9.0, 0, 0, 0, 0, 0]), others, 1) == pytest.approx(8.0, rel=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_vertex_beside_a_corner_in_its_cell_is_seen_exactly(seed: int, mirrored: bool) -> None:
+    """A parabola turns, and breaks off before the next sample."""
+    rng = np.random.default_rng(seed)
+    top, bend, height = 6 + rng.uniform(0.15, 0.4), -rng.uniform(0.2, 2.0), rng.normal()
+    corner, down, other = 6 + rng.uniform(0.6, 0.9), rng.uniform(3.0, 9.0), -rng.uniform(0.01, 0.3)
+    x = np.arange(14.0)
+    behind = height + bend * (corner - top) ** 2 - down * (x - corner) + other * (x - corner) ** 2
+    signal = np.where(x < corner, height + bend * (x - top) ** 2, behind)
+    value, time = largest(signal[::-1] if mirrored else signal, 0.25)
+    assert value == pytest.approx(height, rel=1e-11, abs=1e-11)
+    assert time == pytest.approx(0.25 * (13 - top if mirrored else top), rel=1e-6)

@@ -89,6 +89,18 @@ def test_tension_of_a_sagging_cell_is_a_root_of_its_cubic(off: float) -> None:
     assert sagging._tension(target, lump, last, last) == pytest.approx(roots, rel=2e-13)
 
 
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.83])
+@pytest.mark.parametrize("turn", [3.0, -0.7])
+def test_what_a_corner_adds_to_the_samples_beside_it(share: float, turn: float) -> None:
+    """A wave that changes its slope within a cell: a quarter of step times change, what one in the middle rises."""
+    wave = 1.3 + 0.2 * np.arange(12.0) - turn * np.maximum(np.arange(12.0) - 5 - share, 0.0)
+    for beside in (5, 6):
+        assert strand._bend(wave, beside) == pytest.approx(abs(turn) / 4, rel=1e-12)
+    assert strand._bend(wave, 2) == pytest.approx(0.0, abs=1e-14)
+    assert strand._bend(wave[4:], 1) == pytest.approx(abs(turn) / 4, rel=1e-12), "at the beginning as well"
+    assert strand._bend(wave[:3], 1) == 0.0
+
+
 @pytest.mark.parametrize("power", [1, 2, 3, 9])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_event_inside_a_step_is_a_root(power: int, sign: float) -> None:
@@ -222,6 +234,7 @@ class TestAgainstFiniteElements:
         straight = march(loop(rigid=rigid, on=on, off=off, tail_tension=tail), step(force), window, grid(200, 1e-3))
         peak = motion.largest(motion.run_on)[0]
         assert abs(straight.largest(straight.run_on)[0] - peak) > 0.02 * force  # sag matters here
+        assert motion.cell_updates == (motion.grid.carry + motion.grid.back) * (len(motion.times) - 1)
         assert peak == pytest.approx(mesh["run_on"].max(), rel=0.005)
         assert motion.back_min.value == pytest.approx(mesh["all"][count[0] :].min(), rel=0.03)
         assert motion.back_max.value == pytest.approx(mesh["all"][count[0] :].max(), rel=0.06)

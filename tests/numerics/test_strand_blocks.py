@@ -174,3 +174,30 @@ class TestPanels:
         grid = Grid(0.02, 70, 70, 0.0, 7)
         samples = np.sin(3 * np.arange(71) * grid.step)
         assert strand.between(samples, grid, when) == pytest.approx(np.sin(3 * when), abs=1e-11)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_best_pair_is_that_of_all(seed: int) -> None:
+    """Of numbers without any order; those at the beginning stand for a strand at rest, where every pair is one."""
+    rng = np.random.default_rng(seed)
+    cells, last = int(rng.integers(1, 12)), int(rng.integers(1, 30))
+    one, other = rng.normal(size=(2, 2 * cells + last + 3))
+    found = strand.best_pair(one, other, cells, last)
+    u, v = np.meshgrid(np.arange(len(one)), np.arange(len(other)), indexing="ij")
+    meet = (np.abs(u - v) <= cells) & (u + v >= cells) & (u + v - cells <= last)
+    assert meet[found]
+    if seed % 2:  # the best of the pairs after rest
+        one[: cells + 1] = other[: cells + 1] = -9.0
+        found = strand.best_pair(one, other, cells, last)
+        meet &= (u > cells) | (v > cells)
+        both = np.where(meet, one[:, None] + other, -np.inf)
+        if both.max() > -9.0:
+            assert one[found[0]] + other[found[1]] == both.max()
+
+
+def test_a_history_ends_with_its_last_sample() -> None:
+    samples = np.arange(22.0) ** 2
+    grid = Grid(0.5, 21, 21, 0.0, 7)
+    assert strand.between(samples, grid, np.array([0.0, 3.5, 7.0, 10.25, 10.5])) == pytest.approx(
+        [0.0, 49.0, 196.0, 20.5**2, 441.0], rel=1e-12, abs=1e-10
+    )
