@@ -11,6 +11,7 @@ import typer
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.words import shown
 from ptmcalc.cli.decode import decode
 from ptmcalc.cli.output import say, steady_streams
 from ptmcalc.cli.policy import (
@@ -100,6 +101,9 @@ StoreOption = Annotated[
         "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
     ),
 ]
+RepairsOption = Annotated[
+    bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
+]
 ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
 
 
@@ -117,7 +121,7 @@ def main() -> None:
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
         say(
-            f"ptmcalc: internal error: {type(error).__name__}: {error}\n"
+            f"ptmcalc: internal error: {type(error).__name__}: {shown(str(error))}\n"
             "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
             " command under PTMCALC_TRACEBACK=1.\n",
             err=True,
@@ -145,7 +149,7 @@ def history_with_its_value(words: list[str]) -> list[str]:
 
 
 def _fail(error: UsageError) -> NoReturn:
-    say(f"ptmcalc: {error.message}" + (f" ({error.hint})" if error.hint else "") + "\n", err=True)
+    say(f"ptmcalc: {shown(error.message)}" + (f" ({shown(error.hint)})" if error.hint else "") + "\n", err=True)
     sys.exit(EXIT_USAGE)
 
 
@@ -191,9 +195,7 @@ def check(
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
     budget: BudgetOption = "60 s",
-    repairs: Annotated[
-        bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
-    ] = True,
+    repairs: RepairsOption = True,
     history: Annotated[
         list[str] | None,
         typer.Option(
@@ -242,7 +244,7 @@ def check(
             for name in courses:
                 write(Path(name), [histories.render(reports)])
         for piece in rendered(chosen, reports, verbose, to_terminal=terminal):
-            say(piece)
+            say(piece, commands=chosen is Format.GITHUB)
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
@@ -322,6 +324,7 @@ def diff(
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
+    repairs: RepairsOption = True,
     jobs: JobsOption = "auto",
     store: StoreOption = "",
 ) -> None:
@@ -332,8 +335,8 @@ def diff(
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), accuracy, _effects(effects))
-    raise typer.Exit(show_diff(old, new, options, jobs, store, form.value))
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
+    raise typer.Exit(show_diff(old, new, options, jobs, store, form.value, repairs=repairs))
 
 
 @app.command()

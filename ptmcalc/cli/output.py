@@ -1,10 +1,14 @@
 """What the commands print, on streams that may be closed early or cannot show every character."""
 
 import os
+import re
 import sys
 from io import TextIOWrapper
 
 import typer
+
+_COMMAND = re.compile(r"^[^\S\n]*::|##(?=\w*\[)", re.MULTILINE)
+"""Of GitHub; of GitHub, Azure and TeamCity."""
 
 
 def steady_streams() -> None:
@@ -15,8 +19,14 @@ def steady_streams() -> None:
             stream.reconfigure(encoding=None if chosen else "utf-8", errors="replace")
 
 
-def say(text: str, *, err: bool = False) -> None:
-    """Print a text as it is. A reader that has gone away (`| head`) changes no exit status."""
+def say(text: str, *, err: bool = False, commands: bool = False) -> None:
+    """Print a text. A reader that has gone away (`| head`) changes no exit status.
+
+    CI servers read what is printed: a line that begins as a command to them, of a file or a machine that is called
+    so, gets a backslash in front of it, unless the text holds `commands` of ours.
+    """
+    if not commands:
+        text = _COMMAND.sub(r"\\\g<0>", text)
     try:
         typer.echo(text, nl=False, err=err)
     except BrokenPipeError:

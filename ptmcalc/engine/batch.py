@@ -28,6 +28,7 @@ from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import foresee
 from ptmcalc.engine.store import Record, Store, packed
 from ptmcalc.text.document import MAX_BYTES
+from ptmcalc.text.source import beginning_of
 
 CHUNK = 0.5
 """Predicted seconds of work that go out together: enough to make the way worth while, little enough to share evenly."""
@@ -353,7 +354,6 @@ def predicted(raw: bytes, options: Options) -> float:
 
 def _read(path: Path) -> bytes | None:
     try:
-        with path.open("rb") as file:
-            return file.read(MAX_BYTES + 1)
+        return beginning_of(path, MAX_BYTES + 1)
     except OSError:
         return None

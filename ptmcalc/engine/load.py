@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,8 @@ from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.problems import problems_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of
-from ptmcalc.text.document import MAX_BYTES, Document, Unread, parse
+from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
+from ptmcalc.text.source import beginning_of
 
 _LIKE_A_CODE = re.compile(r"[A-Za-z]{3}[0-9][0-9A-Za-z]*")
 
@@ -39,8 +41,7 @@ class Loaded:
 def load_file(path: Path, name: str, effects: Mapping[str, str] | None = None, accuracy: str = "") -> Loaded:
     """Read one design file; `effects` and `accuracy` replace what the file says of them."""
     try:
-        with path.open("rb") as file:
-            raw = file.read(MAX_BYTES + 1)
+        raw = beginning_of(path, MAX_BYTES + 1)
     except OSError as error:
         reason = error.strerror or str(error)
         problem = Diagnostic("TXT101", f"the file cannot be read: {reason}", hint="check the path and its permissions")
@@ -95,15 +96,26 @@ def _read(
         data["effects"] = {**data.get("effects", {}), **effects}
     if accuracy:
         data["accuracy"] = accuracy
-    problems = list(_open_key_problems(kind, data, document))
-    open_keys = {found.path for found in problems}
-    problems += _unknown_waivers(kind, data, document)
+    open_problems = list(islice(_open_key_problems(kind, data, document), MAX_FAULTS + 1))
+    open_keys = {found.path for found in open_problems}
+    found: Iterator[Diagnostic] = chain(open_problems, _unknown_waivers(kind, data, document))
     spec = None
     try:
         spec = kind.spec.model_validate(data)
     except ValidationError as error:
-        problems += [found for found in problems_of(error, kind.spec, document) if found.path[:2] not in open_keys]
-    return kind, spec, problems
+        faults = problems_of(error, kind.spec, document)
+        found = chain(found, (fault for fault in faults if fault.path[:2] not in open_keys))
+    return kind, spec, list(_as_many_as_are_read(found))
+
+
+def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
+    """The first faults; a hint for each of fifty thousand would take longer than any check."""
+    told = None
+    for told in islice(found, MAX_FAULTS):
+        yield told
+    if told is not None and next(found, None) is not None:
+        reason = f"the file has more than {MAX_FAULTS} faults besides those of its text"
+        yield Diagnostic("TXT108", reason, told.span, hint="mend those that are told first")
 
 
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:

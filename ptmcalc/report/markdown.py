@@ -46,6 +46,13 @@ def escape(text: str) -> str:
     return _ACTIVE.sub(inert, text)
 
 
+def code(text: str) -> str:
+    """Text in the letters of code: between more backticks than it holds itself, and no end of a cell."""
+    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
+    space = " " * (len(fence) > 1)
+    return f"{fence}{space}{text.replace('|', chr(92) + '|')}{space}{fence}"
+
+
 def _files(reports: tuple[FileReport, ...]) -> str:
     if not reports:
         return ""
