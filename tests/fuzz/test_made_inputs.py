@@ -11,7 +11,7 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import fuzz
-from support.fuzz import MAKERS, failures, made, said, sound, trees, written
+from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, made, said, slots, sound, trees, written
 
 from ptmcalc.engine import load
 from ptmcalc.report import json as report_json
@@ -28,6 +28,41 @@ def test_no_input_breaks_the_program_or_hangs_it(first: int) -> None:
 @pytest.mark.parametrize("first", range(IN_CI, ALL, 10_000))
 def test_no_input_of_a_million_breaks_the_program_or_hangs_it(first: int) -> None:
     assert failures(range(first, min(first + 10_000, ALL))) == []
+
+
+# -- every key in every wrong form ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_no_key_of_any_kind_breaks_the_program_in_a_wrong_form(part: int) -> None:
+    """A mapping, a list, a list of mappings, and one of the others in turn."""
+    worst = ({}, [], [{}])
+    for number, slot in enumerate(slots()):
+        if number % 4 == part:
+            for raw in in_wrong_forms(slot, (*worst, FORMS[number // 4 % len(FORMS)])):
+                found = load.load_text(raw, "fuzz.yaml")
+                assert found.spec is not None or found.diagnostics, slot
+
+
+@pytest.mark.study
+@pytest.mark.parametrize("part", range(20))
+def test_no_key_of_any_kind_breaks_the_program_in_any_form(part: int) -> None:
+    for slot in slots()[part::20]:
+        for raw in in_wrong_forms(slot):
+            assert said(raw).status in (0, 1, 2, 3), slot
+
+
+def test_the_wrong_forms_are_of_every_key() -> None:
+    """A key of a scene, of one of several types of a block, of a part by name, and of a check are among them."""
+    keys = {".".join(map(str, path)) for _, path, _ in slots()}
+    assert keys >= {
+        "scenes.0.name",
+        "waive.0.until",
+        "checks.irregularity",
+        "inertia.crank_radius",
+        "drives.part.delay",
+    }
+    assert len(keys) > 500
 
 
 # -- YAML of any shape, which hypothesis makes and shrinks ----------------------------------------------------------

@@ -5,6 +5,8 @@ A file with no code is a machine for all that: what looks hostile about it means
 
 from typing import NamedTuple
 
+from support.command import ROOT
+
 BASE = """\
 kind: conveyor
 name: corpus
@@ -528,4 +530,32 @@ SETTINGS = [
     ),
 ]
 
-CASES = [*TEXT, *YAML, *KINDS, *NUMBERS, *SCENES, *SETTINGS]
+
+STACKER = (ROOT / "specs" / "crane_overhead_stacker.yaml").read_text("utf-8")
+
+
+def stacker(*edits: tuple[str, str]) -> bytes:
+    """The overhead stacker of the project with some words replaced."""
+    text = STACKER
+    for old, new in edits:
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text.encode()
+
+
+def stacker_that(scene: str) -> bytes:
+    """The overhead stacker with one scene."""
+    return f"{STACKER.partition('scenes:')[0]}scenes: [{scene}]\n".encode()
+
+
+FOUND = [
+    Case("a mechanism that is a mapping", stacker_that("{type: start, mechanism: {}}"), ("SPC111",)),
+    Case("a mechanism that is a list, which no set holds", stacker_that("{type: brake, mechanism: []}"), ("SPC111",)),
+    Case(
+        "a mast shorter than an atom, so stiff that rounding hides its root",
+        stacker(("length: 6 m  ", "length: 1e-8 m  "), ("  lowest: 0.5 m\n  highest: 5 m\n", "")),
+    ),
+]
+"""What the made inputs found."""
+
+CASES = [*TEXT, *YAML, *KINDS, *NUMBERS, *SCENES, *SETTINGS, *FOUND]

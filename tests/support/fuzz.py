@@ -3,6 +3,7 @@
 Every input has a number from which alone it is made, so a finding is made again by its number.
 """
 
+import copy
 import json
 import random
 import re
@@ -13,8 +14,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
-from types import FrameType
-from typing import Any
+from types import FrameType, UnionType
+from typing import Any, Union, get_args, get_origin
 
 import yaml
 
@@ -27,6 +28,7 @@ from ptmcalc.engine.load import load_text
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import Format, render
 from ptmcalc.report.json import part_of
+from ptmcalc.spec.shape import inner, keys_of, models_of, words_of
 from ptmcalc.text.document import parse
 from support.command import ROOT
 
@@ -601,3 +603,87 @@ def _telling(raw: bytes) -> str:
     known = {line for _, text in sound() for line in text.splitlines()}
     lines = [line[:200] for line in raw.splitlines() if line not in known]
     return "\n".join(f"    {line!r}" for line in lines[:12])
+
+
+# -- every key in every wrong form ----------------------------------------------------------------------------------
+
+FORMS: tuple[Any, ...] = (
+    *(None, True, 0, -1, 1.5, 10**30, "", "x", "nan", "-4 m", "1e15 kg", [], {}, ["x"], [{}], [[]], {"x": {}}),
+    *([None, 1, {"type": []}], {"type": {}}, {"type": "x"}, {"x y": {"at": []}}, ["x"] * 3),
+)
+_DEEPEST = 6
+
+
+Marks = dict[tuple[str | int, ...], str]
+"""What must stand elsewhere for a key to be read: the `type` of the blocks it is in."""
+
+
+@cache
+def slots() -> tuple[tuple[str, tuple[str | int, ...], Marks], ...]:
+    """Every key that a model of any kind has, once for each kind: template, path, marks."""
+    found = []
+    for one in (one for name in kind_names() for one in load_kind(name).manifests):
+        met: set[tuple[str, str]] = set()
+        for model, path, marks in _slots(one.spec, (), {}):
+            if (model, str(path[-1])) not in met:
+                met.add((model, str(path[-1])))
+                found.append((one.template, path, marks))
+    return tuple(found)
+
+
+def _slots(annotation: Any, path: tuple[str | int, ...], marks: Marks) -> Iterator[tuple[str, Any, Marks]]:
+    models = models_of(annotation)
+    for model in models:
+        words = words_of(keys_of(model)["type"].annotation) if len(models) > 1 else []
+        marked = marks | {(*path, "type"): words[0]} if words else marks
+        for key, field in keys_of(model).items():
+            if not (words and key == "type"):
+                yield f"{model.__module__}.{model.__qualname__}", (*path, key), marked
+            if len(path) < _DEEPEST:
+                yield from _slots(field.annotation, (*path, key), marked)
+    held = inner(annotation, 0, None) if not models else None
+    if held is not None:
+        step = "part" if any(get_origin(one) is dict for one in _options(annotation)) else 0
+        yield from _slots(held, (*path, step), marks)
+
+
+def _options(annotation: Any) -> list[Any]:
+    if hasattr(annotation, "__metadata__"):
+        return _options(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, UnionType):
+        return [option for part in get_args(annotation) for option in _options(part)]
+    return [annotation]
+
+
+def in_wrong_forms(slot: tuple[str, tuple[str | int, ...], Marks], forms: tuple[Any, ...] = FORMS) -> Iterator[bytes]:
+    """The template of a kind with one key in every form that it may or may not take."""
+    template, path, marks = slot
+    for form in forms:
+        data = copy.deepcopy(_data_of(template))
+        for place, word in marks.items():
+            _set(data, place, word)
+        _set(data, path, form)
+        yield json.dumps(data).encode()
+
+
+@cache
+def _data_of(template: str) -> Any:
+    return parse(template.encode(), "template").data
+
+
+def _set(data: Any, path: tuple[str | int, ...], value: object) -> None:
+    """A value in data, with whatever is missing on the way."""
+    node = data
+    for step, following in zip(path, (*path[1:], None), strict=True):
+        below: Any = copy.deepcopy(value) if following is None else [] if isinstance(following, int) else {}
+        if isinstance(node, list):
+            if not node:
+                node.append(below)
+        elif following is None or not isinstance(node.get(step), type(below)):
+            node[step] = below
+        if following is None:
+            node[0 if isinstance(node, list) else step] = below
+            return
+        node = node[0 if isinstance(node, list) else step]
+        if not isinstance(node, dict | list):
+            return
