@@ -196,6 +196,9 @@ def check(
     effects: EffectsOption = None,
     budget: BudgetOption = "60 s",
     repairs: RepairsOption = True,
+    validate_only: Annotated[
+        bool, typer.Option("--validate-only", help="Read and validate the files; compute nothing, judge nothing.")
+    ] = False,
     history: Annotated[
         list[str] | None,
         typer.Option(
@@ -229,7 +232,8 @@ def check(
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
+    asked = (tuple(scene or ()), accuracy, _effects(effects), bool(history), _budget(budget), repairs)
+    options = Options(*asked, run=not validate_only)
     counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)

@@ -342,7 +342,7 @@ def predicted(raw: bytes, options: Options) -> float:
     """Seconds that a text may take, by its plans; only what surrounds the runs where there are none."""
     try:
         loaded = load_text(raw, "", options.effects, options.accuracy)
-        if loaded.kind is None or loaded.spec is None:
+        if loaded.kind is None or loaded.spec is None or not options.run:
             return _AROUND
         made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
         return _AROUND + sum(coming.seconds for coming in foresee(made, budget=options.budget))

@@ -549,8 +549,8 @@ def stacker_that(scene: str) -> bytes:
 
 
 FOUND = [
-    Case("a mechanism that is a mapping", stacker_that("{type: start, mechanism: {}}"), ("SPC111",)),
-    Case("a mechanism that is a list, which no set holds", stacker_that("{type: brake, mechanism: []}"), ("SPC111",)),
+    Case("a mechanism that is a mapping", stacker_that("{type: start, mechanism: {}}"), ("SPC112",)),
+    Case("a mechanism that is a list, which no set holds", stacker_that("{type: brake, mechanism: []}"), ("SPC112",)),
     Case(
         "a mast shorter than an atom, so stiff that rounding hides its root",
         stacker(("length: 6 m  ", "length: 1e-8 m  "), ("  lowest: 0.5 m\n  highest: 5 m\n", "")),
