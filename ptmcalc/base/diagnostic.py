@@ -103,8 +103,9 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         ),
         "TXT108": CodeText(
             "a file beyond its budget",
-            "A file may have 1 MiB, 50 000 nodes with its aliases expanded, and 100 levels.",
-            "Split the file, or remove the nested aliases.",
+            "A file may have 1 MiB, 50 000 nodes with its aliases expanded, 100 levels, 10 000 characters in a key or a"
+            " value, and 1000 faults.",
+            "Split the file, remove the nested aliases, or shorten the text; of many faults mend the first.",
         ),
         "TXT109": CodeText(
             "more than one document",
@@ -125,6 +126,12 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "a document that is not a mapping",
             "A design file is a mapping of keys to values and starts with `kind:`.",
             "Start the file with `kind: conveyor` or another kind of `ptmcalc kinds`.",
+        ),
+        "TXT113": CodeText(
+            "a link that leads out of its folder",
+            "A file found in a folder, or by a pattern, is a link to one outside that folder and its repository. Who"
+            " checks the files of others does not want to have any file of the machine read.",
+            "Name the file itself, or put it into the folder.",
         ),
         "SPC101": CodeText(
             "a missing kind",

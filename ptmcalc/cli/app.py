@@ -11,6 +11,7 @@ import typer
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.words import shown
 from ptmcalc.cli.decode import decode
 from ptmcalc.cli.output import say, say_all, steady_streams
 from ptmcalc.cli.policy import (
@@ -133,6 +134,9 @@ ExecutorOption = Annotated[
 StudyBudgetOption = Annotated[
     str, typer.Option("--budget", help="Predicted time of all points that need a run of their own, e.g. 5min.")
 ]
+RepairsOption = Annotated[
+    bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
+]
 ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
 
 
@@ -150,7 +154,7 @@ def main() -> None:
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
         say(
-            f"ptmcalc: internal error: {type(error).__name__}: {error}\n"
+            f"ptmcalc: internal error: {type(error).__name__}: {shown(str(error))}\n"
             "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
             " command under PTMCALC_TRACEBACK=1.\n",
             err=True,
@@ -178,7 +182,7 @@ def history_with_its_value(words: list[str]) -> list[str]:
 
 
 def _fail(error: UsageError) -> NoReturn:
-    say(f"ptmcalc: {error.message}" + (f" ({error.hint})" if error.hint else "") + "\n", err=True)
+    say(f"ptmcalc: {shown(error.message)}" + (f" ({shown(error.hint)})" if error.hint else "") + "\n", err=True)
     sys.exit(EXIT_USAGE)
 
 
@@ -224,9 +228,10 @@ def check(
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
     budget: BudgetOption = "60 s",
-    repairs: Annotated[
-        bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
-    ] = True,
+    repairs: RepairsOption = True,
+    validate_only: Annotated[
+        bool, typer.Option("--validate-only", help="Read and validate the files; compute nothing, judge nothing.")
+    ] = False,
     history: Annotated[
         list[str] | None,
         typer.Option(
@@ -277,9 +282,8 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
-    options = Options(
-        tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html), _budget(budget), repairs
-    )
+    asked = (tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html))
+    options = Options(*asked, _budget(budget), repairs, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}
     in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
@@ -294,7 +298,7 @@ def check(
                 write(Path(name), [histories.render(reports)])
         if html and not run.interrupted:
             write_pages(html, reports)
-        say_all(rendered(chosen, reports, verbose, to_terminal=terminal))
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal), commands=chosen is Format.GITHUB)
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
@@ -376,6 +380,7 @@ def diff(
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
+    repairs: RepairsOption = True,
     jobs: JobsOption = "auto",
     store: StoreOption = "",
 ) -> None:
@@ -386,8 +391,8 @@ def diff(
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), accuracy, _effects(effects))
-    raise typer.Exit(show_diff(old, new, options, jobs, store, form.value))
+    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
+    raise typer.Exit(show_diff(old, new, options, jobs, store, form.value, repairs=repairs))
 
 
 @app.command()

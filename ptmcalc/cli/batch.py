@@ -185,13 +185,16 @@ def write(path: Path, pieces: Iterable[str]) -> None:
 
 
 def _told(chosen: Chosen) -> list[FileReport]:
-    """Reports of folders and patterns that hold no design file."""
+    """Reports of folders and patterns that hold no design file, and of links that are not followed."""
     told = []
     for word in chosen.empty:
         what = "the folder holds no design file" if Path(word).is_dir() else "no design file is called so"
         left_out = f"; {chosen.excluded} are left out" * bool(chosen.excluded)
         problem = Diagnostic("TXT102", what + left_out, hint="design files end in .yaml or .yml")
         told.append(FileReport(word, diagnostics=(problem,)))
+    for path in chosen.outside:
+        problem = Diagnostic("TXT113", "the link leads out of the folder that is checked", hint="name the file itself")
+        told.append(FileReport(path.as_posix(), diagnostics=(problem,)))
     return told
 
 

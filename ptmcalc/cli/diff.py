@@ -19,6 +19,7 @@ from ptmcalc.engine.check import Options
 from ptmcalc.report import diff, json
 from ptmcalc.report.compare import Entry, FileChange, KeyChange, Pair, Turn, compared, pairs
 from ptmcalc.text.document import MAX_BYTES, Document, parse
+from ptmcalc.text.source import beginning_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,10 +31,13 @@ class _State:
     """in which the paths of the entries are; None of a report, whose files may be others by now"""
 
 
-def show_diff(old: str, new: str, options: Options, jobs: str, store: str, form: str) -> int:
-    """Print what changed; the exit status."""
+def show_diff(old: str, new: str, options: Options, jobs: str, store: str, form: str, *, repairs: bool) -> int:
+    """Print what changed; the exit status. `repairs` are looked for where a check fails that did not."""
     before, after = (_state(Path(path), options, jobs, store) for path in (old, new))
-    changes = [compared(_with_keys(pair, before, after)) for pair in pairs(before.entries, after.entries)]
+    couples = [_with_keys(pair, before, after) for pair in pairs(before.entries, after.entries)]
+    changes = [compared(couple) for couple in couples]
+    if repairs:
+        changes = list(_with_repairs(couples, changes, after, options, jobs, store))
     say(_text(changes, form))
     if any(d["code"] == BROKEN for entry in after.entries for d in entry["diagnostics"]):
         return 4
@@ -65,15 +69,40 @@ def _state(path: Path, options: Options, jobs: str, store: str) -> _State:
         return _State(tuple(read_report(path)["files"]))
     if not path.exists():
         raise UsageError(f"there is no `{path}`", "name two design files, two folders of them, or two JSON reports")
+    folder = path if path.is_dir() else Path()
+    return _State(tuple(_entries([os.fspath(path)], folder, options, jobs, store)), folder)
+
+
+def _entries(paths: list[str], folder: Path, options: Options, jobs: str, store: str) -> Iterator[Entry]:
+    """The parts of the JSON document of some files, by their paths inside a folder."""
     with Run(options, jobs, store, in_json=True) as run:
-        reports = run.reports([os.fspath(path)], (), "", gitignore=True)
+        reports = run.reports(paths, (), "", gitignore=True)
         if run.interrupted:
             raise KeyboardInterrupt
-        entries = []
         for report in reports:
-            inside = Path(report.path).relative_to(path).as_posix() if path.is_dir() else report.path
-            entries.append({"path": inside} | reader.loads(f"{{{json.part_of(report)}"))
-    return _State(tuple(entries), path if path.is_dir() else Path())
+            inside = report.path if folder == Path() else Path(report.path).relative_to(folder).as_posix()
+            yield {"path": inside} | reader.loads(f"{{{json.part_of(report)}")
+
+
+def _with_repairs(
+    couples: list[Pair], changes: list[FileChange], after: _State, options: Options, jobs: str, store: str
+) -> Iterator[FileChange]:
+    """The changes; of files with a check that fails now, and did not, with the values at which it would pass."""
+    failing = [change.path for change in changes if _newly_failing(change)]
+    if not failing or after.folder is None:
+        yield from changes
+        return
+    places = {couple.path: couple.new["path"] for couple in couples if couple.new is not None}
+    paths = [os.fspath(after.folder / places[path]) for path in failing]
+    found = _entries(paths, after.folder, replace(options, repairs=True), jobs, store)
+    mended = {entry["path"]: entry for entry in found}
+    for couple, change in zip(couples, changes, strict=True):
+        entry = mended.get(places.get(couple.path, "")) if change.path in failing else None
+        yield compared(replace(couple, new=entry)) if entry is not None else change
+
+
+def _newly_failing(change: FileChange) -> bool:
+    return any(check.either["verdict"] == "fail" for check in change.turned(Turn.WORSE))
 
 
 def _with_keys(pair: Pair, before: _State, after: _State) -> Pair:
@@ -88,8 +117,7 @@ def _with_keys(pair: Pair, before: _State, after: _State) -> Pair:
 
 def _document(path: Path) -> Document:
     try:
-        with path.open("rb") as file:
-            return parse(file.read(MAX_BYTES + 1), path.as_posix())
+        return parse(beginning_of(path, MAX_BYTES + 1), path.as_posix())
     except OSError:
         return Document(path.as_posix(), None)
 

@@ -64,7 +64,7 @@ def _planlisted(path: str, rows: Sequence[Row]) -> str:
     """The effects of one scene under the solver it comes to."""
     first = rows[0]
     about = show(first["predicted_seconds"], TIME, 2)
-    title = f"{path}  {first['scene']}: {first['solver']}, predicted {about}\n"
+    title = f"{words.printable(path)}  {first['scene']}: {first['solver']}, predicted {about}\n"
     columns = ("effect", "will be", "number", "what it says")
     return title + (listed(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
 

@@ -1,6 +1,7 @@
 """What the commands print, on streams that may be closed early or cannot show every character."""
 
 import os
+import re
 import sys
 from collections.abc import Iterable
 from io import TextIOWrapper
@@ -14,6 +15,9 @@ PLAIN = (
 )
 """What stands for the signs of a table where only ASCII can be shown; no column shifts."""
 
+_COMMAND = re.compile(r"^[^\S\n]*::|##(?=\w*\[)", re.MULTILINE)
+"""Of GitHub; of GitHub, Azure and TeamCity."""
+
 
 def steady_streams() -> None:
     """What a stream cannot encode ends no run; a pipe gets UTF-8 unless somebody chose else."""
@@ -23,8 +27,14 @@ def steady_streams() -> None:
             stream.reconfigure(encoding=None if chosen else "utf-8", errors="replace")
 
 
-def _in_its_signs(text: str, stream: TextIO) -> str:
-    """A text as a stream can show it; what it still cannot is printed as `?`."""
+def _in_its_signs(text: str, stream: TextIO, *, commands: bool) -> str:
+    """A text as a stream can show it; what it still cannot is printed as `?`.
+
+    CI servers read what is printed: a line that begins as a command to them, of a file or a machine that is called
+    so, gets a backslash in front of it, unless the text holds `commands` of ours.
+    """
+    if not commands:
+        text = _COMMAND.sub(r"\\\g<0>", text)
     encoding = stream.encoding or "utf-8"
     try:
         if encoding != "utf-8":
@@ -35,24 +45,24 @@ def _in_its_signs(text: str, stream: TextIO) -> str:
     return text
 
 
-def say_all(pieces: Iterable[str]) -> None:
+def say_all(pieces: Iterable[str], *, commands: bool = False) -> None:
     """Print texts one after the other, as `say` does."""
     if sys.stdout.isatty():
         for piece in pieces:
-            say(piece)
+            say(piece, commands=commands)
         return
     try:
-        sys.stdout.writelines(_in_its_signs(piece, sys.stdout) for piece in pieces)
+        sys.stdout.writelines(_in_its_signs(piece, sys.stdout, commands=commands) for piece in pieces)
         sys.stdout.flush()
     except BrokenPipeError:
         _let_go(sys.stdout)
 
 
-def say(text: str, *, err: bool = False) -> None:
-    """Print a text as it is. A reader that has gone away (`| head`) changes no exit status."""
+def say(text: str, *, err: bool = False, commands: bool = False) -> None:
+    """Print a text. A reader that has gone away (`| head`) changes no exit status."""
     stream = sys.stderr if err else sys.stdout
     try:
-        stream.write(_in_its_signs(text, stream))
+        stream.write(_in_its_signs(text, stream, commands=commands))
         stream.flush()
     except BrokenPipeError:
         _let_go(stream)

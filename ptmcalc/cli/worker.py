@@ -2,12 +2,14 @@
 
 import multiprocessing
 import os
+import shutil
 import signal
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from datetime import date
 from functools import partial
+from multiprocessing.util import get_temp_dir
 from types import TracebackType
 
 from ptmcalc import machines
@@ -57,7 +59,8 @@ def pool(jobs: int, kinds: Iterable[str]) -> Callable[[], Executor]:
         known = kind_names()
         ours = [f"{machines.__name__}.{kind}" for kind in kinds if kind in known]
         context.set_forkserver_preload(["ptmcalc.cli.app", __name__, *ours])
-    return partial(_Pool, jobs, mp_context=context, initializer=_begin)
+    folder = get_temp_dir() if start == "forkserver" else ""
+    return partial(_Pool, jobs, mp_context=context, initializer=_begin, initargs=(folder,))
 
 
 class _Pool(ProcessPoolExecutor):
@@ -73,14 +76,17 @@ class _Pool(ProcessPoolExecutor):
         return super().__exit__(kind, error, trace)
 
 
-def _begin() -> None:
+def _begin(folder: str) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.join,), daemon=True).start()
+        threading.Thread(target=_end_with, args=(parent.join, folder), daemon=True).start()
 
 
-def _end_with(ended: Callable[[], None]) -> None:
-    """A process whose command was killed would wait for work forever."""
+def _end_with(ended: Callable[[], None], folder: str) -> None:
+    """A process whose command was killed would wait for work forever, and the folder in which the processes met,
+    which the command would have deleted, would stay behind."""
     ended()
+    if folder:
+        shutil.rmtree(folder, ignore_errors=True)
     os._exit(1)

@@ -27,7 +27,8 @@ from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import foresee
 from ptmcalc.engine.store import Record, Store, packed
-from ptmcalc.text.document import bytes_of
+from ptmcalc.text.document import MAX_BYTES
+from ptmcalc.text.source import beginning_of
 
 CHUNK = 0.5
 """Predicted seconds of work that go out together: enough to make the way worth while, little enough to share evenly."""
@@ -369,7 +370,7 @@ def predicted(raw: bytes, options: Options) -> float:
     """Seconds that a text may take, by its plans; only what surrounds the runs where there are none."""
     try:
         loaded = load_text(raw, "", options.effects, options.accuracy)
-        if loaded.kind is None or loaded.spec is None:
+        if loaded.kind is None or loaded.spec is None or not options.run:
             return _AROUND
         made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
         return _AROUND + sum(coming.seconds for coming in foresee(made, budget=options.budget))
@@ -381,6 +382,6 @@ def predicted(raw: bytes, options: Options) -> float:
 
 def _read(path: Path) -> bytes | None:
     try:
-        return bytes_of(path)
+        return beginning_of(path, MAX_BYTES + 1)
     except OSError:
         return None

@@ -61,6 +61,8 @@ class Options:
     """whether there is somebody who looks at pictures"""
     budget: float = WORK_BUDGET
     repairs: bool = True
+    run: bool = True
+    """whether anything is computed; else files are read and validated"""
     today: date | None = None
     """the day that waivers are held against; that of the clock when left out"""
 
@@ -105,6 +107,8 @@ def check(loaded: Loaded, options: Options) -> FileReport:
     if loaded.kind is None or loaded.spec is None:
         return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
     kind, spec = loaded.kind, loaded.spec
+    if not options.run:
+        return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed)
     made = plan(kind, spec, chosen_scenes(spec, options.scenes))
     settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)

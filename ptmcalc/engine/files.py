@@ -1,5 +1,6 @@
 """Which files a command is about: names, folders, patterns and lists to design files."""
 
+import itertools
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -8,12 +9,17 @@ from pathlib import Path, PurePath, PurePosixPath
 from typing import TYPE_CHECKING
 
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.words import quote
+from ptmcalc.text.document import MAX_BYTES
+from ptmcalc.text.source import beginning_of
 
 if TYPE_CHECKING:
     from pathspec import GitIgnoreSpec
 
 SUFFIXES = (".yaml", ".yml")
 _IGNORED = ".gitignore"
+_MOST_STARS = 4
+"""Inside one part of a pattern: a name of 255 letters that does not match is tried at each `*` in as many ways."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,11 +33,14 @@ class Excludes:
 
 @dataclass(frozen=True, slots=True)
 class Chosen:
-    """The files of a run, each once; folders and patterns without any; how many were left out."""
+    """The files of a run, each once; folders and patterns without any; how many were left out; links that are not
+    followed."""
 
     files: tuple[Path, ...]
     empty: tuple[str, ...] = ()
     excluded: int = 0
+    outside: tuple[Path, ...] = ()
+    """links in folders that lead out of them, and out of their repository: who named the folder did not name those"""
 
 
 @dataclass(slots=True)
@@ -41,9 +50,12 @@ class _Walk:
     excludes: Excludes
     left_out: int = 0
     found: list[Path] = field(default_factory=list)
+    outside: list[Path] = field(default_factory=list)
+    top: Path = field(default_factory=Path)
 
     def into(self, folder: Path) -> None:
         above: list[_Rules] = []
+        self.top = _top(folder)
         if self.excludes.files:
             above = [rules for place in _above(folder) if (rules := _ignored_in(place))]
         if _said(folder, above, is_folder=True):  # it is named: what leaves it out as a whole does not count
@@ -72,6 +84,8 @@ class _Walk:
                 self.left_out += sum(1 for _ in _all_in(path)) if is_folder else 1
             elif is_folder:
                 self._walk(path, asked, rules)
+            elif entry.is_symlink() and not path.resolve().is_relative_to(self.top):
+                self.outside.append(path)
             else:
                 self.found.append(path)
 
@@ -93,6 +107,7 @@ def chosen_files(paths: Sequence[str], excludes: Excludes, listed: Iterable[str]
     A file that is named, or that a pattern or a list gives, is never left out.
     """
     found: dict[Path, None] = {}
+    outside: dict[Path, None] = {}
     empty: list[str] = []
     left_out = 0
     for word in (name for path in paths for name in ([path] if path != "-" else listed)):
@@ -102,14 +117,19 @@ def chosen_files(paths: Sequence[str], excludes: Excludes, listed: Iterable[str]
             walk.into(path)
             left_out += walk.left_out
             some: Sequence[Path] = walk.found
+            out: Sequence[Path] = walk.outside
         elif not os.path.lexists(path) and has_magic(word):
-            some = [one for one in map(Path, glob(word, recursive=True)) if _is_design_file(one)]
+            matching = [one for one in map(Path, glob(word, recursive=True)) if _is_design_file(one)]
+            top = _top(_without_magic(path))
+            out = [one for one in matching if not one.resolve().is_relative_to(top)]
+            some = [one for one in matching if one not in out]
         else:
-            some = [path]
-        if not some:
+            some, out = [path], []
+        outside |= dict.fromkeys(out)
+        if not some and not out:
             empty.append(word)
         found |= dict.fromkeys(sorted(some, key=by_path))
-    return Chosen(tuple(found), tuple(empty), left_out)
+    return Chosen(tuple(found), tuple(empty), left_out, tuple(outside))
 
 
 def by_path(path: PurePath | str) -> tuple[str, ...]:
@@ -153,9 +173,22 @@ def _above(folder: Path) -> list[Path]:
     return places[top:0:-1]
 
 
+def _top(folder: Path) -> Path:
+    """The top of the repository a folder is in, else the folder itself."""
+    return next(iter(_above(folder)), folder.resolve())
+
+
+def _without_magic(pattern: Path) -> Path:
+    """The folder in which a pattern begins to be one."""
+    return Path(*itertools.takewhile(lambda part: not has_magic(part), pattern.parts))
+
+
 def _spec(lines: Sequence[str]) -> "GitIgnoreSpec | None":
     if not lines:
         return None
+    for line in lines:
+        if any(part.strip("*").count("*") >= _MOST_STARS for part in line.split("/")):
+            raise UsageError(f"the pattern {quote(line)} has too many `*`", "it would be tried in very many ways")
     from pathspec import GitIgnoreSpec
 
     try:
@@ -166,7 +199,7 @@ def _spec(lines: Sequence[str]) -> "GitIgnoreSpec | None":
 
 def _ignored_in(folder: Path) -> _Rules | None:
     try:
-        lines = (folder / _IGNORED).read_text("utf-8", errors="replace").splitlines()
+        lines = beginning_of(folder / _IGNORED, MAX_BYTES).decode("utf-8", "replace").splitlines()
     except OSError:
         return None
     spec = _spec([line for line in lines if line.strip() and not line.startswith("#")])

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,8 @@ from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.problems import problems_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of
-from ptmcalc.text.document import Document, Unread, bytes_of, parse
+from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
+from ptmcalc.text.source import beginning_of
 
 _LIKE_A_CODE = re.compile(r"[A-Za-z]{3}[0-9][0-9A-Za-z]*")
 
@@ -43,7 +45,7 @@ class Loaded:
 def load_file(path: Path, name: str, effects: Mapping[str, str] | None = None, accuracy: str = "") -> Loaded:
     """Read one design file; `effects` and `accuracy` replace what the file says of them."""
     try:
-        raw = bytes_of(path)
+        raw = beginning_of(path, MAX_BYTES + 1)
     except OSError as error:
         reason = error.strerror or str(error)
         problem = Diagnostic("TXT101", f"the file cannot be read: {reason}", hint="check the path and its permissions")
@@ -130,16 +132,27 @@ def _read(document: Document, asked: Mapping[str, Any]) -> tuple[AnyKind | None,
         kind, problems = _type_of(kind, document, data)
     if kind is None:
         return None, None, problems
-    problems = list(_open_key_problems(kind, data, document))
-    open_keys = {found.path for found in problems}
-    problems += _unknown_waivers(kind, data, document)
-    problems += tolerance_problems(kind.spec, data, document)
+    open_problems = list(islice(_open_key_problems(kind, data, document), MAX_FAULTS + 1))
+    open_keys = {found.path for found in open_problems}
+    others = (_unknown_waivers(kind, data, document), tolerance_problems(kind.spec, data, document))
+    found: Iterator[Diagnostic] = chain(open_problems, *others)
     spec = None
     try:
         spec = kind.spec.model_validate(data)
     except ValidationError as error:
-        problems += [found for found in problems_of(error, kind.spec, document) if found.path[:2] not in open_keys]
-    return kind, spec, problems
+        faults = problems_of(error, kind.spec, document)
+        found = chain(found, (fault for fault in faults if fault.path[:2] not in open_keys))
+    return kind, spec, list(_as_many_as_are_read(found))
+
+
+def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
+    """The first faults; a hint for each of fifty thousand would take longer than any check."""
+    told = None
+    for told in islice(found, MAX_FAULTS):
+        yield told
+    if told is not None and next(found, None) is not None:
+        reason = f"the file has more than {MAX_FAULTS} faults besides those of its text"
+        yield Diagnostic("TXT108", reason, told.span, hint="mend those that are told first")
 
 
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:

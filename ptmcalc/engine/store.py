@@ -8,7 +8,6 @@ where that does not hold. The file holds data only: reading one constructs nothi
 import json
 import os
 import sqlite3
-import tempfile
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -67,17 +66,15 @@ def _adapter() -> TypeAdapter[FileReport]:
 
 
 class Store:
-    """A file of results; without a path one that is gone with the process."""
+    """A file of results; without a path one without a name, which is gone with the process however that ends."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path
-        self._passing = None if path else tempfile.TemporaryDirectory(prefix="ptmcalc-")
-        place = path or Path(self._passing.name) / "results"  # type: ignore[union-attr]
         try:
-            self._base = sqlite3.connect(place, timeout=_WAIT, isolation_level=None)
+            self._base = sqlite3.connect(path or "", timeout=_WAIT, isolation_level=None)
             self._prepare(lasting=path is not None)
         except sqlite3.Error as error:
-            raise _unusable(place, error) from None
+            raise _unusable(path, error) from None
 
     def _prepare(self, *, lasting: bool) -> None:
         base = self._base
@@ -106,8 +103,6 @@ class Store:
     def close(self) -> None:
         """Let go of the file."""
         self._base.close()
-        if self._passing:
-            self._passing.cleanup()
 
     def add(self, records: Iterable[tuple[bytes, Record]]) -> None:
         """Keep results under their keys, all of them or none."""
@@ -186,7 +181,7 @@ def is_store(path: Path) -> bool:
 
 
 def _unusable(path: Path | None, error: sqlite3.Error) -> UsageError:
-    name = os.fspath(path) if path else "the temporary folder"
+    name = os.fspath(path) if path else "a file without a name in the temporary folder"
     return UsageError(f"`{name}` cannot be used as a store of results: {error}", "name another, or delete the file")
 
 

@@ -20,6 +20,9 @@ _SERIES_BELOW = 2.0
 _TERMS = 14
 """Of series in (b^4)/(4 k)! for b below 2: the next term is below rounding."""
 _HALVINGS = 2200
+_LEAST, _MOST = 1e-100, 1e100
+"""Frequencies in units of (E J/l^3 over the mass)^(1/2) beyond which none is looked for. A root so soft beside its
+column that rounding hides it swings below any: what comes out is as good as none, and the rounding is told with it."""
 _ROUNDING = 4 * float(np.finfo(float).eps)
 _STEP = 1e-5
 """Relative change of the square of a frequency from which a modal mass is taken."""
@@ -96,8 +99,10 @@ def mast_frequency(mast: Mast, mode: int) -> float:
     scale = math.sqrt(_unit_stiffness(mast)) / math.sqrt(heavy)
     low = high = 1.0
     while _count(mast, high * scale) < wanted:
+        if high > _MOST:
+            return math.inf
         low, high = high, 2 * high
-    while low == high or _count(mast, low * scale) >= wanted:
+    while low == high or (low > _LEAST and _count(mast, low * scale) >= wanted):
         low, high = low / 2, low
     for _ in range(_HALVINGS):
         middle = math.sqrt(low) * math.sqrt(high) if high > 2 * low else (low + high) / 2

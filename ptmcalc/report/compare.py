@@ -63,6 +63,8 @@ class LoadChange:
     old: Number
     new: Number
     move: Move
+    shown_in: str = ""
+    """another unit in which people read it"""
 
     @property
     def relative(self) -> float | None:
@@ -225,7 +227,7 @@ def _loads(old: Entry, new: Entry) -> Iterator[LoadChange]:
         first, second = (Number(one["value"], one["low"], one["high"]) for one in (was, now))
         move = _move(first, second)
         if move is not None:
-            yield LoadChange(key[0], key[1], now["unit"], first, second, move)
+            yield LoadChange(key[0], key[1], now["unit"], first, second, move, now.get("shown_in", ""))
 
 
 def _move(old: Number, new: Number) -> Move | None:

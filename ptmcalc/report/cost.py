@@ -10,6 +10,7 @@ from typing import Any
 from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.cost import Choice, CostReport, Held, LoadCost, Outcome, Role, Setting, total
 from ptmcalc.report import json, words
+from ptmcalc.report.markdown import code
 from ptmcalc.report.table import listing
 
 MARGINS = "margins"
@@ -306,7 +307,7 @@ def _price(choices: Sequence[Choice]) -> str:
 def markdown(reports: Sequence[CostReport]) -> str:
     """The project's own table as the README keeps it."""
     columns, rows = summary(reports)
-    lines = [columns, ["---"] * len(columns), *([f"`{row[0]}`", *row[1:]] for row in rows)]
+    lines = [columns, ["---"] * len(columns), *([code(words.printable(row[0])), *row[1:]] for row in rows)]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 

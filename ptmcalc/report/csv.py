@@ -37,11 +37,11 @@ def _text(rows: Iterable[Iterable[Any]]) -> str:
 
 
 def _rows(report: FileReport) -> Iterator[tuple[Any, ...]]:
-    about = (_safe(report.path), _safe(report.kind), _safe(report.name))
+    about = (safe(report.path), safe(report.kind), safe(report.name))
     if not report.valid:
         for said in (one for one in report.diagnostics if one.severity is Severity.ERROR):
-            key, line = _safe(dotted(said.path)), said.span.line if said.span else ""
-            yield (*about, "invalid", said.code, _safe(said.message), *[""] * 9, key, line, "")
+            key, line = safe(dotted(said.path)), said.span.line if said.span else ""
+            yield (*about, "invalid", said.code, safe(said.message), *[""] * 9, key, line, "")
     for index, (scene, one) in enumerate(words.worst_first(report)):
         value, limit = one.value, one.limit
         numbers = (value.value, value.low, value.high) if value else (None, None, None)
@@ -51,17 +51,17 @@ def _rows(report: FileReport) -> Iterator[tuple[Any, ...]]:
             one.verdict.value,
             one.code,
             one.title,
-            _safe(scene),
-            _safe(one.element),
+            safe(scene),
+            safe(one.element),
             *map(finite, (*numbers, limit.value if limit else None, one.margin, relative)),
             one.quantity.si,
-            _safe(dotted(one.blame.path)),
+            safe(dotted(one.blame.path)),
             one.blame.span.line,
             1 if index == 0 else "",
         )
 
 
-def _safe(text: str) -> str:
+def safe(text: str) -> str:
     """A text that a spreadsheet does not take for a formula."""
     shown = str(words.printable(text))
     return f"'{shown}" if shown.startswith(_FORMULA) else shown

@@ -13,13 +13,16 @@ from ptmcalc.base.units import Quantity, digits
 from ptmcalc.report import json, words
 from ptmcalc.report.compare import CheckChange, Entry, FileChange, KeyChange, LoadChange, Move, Number, Turn
 from ptmcalc.report.drawing import STYLE, new_table, printed, put
-from ptmcalc.report.markdown import escape
+from ptmcalc.report.markdown import code, escape
 
-_QUANTITIES: Mapping[str, Quantity] = {
-    one.si: one
-    for one in (units.FORCE, units.TORQUE, units.TIME, units.ENERGY, units.POWER, units.STRESS, units.STIFFNESS)
-}
-"""How numbers of a unit are shown; those of others in SI units."""
+_QUANTITIES: Mapping[tuple[str, str], Quantity] = {
+    (one.si, ""): one
+    for one in (
+        *(units.FORCE, units.TORQUE, units.TIME, units.ENERGY, units.POWER, units.STRESS, units.STIFFNESS),
+        *(units.MASS, units.LENGTH, units.ANGLE, units.FLOW, units.IMPULSE, units.TORSIONAL_STIFFNESS),
+    )
+} | {(units.ANGULAR_SPEED.si, unit): units.ANGULAR_SPEED for unit in units.ANGULAR_SPEED.display}
+"""How numbers are shown, by their unit and the one they are read in; those of others in SI units."""
 _SIGNS = {"pass": "✅", "fail": "❌", "undecided": "❓", "not_checked": "❓", "waived": "➖", "invalid": "❌"}
 _NOW = {
     "pass": "passes now",
@@ -35,6 +38,8 @@ _WAS = {
     "not_checked": "it was not checked",
     "waived": "it was waived",
 }
+_FAR = 100.0
+"""Times both bars from which nobody wants to know how many."""
 _MOST_KEYS = 20
 _MOST_LOADS = 20
 _MOST_FILES = 50
@@ -71,29 +76,34 @@ def _counted(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def _amount(number: Number, unit: str) -> str:
+def _amount(number: Number, unit: str, shown_in: str = "") -> str:
     if number.value is None:
         return "unlimited"
     low = number.low if number.low is not None else float("-inf")
     high = number.high if number.high is not None else float("inf")
-    return words.amount(Estimate(number.value, low, high), _quantity(unit))
+    return words.amount(Estimate(number.value, low, high), _quantity(unit, shown_in))
 
 
-def _quantity(unit: str) -> Quantity:
-    return _QUANTITIES.get(unit) or Quantity(unit, unit, (unit,), "")
+def _quantity(unit: str, shown_in: str = "") -> Quantity:
+    return _QUANTITIES.get((unit, shown_in)) or Quantity(unit, unit, (unit,), "")
+
+
+def _exact(check: Entry, value: float) -> str:
+    """A number in the unit of a check, without a bar."""
+    return _amount(Number(value, value, value), check["unit"], check.get("shown_in", ""))
 
 
 def _value(check: Entry) -> str:
     if check["value"] is None and not check.get("unbounded"):
         return "no value"
-    return _amount(Number(check["value"], check["low"], check["high"]), check["unit"])
+    return _amount(Number(check["value"], check["low"], check["high"]), check["unit"], check.get("shown_in", ""))
 
 
 def _limit(check: Entry) -> str:
     if check["limit"] is None:
         return ""
     relation = {"at_least": "at least", "at_most": "at most"}.get(check["sense"], check["sense"])
-    return f"{relation} {_amount(Number(check['limit'], check['limit'], check['limit']), check['unit'])}"
+    return f"{relation} {_exact(check, check['limit'])}"
 
 
 def _margin(check: Entry) -> str:
@@ -101,13 +111,18 @@ def _margin(check: Entry) -> str:
     if margin is None:
         return ""
     if not limit:
-        return _amount(Number(margin, margin, margin), check["unit"])
+        return _exact(check, margin)
     return f"{100 * margin / abs(limit) + 0.0:+.1f} %"
 
 
 def _subject(check: Entry) -> str:
     element = check.get("element", "")
     return f"{check['code']} {check['title']}{f': {element}' if element else ''}"
+
+
+def _load_cells(load: LoadChange) -> tuple[str, ...]:
+    numbers = (_amount(one, load.unit, load.shown_in) for one in (load.old, load.new))
+    return load.name, load.scene, *numbers, _share(load), _bars(load)
 
 
 def _share(load: LoadChange) -> str:
@@ -120,7 +135,9 @@ def _bars(load: LoadChange) -> str:
     against = load.against
     if load.move is Move.WITHIN:
         return "within them" if against is None else f"within them ({digits(against, 2)} of both)"
-    return "beyond them" if against is None else f"beyond them ({digits(against, 2)} times both)"
+    if against is None:
+        return "beyond them"
+    return "far beyond them" if against > _FAR else f"beyond them ({digits(against, 2)} times both)"
 
 
 def _key(change: KeyChange) -> str:
@@ -172,10 +189,9 @@ def _draw(console: Console, change: FileChange) -> None:
             drawn.add_row(Text(verdict, style=STYLE[one.either["verdict"]]), *map(Text, cells))
         put(console, drawn)
     if change.told_loads:
-        drawn = new_table("load", "scene", "before", "after", "change", "against the error bars")
+        drawn = new_table("Loads", "load", "scene", "before", "after", "change", "against the error bars")
         for load in change.told_loads:
-            numbers = (_amount(load.old, load.unit), _amount(load.new, load.unit))
-            drawn.add_row(*map(Text, (load.name, load.scene, *numbers, _share(load), _bars(load))))
+            drawn.add_row(*map(Text, _load_cells(load)))
         put(console, drawn)
 
 
@@ -220,17 +236,7 @@ def _review(change: FileChange) -> Iterator[str]:
     clear = [load for load in change.told_loads if load.move is Move.CLEAR]
     if clear:
         heads = ("Load", "Scene", "Before", "After", "Change", "Against the error bars")
-        loads = [
-            (
-                load.name,
-                load.scene,
-                _amount(load.old, load.unit),
-                _amount(load.new, load.unit),
-                _share(load),
-                _bars(load),
-            )
-            for load in clear[:_MOST_LOADS]
-        ]
+        loads = [_load_cells(load) for load in clear[:_MOST_LOADS]]
         yield _markdown_table("Loads that changed beyond their error bars", heads, loads)
     rest = len(change.told_loads) - len(clear)
     more = max(len(clear) - _MOST_LOADS, 0)
@@ -268,10 +274,11 @@ def _judged(change: CheckChange) -> str:
     blame, repair = new["blame"], new.get("repair")
     parts = [f"{sign} {name} {_NOW[new['verdict']]}: {escape(f'{_numbers(new)}; {before}')}."]
     if change.turn is Turn.WORSE:
-        parts.append(f"`{dotted(tuple(blame['path']))}` (line {blame['line']}) governs it.")
+        parts.append(f"{code(dotted(tuple(blame['path'])))} (line {blame['line']}) governs it.")
     if repair:
-        value = words.number(repair["value"], _quantity(repair["unit"]))
-        parts.append(f"It passes with `{dotted(tuple(repair['path']))}` = {escape(value)}.")
+        parts.append(
+            f"It passes with {code(dotted(tuple(repair['path'])))} = {escape(_exact(repair, repair['value']))}."
+        )
     if new.get("reason"):
         parts.append(f"{escape(new['reason'])}.")
     return " ".join(parts)

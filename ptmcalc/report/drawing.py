@@ -29,7 +29,10 @@ GAP = 3
 def printed(write: Callable[[Console], None], width: int, color: bool) -> str:
     """What is written to a console, without spaces at the ends of lines."""
     out = StringIO()
-    write(Console(file=out, width=width, force_terminal=color, no_color=not color, highlight=False))
+    as_written = Console(  # `[red]` in a name is a name
+        file=out, width=width, force_terminal=color, no_color=not color, highlight=False, markup=False, emoji=False
+    )
+    write(as_written)
     return "\n".join(line.rstrip() for line in out.getvalue().split("\n"))
 
 

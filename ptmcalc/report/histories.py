@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from io import StringIO
 
 from ptmcalc.contract.report import FileReport
+from ptmcalc.report.csv import safe
 
 COLUMNS = ("file", "scene", "load", "unit", "time", "value", "over")
 """`time` in s, or what `over` names instead in its SI unit; `value` in the unit of its line, an SI one."""
@@ -20,7 +21,7 @@ def render(reports: Sequence[FileReport]) -> str:
             for load in scene.loads:
                 course = load.history
                 if course is not None:
-                    head = (report.path, scene.name, load.info.name, course.quantity.si)
+                    head = (safe(report.path), scene.name, load.info.name, course.quantity.si)
                     moments = zip(course.times, course.values, strict=True)
                     writer.writerows((*head, time, value, course.over.name) for time, value in moments)
     return out.getvalue()

@@ -8,7 +8,7 @@ from typing import Any
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.base.units import TIME
+from ptmcalc.base.units import ANGULAR_SPEED, TIME, Quantity
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import (
     Amount,
@@ -39,7 +39,12 @@ def _encoder() -> Callable[[Any], str]:
     return lambda value: "".join(pieces(value, 0))
 
 
-_encode = _encoder()
+_encoded = _encoder()
+
+
+def _encode(value: Any) -> str:
+    """JSON in which no servant of a CI server that reads the log finds a command of its own: `##[...]`."""
+    return _encoded(value).replace("##", "#\\u0023")
 
 
 def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -98,7 +103,7 @@ def rows(found: list[dict[str, Any]]) -> str:
 
 def dump(document: Mapping[str, Any]) -> str:
     """JSON text without NaN and Infinity."""
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False).replace("##", "#\\u0023") + "\n"
 
 
 def line(value: Any) -> str:
@@ -219,6 +224,12 @@ def _solver(solver: SolverReport) -> dict[str, Any]:
     }
 
 
+def _unit(quantity: Quantity) -> dict[str, str]:
+    """The SI unit; of a rotational speed, whose unit may also be that of a frequency, what people read it in."""
+    shown_in = {"shown_in": quantity.display[0]} if quantity.dimension == ANGULAR_SPEED.dimension else {}
+    return {"unit": quantity.si} | {key: unit for key, unit in shown_in.items() if unit != quantity.si}
+
+
 def _estimate(estimate: Estimate) -> dict[str, Any]:
     if estimate.bounded:
         return {"value": float(estimate.value), "low": float(estimate.low), "high": float(estimate.high)}
@@ -244,7 +255,7 @@ def _load(load: LoadReport) -> dict[str, Any]:
     entry = {
         "name": load.info.name,
         **_estimate(load.estimate),
-        "unit": load.info.quantity.si,
+        **_unit(load.info.quantity),
         "numerical_error": finite(load.estimate.numerical),
         "model_error": finite(load.estimate.model),
         "solver": load.solver,
@@ -280,7 +291,7 @@ def _check(judgement: Judgement) -> dict[str, Any]:
         "high": finite(value.high) if value else None,
         "limit": finite(limit.value) if limit else None,
         "sense": judgement.sense.value,
-        "unit": judgement.quantity.si,
+        **_unit(judgement.quantity),
         "margin": finite(judgement.margin),
         "blame": _place(judgement.blame),
     }
@@ -293,7 +304,7 @@ def _check(judgement: Judgement) -> dict[str, Any]:
     if judgement.without:
         entry["without"] = list(judgement.without)
     if repair:
-        entry["repair"] = {"path": list(repair.path), "value": finite(repair.value), "unit": repair.quantity.si}
+        entry["repair"] = {"path": list(repair.path), "value": finite(repair.value), **_unit(repair.quantity)}
         if repair.other is not None:
             entry["repair"]["other"] = finite(repair.other)
     return entry

@@ -14,21 +14,32 @@ _ACTIVE = re.compile(r"[\\`*_\[\]|~$<>&@#]|://|www\.", re.IGNORECASE)
 _ENTITIES = {"<": "&lt;", ">": "&gt;", "&": "&amp;", "@": "&#64;", "#": "&#35;"}
 _SIGNS = {"pass": "✅", "fail": "❌", "undecided": "❓", "invalid": "❌"}
 _MOST_ROWS = 200
+_MOST_LETTERS = 60_000
 """A comment of GitHub holds 65 536 characters."""
+_LONGEST = 500
+_HEAD = ("| Verdict | Finding | Place | Said |", "|---|---|---|---|")
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:
     """The comment."""
     shown = words.printable(reports)
     blocks = ["## ptmcalc", escape(words.summary(count(reports))), _files(shown)]
-    left = _MOST_ROWS
+    left, length, more = _MOST_ROWS, sum(map(len, blocks)), 0
     for report in shown:
         rows = [entry for entry in entries(report) if entry.state not in (Verdict.PASS, Severity.NOTE)]
-        if rows and left > 0:
-            blocks += [f"### {escape(report.path)}", _table(rows[:left])]
-        left -= len(rows)
-    if left < 0:
-        blocks.append(f"{-left} more findings are not shown; `ptmcalc check` prints them all.")
+        told = []
+        for row in map(_row, rows[:left]):
+            length += len(row) + 1
+            if length > _MOST_LETTERS:
+                break
+            told.append(row)
+        if told:
+            blocks += [f"### {escape(_cut(report.path))}", "\n".join([*_HEAD, *told])]
+            length += len(blocks[-2]) + len(_HEAD[0]) + len(_HEAD[1])
+        more += len(rows) - len(told)
+        left -= len(told)
+    if more:
+        blocks.append(f"{more} more findings are not shown; `ptmcalc check` prints them all.")
     return "\n\n".join(filter(None, blocks)) + "\n"
 
 
@@ -46,6 +57,13 @@ def escape(text: str) -> str:
     return _ACTIVE.sub(inert, text)
 
 
+def code(text: str) -> str:
+    """Text in the letters of code: between more backticks than it holds itself, and no end of a cell."""
+    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
+    space = " " * (len(fence) > 1)
+    return f"{fence}{space}{text.replace('|', chr(92) + '|')}{space}{fence}"
+
+
 def _files(reports: tuple[FileReport, ...]) -> str:
     if not reports:
         return ""
@@ -53,16 +71,18 @@ def _files(reports: tuple[FileReport, ...]) -> str:
     for report in reports[:_MOST_ROWS]:
         counted = count((report,))
         numbers = (str(counted[key]) for key in ("pass", "fail", "undecided", "not_checked", "waived"))
-        cells = (_SIGNS[report.verdict], escape(report.path), escape(report.kind), *numbers)
+        cells = (_SIGNS[report.verdict], escape(_cut(report.path)), escape(report.kind), *numbers)
         rows.append(f"| {' | '.join(cells)} |")
     if len(reports) > _MOST_ROWS:
         rows.append(f"| | {len(reports) - _MOST_ROWS} more files |  |  |  |  |  |  |")
     return "\n".join(rows)
 
 
-def _table(rows: list[Entry]) -> str:
-    lines = ["| Verdict | Finding | Place | Said |", "|---|---|---|---|"]
-    for entry in rows:
-        cells = (f"**{entry.state.value}**", escape(entry.about), words.place(entry.span), escape(entry.message))
-        lines.append(f"| {' | '.join(cells)} |")
-    return "\n".join(lines)
+def _row(entry: Entry) -> str:
+    said = (escape(_cut(entry.about)), words.place(entry.span), escape(_cut(entry.message)))
+    return f"| **{entry.state.value}** | {' | '.join(said)} |"
+
+
+def _cut(text: str) -> str:
+    """A text of which nobody reads more than the beginning in a comment."""
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"

@@ -4,6 +4,7 @@
 verdict the numbers leave open asks for a `review`, a check without its input is `open`; only what fails has a level.
 """
 
+import os
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import PurePath
@@ -88,7 +89,7 @@ def _result(path: str, entry: Entry, rule: int, fingerprint: str) -> dict[str, A
         "ruleIndex": rule,
         "kind": kind,
         "level": level,
-        "message": {"text": about + entry.message},
+        "message": {"text": (about + entry.message).replace("](", "]\\(")},  # a link is none of ours
         "locations": [location],
         "partialFingerprints": {"ptmcalc/v1": fingerprint},
     }
@@ -104,4 +105,4 @@ def _result(path: str, entry: Entry, rule: int, fingerprint: str) -> dict[str, A
 def _uri(path: str) -> str:
     """A relative reference, or that of an absolute path."""
     pure = PurePath(path)
-    return pure.as_uri() if pure.is_absolute() else quote(pure.as_posix())
+    return pure.as_uri() if pure.is_absolute() else quote(os.fsencode(pure.as_posix()))

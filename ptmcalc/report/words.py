@@ -8,6 +8,7 @@ from typing import Any
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import TIME, Quantity, digits, display_unit, show, unit_of
+from ptmcalc.base.words import shown
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSolver, SceneReport
@@ -19,24 +20,22 @@ _BARS = "▁▂▃▄▅▆▇█"
 
 
 def printable(node: Any) -> Any:
-    """Reports, or texts in lists, in which what a terminal would obey or not show is written as an escape.
+    """Reports, or texts in lists and mappings, in which what a terminal would obey or not show is written as an escape.
 
     Names, keys and values of a file reach the report; an escape sequence or a line break among them must not go on to
     a terminal. JSON has its own escapes and needs none of this.
     """
     if isinstance(node, str):
-        return node if node.isprintable() else "".join(map(_shown, node))
+        return shown(node)
     if isinstance(node, list | tuple):
         return type(node)(map(printable, node))
+    if isinstance(node, dict):
+        return {printable(key): printable(value) for key, value in node.items()}
     if dataclasses.is_dataclass(node) and not isinstance(node, type):
         parts = {field.name: getattr(node, field.name) for field in dataclasses.fields(node)}
         changed = {name: new for name, old in parts.items() if (new := printable(old)) != old}
         return dataclasses.replace(node, **changed) if changed else node
     return node
-
-
-def _shown(char: str) -> str:
-    return char if char.isprintable() else char.encode("unicode_escape").decode()
 
 
 def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
@@ -49,9 +48,9 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
         return "unlimited" if value > 0 else "none"
     if math.isnan(value):
         return "unknown"
-    shown = unit or display_unit(value, quantity)
-    factor = unit_of(shown)[0]
-    suffix = "" if unit or shown == "1" else f" {shown}"
+    chosen = unit or display_unit(value, quantity)
+    factor = unit_of(chosen)[0]
+    suffix = "" if unit or chosen == "1" else f" {chosen}"
     low, high, middle = estimate.low / factor, estimate.high / factor, value / factor
     if not (math.isfinite(low) and math.isfinite(high)):
         return f"{digits(middle)}{suffix} (no bound)"

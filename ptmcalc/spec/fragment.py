@@ -20,6 +20,8 @@ from ptmcalc.spec.fields import Measure, problem
 from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
 
 _NAME = re.compile(r"[\w-]+")
+_MOST_SLIPS = 100
+"""Unknown keys of a block that may mean known ones: what has more is no slip."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,7 @@ class Given:
     def __post_init__(self) -> None:
         known = keys_of(self.model)
         written = {key: value for key, value in self.raw.items() if value is not None}
-        for slip in [key for key in written if key not in known]:
+        for slip in [key for key in written if key not in known][:_MOST_SLIPS]:
             written.setdefault(meant(slip, tuple(known)), written[slip])
         object.__setattr__(self, "_written", written)
 

@@ -12,7 +12,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeGuard
 
@@ -25,8 +24,11 @@ from ptmcalc.base.words import quote
 
 MAX_BYTES = 1 << 20
 MAX_NODES = 50_000
-_USUAL_BYTES = 1 << 14
 MAX_DEPTH = 100
+MAX_SCALAR = 10_000
+"""Characters of a key or a value: reasons go into every report, and no number has as many digits."""
+MAX_FAULTS = 1000
+"""Faults of one form that are told of a file: who has a thousand to mend does not read the next one."""
 
 _Loader = yaml.CBaseLoader if yaml.__with_libyaml__ else yaml.BaseLoader
 
@@ -113,17 +115,6 @@ class _UnreadableError(Exception):
         self.problem = Diagnostic(code, reason, span, hint=hint)
 
 
-def bytes_of(path: Path) -> bytes:
-    """What stands in a file, as far as one more byte than it may have.
-
-    Raises:
-        OSError: it cannot be read.
-    """
-    with path.open("rb") as file:
-        raw = file.read(_USUAL_BYTES)  # room for the largest file costs more than reading a usual one
-        return raw if len(raw) < _USUAL_BYTES else raw + file.read(MAX_BYTES + 1 - _USUAL_BYTES)
-
-
 def parse(raw: bytes, name: str) -> Document:
     """Read one design file; what is wrong with its text comes back in `problems`, nothing is raised."""
     problems: list[Diagnostic] = []
@@ -205,6 +196,9 @@ class _Reader:
             raise _UnreadableError("TXT108", reason, span, hint)
 
     def _say(self, code: str, reason: str, span: Span, path: KeyPath, hint: str) -> None:
+        if len(self.problems) >= MAX_FAULTS:
+            reason, hint = f"the file has more than {MAX_FAULTS} faults of its text", "mend those above first"
+            raise _UnreadableError("TXT108", reason, span, hint)
         self.problems.append(Diagnostic(code, reason, span, path, hint))
 
     def _node(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> _Node:
@@ -219,6 +213,9 @@ class _Reader:
             self._say("TXT107", f"the tag {quote(tag)} is refused", span, path, "delete it: a design file is data")
         node: _Node
         if isinstance(event, yaml.ScalarEvent):
+            if len(event.value) > MAX_SCALAR:
+                reason = f"this has {len(event.value)} characters, more than {MAX_SCALAR}"
+                raise _UnreadableError("TXT108", reason, span, "shorten it")
             node = _Scalar(span, resolve(event.value) if _plain(event) else event.value)
         elif isinstance(event, yaml.SequenceStartEvent):
             node = self._sequence(span, events, path)

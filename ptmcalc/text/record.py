@@ -10,6 +10,7 @@ from typing import NoReturn
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.units import Quantity, UnitError, unit_of, without_commas
 from ptmcalc.base.words import quote, with_article
+from ptmcalc.text.source import beginning_of
 
 MAX_BYTES = 64 << 20
 
@@ -42,8 +43,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """The lines that hold something, with their numbers, split at commas (or at semicolons, if the first line is)."""
     name = path.as_posix()
     try:
-        with path.open("rb") as file:
-            raw = file.read(MAX_BYTES + 1)
+        raw = beginning_of(path, MAX_BYTES + 1)
     except OSError as error:
         raise UsageError(f"{name}: the record cannot be read: {error.strerror or error}", "check the path") from None
     if len(raw) > MAX_BYTES:

@@ -393,9 +393,13 @@ def test_a_run_that_is_killed_twice_and_finished_has_every_result_once(many: Pat
     """kill -9 amid the writing of a record, again, then to the end. A run comes back only when its workers let go of
     its streams: none outlives it."""
 
+    passing = many / "passing"
+    passing.mkdir()
+
     def run(kill: int, *options: str) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "driver.py", str(kill), "check", "specs", "--format", "json", *options]
-        return subprocess.run(command, cwd=many, env=environment(ROOT), capture_output=True, text=True, check=False)
+        env = environment(ROOT, TMPDIR=str(passing))
+        return subprocess.run(command, cwd=many, env=env, capture_output=True, text=True, check=False)
 
     options, before = ("--jobs", jobs, "--store", "results"), 0
     for kill in (3, 5):
@@ -413,3 +417,5 @@ def test_a_run_that_is_killed_twice_and_finished_has_every_result_once(many: Pat
     assert base.execute("pragma integrity_check").fetchall() == [("ok",)]
     assert base.execute("select count(*), count(distinct key) from result").fetchone() == (MANY, MANY)
     base.close()
+    assert run(3, "--jobs", jobs).returncode == -signal.SIGKILL
+    assert list(passing.iterdir()) == [], "a run that is killed leaves nothing behind, with a store or without"

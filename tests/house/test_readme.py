@@ -37,6 +37,7 @@ TOP = {
     ".ci",
     ".gitignore",
     "CHANGELOG.md",
+    ".pre-commit-hooks.yaml",
     "LICENSE",
     "README.md",
     "docs",

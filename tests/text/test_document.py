@@ -15,7 +15,17 @@ from hypothesis import strategies as st
 
 from ptmcalc.base.diagnostic import CODES, Diagnostic
 from ptmcalc.base.span import KeyPath, Span
-from ptmcalc.text.document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, Unread, parse, resolve
+from ptmcalc.text.document import (
+    MAX_BYTES,
+    MAX_DEPTH,
+    MAX_FAULTS,
+    MAX_NODES,
+    MAX_SCALAR,
+    Document,
+    Unread,
+    parse,
+    resolve,
+)
 
 
 def read(text: str) -> Document:
@@ -351,8 +361,22 @@ def test_a_float_keeps_every_digit(value: float) -> None:
     assert float(resolve(repr(value).replace("inf", ".inf"))) == value  # type: ignore[arg-type]
 
 
-def test_a_number_of_a_million_digits_is_read_at_once() -> None:
-    assert data_of(f"a: {'9' * 1_000_000}\n") == {"a": math.inf}
+def test_a_number_of_ten_thousand_digits_is_read() -> None:
+    assert data_of(f"a: {'9' * MAX_SCALAR}\n") == {"a": math.inf}
+
+
+@pytest.mark.parametrize("text", ["a: {}\n", "a: '{}'\n", "a: |\n  {}\n", "a: [1, {}]\n"])
+@pytest.mark.parametrize("letter", ["9", "x", "重"])
+def test_a_longer_value_is_refused_at_its_place(text: str, letter: str) -> None:
+    (problem,) = read(text.format(letter * (MAX_SCALAR + 1))).problems
+    assert (problem.code, problem.span) == ("TXT108", Span(1, 8 if "1," in text else 4))
+    assert "10001 characters" in problem.message or "10002 characters" in problem.message
+
+
+def test_of_very_many_faults_the_first_are_told() -> None:
+    found = read("a: 1\n" * (MAX_FAULTS + 5)).problems
+    assert [problem.code for problem in found] == ["TXT106"] * MAX_FAULTS + ["TXT108"]
+    assert found[-1].span == Span(MAX_FAULTS + 2, 1)
 
 
 # --- problems at their places ----------------------------------------------------------------------------------------

@@ -112,7 +112,7 @@ class Resistance(Fragment):
     """the CEMA method, instead of `coefficient` and `secondary`; pulleys and loading go to `secondary_force`"""
     speed_share: Fraction = 0.0
     """part of the idlers' resistance at rated speed that is proportional to the speed"""
-    forces: dict[str, ExtraForce] = Field(default_factory=dict)
+    forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
     """special resistances by name, besides main and secondary ones"""
     start_factor: RatioFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""

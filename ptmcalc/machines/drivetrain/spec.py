@@ -515,21 +515,21 @@ class Drivetrain(MachineSpec):
     kind: Literal["drivetrain"]
     inertias: Annotated[dict[str, Body], Field(min_length=1, max_length=40)]
     """what moves, by name"""
-    links: dict[str, Link] = Field(default_factory=dict)
+    links: dict[str, Link] = Field(default_factory=dict, max_length=100)
     """elastic links, by name"""
-    gears: dict[str, Gear] = Field(default_factory=dict)
+    gears: dict[str, Gear] = Field(default_factory=dict, max_length=40)
     """rigid gears and drums, by name"""
-    brakes: dict[str, Brake] = Field(default_factory=dict)
+    brakes: dict[str, Brake] = Field(default_factory=dict, max_length=40)
     """brakes and clutches, by name"""
-    motors: dict[str, MotorOn] = Field(default_factory=dict)
+    motors: dict[str, MotorOn] = Field(default_factory=dict, max_length=40)
     """motors, by name"""
-    torques: dict[str, AnyTorque] = Field(default_factory=dict)
+    torques: dict[str, AnyTorque] = Field(default_factory=dict, max_length=100)
     """torques and forces that are no motors: weights, working loads, excitations"""
-    resistances: dict[str, Resistance] = Field(default_factory=dict)
+    resistances: dict[str, Resistance] = Field(default_factory=dict, max_length=100)
     """friction, by name"""
-    motions: dict[str, Motion] = Field(default_factory=dict)
+    motions: dict[str, Motion] = Field(default_factory=dict, max_length=40)
     """prescribed motions, by name"""
-    impulses: dict[str, Impulse] = Field(default_factory=dict)
+    impulses: dict[str, Impulse] = Field(default_factory=dict, max_length=40)
     """blows, by name"""
     checks: DrivetrainChecks = DrivetrainChecks()
     """limits, and checks switched off by code"""

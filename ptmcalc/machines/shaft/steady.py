@@ -267,6 +267,8 @@ def refined(machine: Machine, law: Law, orbit: Orbit, start: float | None = None
         edges = _better_edges(machine, law, orbit)
         if edges is None:
             return orbit, work
+        if len(edges) > 2 * _MOST_STRETCHES:  # corners that do not come to rest call for more without end
+            return None
         grid = Grid(edges, orbit.grid.order)
         finer = solve(grid, rate(machine, grid, law), orbit.at(grid.angles), start)
         work += 4 * grid.angles.size

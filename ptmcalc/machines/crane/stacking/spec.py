@@ -179,8 +179,8 @@ def _hoist_without_drive(given: Given, here: tuple[str | int, ...]) -> Iterator[
 def _mechanism(given: Given, scene: Given, what: str, here: tuple[str | int, ...]) -> Iterator[Conflict]:
     rack = given.raw.get("type") == "rack_stacker"
     word = scene.raw.get("mechanism") or ("travel" if rack else "bridge")
-    if word not in MECHANISMS:
-        return
+    if not isinstance(word, str) or word not in MECHANISMS:
+        return  # its form is refused already
     path = (*here, what, "mechanism")
     own = ("travel",) if rack else ("bridge", "trolley", "rotation")
     if word not in own:
