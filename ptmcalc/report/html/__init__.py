@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 _FOLDER = Path(__file__).parent
-_COLUMNS = ("verdict", "file", "kind", "governs", "scene", "#value", "#limit", "#margin", "#passed", "#others")
+_COLUMNS = ("verdict", "file", "kind", "governs", "#value", "#limit", "#margin", "#passed", "#others")
 INDEX = "index.html"
 
 
