@@ -48,6 +48,8 @@ def _examples() -> Iterator[tuple[str, Example]]:
     yield "BUG101", Example(f"PTMCALC_TRACEBACK=1 {_CHECK}", "", _TRAIN)
     yield "TXT101", Example("ptmcalc check no_such_file.yaml", "no_such_file.yaml: error TXT101")
     yield "TXT102", Example("ptmcalc check docs", "docs: error TXT102")
+    linked = "mkdir designs && ln -s ../design.yaml designs && ptmcalc check designs"
+    yield "TXT113", Example(linked, "designs/design.yaml: error TXT113", _TRAIN)
     for code, line, file in _FAULTS:
         yield code, Example(_CHECK, f"design.yaml:{line}: {_severity(code)} {code}", file)
     train, chain = _TRAIN, _CHAIN

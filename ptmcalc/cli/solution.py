@@ -1,10 +1,11 @@
 """What `ptmcalc solve` prints: the value at which a check just passes, what the others say there, a boundary curve."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath, dotted, key_path
@@ -21,6 +22,8 @@ from ptmcalc.engine.sweep import axis
 from ptmcalc.report import json, words
 
 _ACROSS = "="
+Key = tuple[str, str, str]
+"""Scene, code of a check, part of the machine."""
 
 
 def show_solution(path: str, code: str, vary: Sequence[str], scene: str, margin: str, *, as_json: bool) -> int:
@@ -48,11 +51,19 @@ def show_solution(path: str, code: str, vary: Sequence[str], scene: str, margin:
         return 0
     where = f" in {scene}" if scene else ""
     beside = f" by {margin}" if margin else ""
-    say(f"{dotted(solution.path)}: {_values(solution)}   {wanted.code} just passes{beside}{where}\n\n")
-    rows = [_cells(key, one, now.get(key)) for key, one in then.items() if one.code != wanted.code]
+    say(f"{dotted(solution.path)}: {_values(solution)}   {wanted.code} just passes{beside}{where}\n")
+    others = {key: one for key, one in then.items() if one.code != wanted.code}
+    sound = {key for key, one in others.items() if one.verdict is Verdict.PASS and one.verdict is _verdict(now, key)}
+    rows = [_cells(key, one, now.get(key)) for key, one in others.items() if key not in sound]
     if rows:
         say("The other checks there\n" + listed(("verdict", "was", "check", "scene", "value", "limit", "margin"), rows))
+    if sound:
+        say(f"{len(sound)} other {'checks pass' if len(sound) > 1 else 'check passes'} there as before\n")
     return 0
+
+
+def _verdict(found: Mapping[Key, Judgement], key: Key) -> Verdict | None:
+    return found[key].verdict if key in found else None
 
 
 def _check(loaded: Loaded, code: str) -> AnyCheck:
@@ -92,9 +103,6 @@ def _spare(loaded: Loaded, wanted: AnyCheck, margin: str) -> Spare:
         return number * abs(limit.value) if share else number
 
     return spare
-
-
-Key = tuple[str, str, str]
 
 
 def _verdicts(loaded: Loaded, scene: str) -> dict[Key, Judgement]:

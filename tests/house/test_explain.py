@@ -8,6 +8,7 @@ write them anew after numbers have changed on purpose, and to find some for name
 """
 
 import re
+import subprocess
 from contextlib import chdir
 from pathlib import Path
 
@@ -52,7 +53,10 @@ def test_the_example_of_a_finding_brings_it_up(code: str, tmp_path: Path) -> Non
         assert changed != template
         (tmp_path / "design.yaml").write_text(changed, encoding="utf-8")
         command = made[4]
+    *before, command = command.split(" && ")
     with chdir(tmp_path):
+        for line in before:
+            subprocess.run(line.split(), check=True)
         done = ptmcalc(*command.split()[1:])
     assert code in example.says
     assert example.says in done.out + done.err
@@ -62,7 +66,7 @@ def test_the_example_of_a_finding_brings_it_up(code: str, tmp_path: Path) -> Non
 def test_a_file_of_an_example_has_one_fault() -> None:
     """The finding it is for, and none besides that a reader would wonder about."""
     for code, example in examples.EXAMPLES.items():
-        if code.startswith(("TXT", "SPC")) and example.file:
+        if code.startswith(("TXT", "SPC")) and example.file and code != "TXT113":
             assert example.command == "ptmcalc check design.yaml", code
 
 
