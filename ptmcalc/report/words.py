@@ -61,6 +61,8 @@ def amount(estimate: Estimate, quantity: Quantity, unit: str = "") -> str:
     if bar <= 5e-5 * abs(middle):
         return f"{digits(middle)}{suffix}"
     if min(high - middle, middle - low) < 0.5 * bar:
+        if digits(low) == digits(middle) == digits(high):
+            return f"{digits(middle)}{suffix}"
         return f"{digits(middle)} [{digits(low)}, {digits(high)}]{suffix}"
     places = max(1 - math.floor(math.log10(bar)), 0)
     rounded = round(middle, places) + 0.0  # of a zero without its sign

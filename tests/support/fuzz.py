@@ -10,7 +10,7 @@ import re
 import signal
 import string
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -574,7 +574,7 @@ def made(number: int) -> bytes:
     return MAKERS[number % len(MAKERS)](number)
 
 
-def failures(numbers: range) -> list[str]:
+def failures(numbers: Iterable[int]) -> list[str]:
     """What is wrong with the answers to some inputs: number, error, and the lines that differ from any sound file."""
     found = []
     for number in numbers:
