@@ -10,7 +10,7 @@ import socket
 import threading
 from asyncio import CancelledError
 from collections.abc import Callable, Sequence
-from concurrent.futures import BrokenExecutor, Executor, Future
+from concurrent.futures import BrokenExecutor, Executor, Future, InvalidStateError
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
@@ -28,6 +28,8 @@ T = TypeVar("T")
 _ADDRESS = re.compile(r"dask://(?P<place>[^/\s@]+:[0-9]{1,5})/?")
 _PATIENCE = 10.0
 """Seconds that a scheduler may take to answer."""
+_LOOK = 0.2
+"""Seconds between two looks at a connection."""
 _SAME = "install the same ptmcalc, and the same numpy, for the scheduler and its workers (docs/cluster.md)"
 _AT_WORK = threading.Lock()
 """A process does one chunk at a time, however many threads its worker has: what is remembered of a machine between two
@@ -88,41 +90,69 @@ class Cluster:
 
 
 class _OnCluster(Executor):
-    """An executor of a connection to a scheduler, which ends with it."""
+    """An executor of a connection to a scheduler, which ends with it.
+
+    What is sent while a connection is being lost may be heard of by nobody, dask included: who waits for it is told
+    as soon as the connection is given up, or has not come back within our patience.
+    """
 
     def __init__(self, client: "Client") -> None:
         self.client, self._executor = client, client.get_executor(pure=False)
+        self._waiting: set[Future[Any]] = set()
+        self._over, self._lost = threading.Event(), False
+        threading.Thread(target=self._watch, daemon=True).start()
 
     def submit(self, work: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         outer: Future[T] = Future()
+        self._waiting.add(outer)
+        outer.add_done_callback(self._waiting.discard)
         try:
             inner = self._executor.submit(_alone, edition(), work, *args, **kwargs)
         except Exception as error:  # the connection is closed: dask has no one word for it
             raise LostError(str(error)) from None
         inner.add_done_callback(lambda inner: _pass_on(inner, outer))
+        if self._lost:
+            _end(outer, LostError("the connection is lost"))
         return outer
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self._over.set()
         if cancel_futures:
             self._executor.shutdown(wait=False)
         with suppress(Exception, CancelledError):  # a connection that is lost already has its own troubles
             self.client.close(timeout=_PATIENCE)
 
+    def _watch(self) -> None:
+        away = 0.0
+        while away < _PATIENCE and self.client.status != "closed":
+            if self._over.wait(_LOOK):
+                return
+            away = 0.0 if self.client.status == "running" else away + _LOOK
+        self._lost = True
+        for outer in tuple(self._waiting):
+            _end(outer, LostError("the connection is lost"))
+
+
+def _end(outer: "Future[Any]", error: BaseException) -> None:
+    with suppress(InvalidStateError):  # it has ended on its own
+        outer.set_exception(error)
+
 
 def _pass_on(inner: "Future[Any]", outer: "Future[Any]") -> None:
     """What became of a task, in the words of a batch."""
     if inner.cancelled():
-        outer.set_exception(LostError("the scheduler lost it"))
+        _end(outer, LostError("the scheduler lost it"))
         return
     error = inner.exception()
     if error is None:
-        outer.set_result(inner.result())
+        with suppress(InvalidStateError):
+            outer.set_result(inner.result())
     elif type(error).__name__ == "KilledWorker":
-        outer.set_exception(BrokenExecutor(str(error)))
+        _end(outer, BrokenExecutor(str(error)))
     elif isinstance(error, ImportError) or "deserialization of the task graph" in str(error):
-        outer.set_exception(UsageError("the cluster cannot run ptmcalc", _SAME))
+        _end(outer, UsageError("the cluster cannot run ptmcalc", _SAME))
     else:
-        outer.set_exception(error)
+        _end(outer, error)
 
 
 def _alone(program: bytes, work: Work, texts: Sequence[bytes], options: Options) -> list[Record]:

@@ -44,7 +44,7 @@ def specs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[int], No
         folder.mkdir()
         for index in range(number):
             text = PASSING.replace(b"18 m", b"%d m" % (10 + index % 9)) + b"# %d\n" % index
-            (folder / f"{index:03}.yaml").write_bytes(text if index % 100 != 99 else b"kind: [")
+            (folder / f"{index:03}.yaml").write_bytes(text if index % 100 != 99 else b"kind: [ # %d" % index)
 
     return write
 
