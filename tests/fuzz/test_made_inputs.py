@@ -16,14 +16,12 @@ from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, made, said, sl
 from ptmcalc.engine import load
 from ptmcalc.report import json as report_json
 
-DEAR = frozenset({4086})
-"""A train that chatters under a smooth motor takes seconds that no price foretells: to be mended in the numerics."""
 IN_CI, ALL, PART = 19_500, 1_000_000, 1_950
 
 
 @pytest.mark.parametrize("first", range(0, IN_CI, PART))
 def test_no_input_breaks_the_program_or_hangs_it(first: int) -> None:
-    assert failures(n for n in range(first, first + PART) if n not in DEAR) == []
+    assert failures(range(first, first + PART)) == []
 
 
 @pytest.mark.study
