@@ -213,9 +213,7 @@ class _Reader:
             self._say("TXT107", f"the tag {quote(tag)} is refused", span, path, "delete it: a design file is data")
         node: _Node
         if isinstance(event, yaml.ScalarEvent):
-            if len(event.value) > MAX_SCALAR:
-                reason = f"this has {len(event.value)} characters, more than {MAX_SCALAR}"
-                raise _UnreadableError("TXT108", reason, span, "shorten it")
+            _measure(event, span)
             node = _Scalar(span, resolve(event.value) if _plain(event) else event.value)
         elif isinstance(event, yaml.SequenceStartEvent):
             node = self._sequence(span, events, path)
@@ -278,6 +276,7 @@ class _Reader:
         if isinstance(event, yaml.ScalarEvent):
             key = event.value
             if key and event.tag is None and event.anchor is None:
+                _measure(event, span)
                 self._spend(1, path, 2, span)
                 return key, span
         if not key:
@@ -305,6 +304,13 @@ class _Reader:
                     reason = "`<<` merges a mapping or a list of mappings"
                     self._say("TXT110", reason, span, path, "write `<<: *anchor`")
         return readable
+
+
+def _measure(event: yaml.ScalarEvent, span: Span) -> None:
+    """Refuse a key or a value of too many letters."""
+    if len(event.value) > MAX_SCALAR:
+        reason = f"this has {len(event.value)} characters, more than {MAX_SCALAR}"
+        raise _UnreadableError("TXT108", reason, span, "shorten it")
 
 
 _Written = tuple[str, str, yaml.Event]
