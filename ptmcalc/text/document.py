@@ -363,7 +363,10 @@ def resolve(text: str) -> object:
 
 
 def _span(event: yaml.Event) -> Span:
-    return _place(event.start_mark)
+    start, end = event.start_mark, event.end_mark
+    if start and end and end.line == start.line and isinstance(event, yaml.ScalarEvent):
+        return _at(start.line + 1, start.column + 1, end.column + 1)
+    return _place(start)
 
 
 def _place(mark: Any) -> Span:
