@@ -1,6 +1,6 @@
 """Where something stands in a file, and what it is called."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 KeyPath = tuple[str | int, ...]
 """The way from the top of a document to a value: `("drive", "motor", "inertia")`, `("scenes", 0, "load")`."""
@@ -12,6 +12,8 @@ class Span:
 
     line: int
     column: int
+    end: int | None = field(default=None, compare=False, repr=False)
+    """column behind a word that ends in its line; of what goes on below nothing is known"""
 
 
 def dotted(path: KeyPath) -> str:

@@ -116,6 +116,8 @@ def settle(
     if verdicts is not None:
         spec = spec.model_copy(update={"accuracy": None})
     for solver in scene.formulas if whole else ():
+        if solver.cost(spec, scene.scene, solver.represents, 0) > budget:
+            continue  # what is only shown is worth no more than what decides
         rung = Rung(solver, solver.represents, 0, 0.0)
         shown = _made(settled, spec, rung)
         if shown is not None:
@@ -204,7 +206,8 @@ def _foreseen(
         _imagined(seen, kind, spec, following, elsewhere)
         seen.rulings = judge(kind, spec, scene.scene, seen.estimates)
         following = _next(seen, spec, waiting, _wanted(kind, spec, seen, whole=True))
-    beside = sum(solver.cost(spec, scene.scene, solver.represents, 0) for solver in scene.formulas)
+    prices = [solver.cost(spec, scene.scene, solver.represents, 0) for solver in scene.formulas]
+    beside = sum(price for price in prices if price <= budget)
     coming = Foreseen(settled, tuple(rungs), beside + sum(rung.seconds for rung in rungs))
     return replace(coming, seconds=coming.seconds + _again(scene, coming))
 

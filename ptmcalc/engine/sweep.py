@@ -1,6 +1,7 @@
 """A sweep: which points, and where the verdict of a check turns along a key."""
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ from ptmcalc.engine.load import Loaded
 from ptmcalc.engine.points import varied_key
 from ptmcalc.spec.fields import Measure
 
-MOST_POINTS = 1_000_000
+MOST_POINTS, MOST_KEYS = 1_000_000, 20
 _EXAMPLE = "takeup.tension=20 kN:60 kN:21"
 _LOG = "log"
 
@@ -54,8 +55,10 @@ def axis(loaded: Loaded, text: str, *, counted: bool) -> Axis:
         raise UsageError(f"`--vary {text}` is no range", f"write {form}; `:{_LOG}` behind it for equal ratios")
     key, measure = varied_key(loaded, name.strip())
     start, end = (_number(key, measure, part) for part in parts[:2])
-    if counted and not (parts[2].isdecimal() and 1 <= int(parts[2]) <= MOST_POINTS):
-        raise UsageError(f"`--vary {text}`: `{parts[2]}` is no number of points", "write how many, e.g. 21")
+    if counted and not (re.fullmatch("[0-9]{1,9}", parts[2]) and 1 <= int(parts[2]) <= MOST_POINTS):
+        raise UsageError(
+            f"`--vary {text}`: `{parts[2]}` is no number of points", f"write how many, at most {MOST_POINTS}, e.g. 21"
+        )
     if log and min(start, end) <= 0:
         raise UsageError(f"`--vary {text}`: equal ratios need values above 0", f"leave `:{_LOG}` out")
     return Axis(key, start, end, int(parts[2]) if counted else 0, log)
@@ -77,6 +80,8 @@ def axes(loaded: Loaded, texts: Sequence[str], *, counted: bool) -> list[Axis]:
     """
     if not texts:
         raise UsageError("nothing varies", f"e.g. --vary '{_EXAMPLE}'")
+    if len(texts) > MOST_KEYS:
+        raise UsageError(f"{len(texts)} keys vary", f"at most {MOST_KEYS} in one sweep")
     found = [axis(loaded, text, counted=counted) for text in texts]
     names = [one.key.name for one in found]
     for name in names:

@@ -14,7 +14,7 @@ from ptmcalc.engine.spread import BLOCK, Spread, spread_of
 from ptmcalc.numerics.statistics import quantile_interval, rank_correlation, ranks, share_interval
 from ptmcalc.spec.fields import Measure
 
-MOST_SAMPLES = 1_000_000
+MOST_SAMPLES, MOST_VALUES = 1_000_000, 20_000_000
 _LEAST_KEPT = 1e-3
 """Share of a normal distribution that `min` and `max` must leave: less is no tolerance of the value."""
 
@@ -32,6 +32,11 @@ def drawn(loaded: Loaded, count: int, seed: int) -> Points:
     if not spec.tolerances:
         hint = f"add e.g. `{BLOCK}: {{takeup.tension: {{normal: {{sd: 2 kN}}}}}}`, by keys of the file"
         raise UsageError(f"`{loaded.document.name}` has no `{BLOCK}`", hint)
+    if count * len(spec.tolerances) > MOST_VALUES:
+        most = MOST_VALUES // len(spec.tolerances)
+        raise UsageError(
+            f"`--samples {count}` of {len(spec.tolerances)} values are too many", f"write one from 1 to {most}"
+        )
     keys, columns = [], []
     for name, tolerance in spec.tolerances.items():
         key, measure = varied_key(loaded, name)

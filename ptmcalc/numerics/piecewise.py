@@ -9,6 +9,7 @@ between the nodes where the sign changes, and at every dip that could reach 0 an
 """
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -35,6 +36,8 @@ _GLIDES = 64
 """Panels that one long panel has to be worth, and that go by before another is tried."""
 _STEADY = 8
 """Long panels after which a length that was too long is tried again."""
+_IDLE = 4
+"""Crossings of one guard in a row that change nothing, from which on only more than the error of a curve counts."""
 _SHOWN = 1e-3
 """Share of a signal that a curve over time must not leave out."""
 _LOOK = 10.0
@@ -54,6 +57,7 @@ def march(
     keep: bool = False,
     most_events: int = MOST_EVENTS,
     most_work: float = math.inf,
+    most_looks: float = math.inf,
     unsought: Sequence[int] = (),
 ) -> Record:
     """The motion from a state at time 0 to `end`, through all events.
@@ -68,13 +72,15 @@ def march(
         keep: whether signals are kept over time.
         most_events: where a chattering contact is given up.
         most_work: where the march is given up, in panels; looks that come to nothing count too.
+        most_looks: where the looks for summits within long panels are given up, if that is below their own limit.
         unsought: watched signals whose summits between the nodes of long panels nobody asks for: a factor of a power
             that rings on would have to be looked at in every swing.
 
     Raises:
         NumericsError: NUM101, too many events or steps or a nonlinear input that no stretch resolves.
     """
-    return _March(system, tolerance, refined, most_events, most_work).go(mode, state, end, keep, unsought)
+    marching = _March(system, tolerance, refined, most_events, most_work)
+    return marching.go(mode, state, end, keep, unsought, most_looks)
 
 
 class _March:
@@ -84,12 +90,16 @@ class _March:
         self.resolved = RESOLVED * refined
         self.unheard: int | None = None
         """guard that crosses without changing anything: too flat for its sign to be told; not heard for one panel"""
+        self.idle: Counter[int] = Counter()
+        """how often guards crossed without changing anything, since something changed"""
         self.products = np.array(system.products, dtype=np.intp).reshape(-1, 2)
         self.pieces: dict[Mode, Piece] = {}
         self.glides: dict[Flow, Glide] = {}
         self.reach = math.inf
 
-    def go(self, mode: Mode, state: FloatArray, end: float, keep: bool, unsought: Sequence[int]) -> Record:
+    def go(
+        self, mode: Mode, state: FloatArray, end: float, keep: bool, unsought: Sequence[int], most_looks: float
+    ) -> Record:
         system = self.system
         reaction = system.react(mode, 0.0, state, None)
         first = tuple(event for event in reaction.events if event.after == JAMMED)
@@ -97,7 +107,7 @@ class _March:
         record = Record.starting(self._piece(reaction.mode).now(reaction.state), self.products, keep)
         record.began = reaction.mode
         record.unsought = np.array(unsought, dtype=np.intp)
-        record.most_looks = min(record.most_looks, self.most_work / LONG)
+        record.most_looks = min(record.most_looks, most_looks)
         still = 0
         while True:
             record.mode, record.state = reaction.mode, reaction.state
@@ -121,6 +131,11 @@ class _March:
                 raise NumericsError("NUM101", f"contacts change without end at {record.time:.6g} s")
             reaction = system.react(record.mode, record.time, record.state, fired)
             self.unheard = fired if still and reaction.mode == record.mode else None
+            changed = reaction.mode != record.mode or reaction.events
+            if fired is None or changed:
+                self.idle.clear()
+            else:
+                self.idle[fired] += 1
 
     def _pay(self, record: Record, work: float) -> None:
         """Take account of work before it is done, and give up where it is too much."""
@@ -150,15 +165,26 @@ class _March:
             if entering:
                 piece.entry, entering = piece.reach, False
             until = min(stop, record.time + span)
-            state, fired = self._cross(record, flow, state, until)
+            state, fired = self._cross(record, flow, state, until, self._blur(piece))
             record.state = state[: len(scale)] * scale
             if fired is not None:
                 return fired
             record.time = until
         return None
 
-    def _cross(self, record: Record, flow: Flow, state: FloatArray, stop: float) -> tuple[FloatArray, int | None]:
-        """Along a linear flow to the first crossing of a guard or to `stop`."""
+    def _blur(self, piece: Piece) -> FloatArray | float:
+        """How far below 0 guards may be without crossing: one that keeps crossing to no effect, as a torque that has
+        faded does, as far as the polynomials of the curves are wrong anyway."""
+        flat = [guard for guard, times in self.idle.items() if times >= _IDLE]
+        if not flat:
+            return 0.0
+        blur = piece.blur(self.tolerance)
+        return np.where(np.isin(np.arange(len(blur)), flat), blur, 0.0)
+
+    def _cross(
+        self, record: Record, flow: Flow, state: FloatArray, stop: float, blur: FloatArray | float = 0.0
+    ) -> tuple[FloatArray, int | None]:
+        """Along a linear flow to the first crossing of a guard, or to `stop`; `blur` is how far below 0 they may be."""
         unheard, self.unheard = self.unheard, None
         count, soon = _FIRST_PANELS if unheard is None else 1, flow.soonest(state)
         before = 0
@@ -174,7 +200,7 @@ class _March:
             self._pay(record, _LOOK + wanted)
             chunk = flow.chunk(panel)
             starts = chunk.starts(state, wanted)
-            hit = _first_hit(flow, chunk, starts, unheard)
+            hit = _first_hit(flow, chunk, starts, unheard, blur)
             unheard = None
             if hit is not None:
                 index, place, guard = hit
@@ -249,9 +275,12 @@ class _March:
         return flow.on(guard, state)
 
 
-def _first_hit(flow: Flow, chunk: Chunk, starts: FloatArray, unheard: int | None) -> tuple[int, float, int] | None:
-    """(panel, place in it, guard) of the first crossing below 0, or None. One guard may go unheard."""
-    noise = flow.noise(starts)
+def _first_hit(
+    flow: Flow, chunk: Chunk, starts: FloatArray, unheard: int | None, blur: FloatArray | float
+) -> tuple[int, float, int] | None:
+    """(panel, place in it, guard) of the first crossing below 0 by more than rounding and `blur`, or None. One guard
+    may go unheard."""
+    noise = flow.noise(starts) + blur
     low: NDArray[np.bool_] = chunk.controls(starts[:-1]) < -noise
     if unheard is not None:
         low[:, :, unheard] = False

@@ -88,6 +88,12 @@ class Piece:
             self._flows[slopes, ticks] = flow
         return flow
 
+    def blur(self, tolerance: float) -> FloatArray:
+        """What the polynomials of the curves leave open of every guard: the tolerance, as a share of their sizes."""
+        sizes = np.array([curve.size for curve in self.motion.curves])
+        result: FloatArray = tolerance * (np.abs(self.guards_direct) @ sizes)
+        return result
+
     def now(self, state: FloatArray) -> FloatArray:
         """The watched signals of a state."""
         values = [float(curve.value((curve.rows @ state)[:, None])[0]) for curve in self.motion.curves]
@@ -103,6 +109,7 @@ class Piece:
             round(slope / curve.grain) * curve.grain for slope, curve in zip(exact, self.motion.curves, strict=True)
         )
         unit = self.resolved / RESOLVED  # that of the flow, see there
+        longest = max(longest, 2 * _SHORTEST)  # a rounding before the end is passed over
         span = min(reach, unit * 2.0 ** math.ceil(math.log2(longest / unit)), unit * _LONGEST)
         while span > _SHORTEST:
             stretch = self._stretches.get((slopes, span))

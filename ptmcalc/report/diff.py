@@ -1,5 +1,6 @@
 """How what changed between two states of design files is told: a table, a comment that reads like a review, JSON."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -221,11 +222,15 @@ def _review(change: FileChange) -> Iterator[str]:
     if change.keys:
         yield f"Changed: {'; '.join(map(escape, _keys(change)))}."
     said = [f"- {_told(turn, one)}" for turn, one in change.said if one["severity"] != "note"]
-    if said:
+    broken = change.new == "invalid"
+    if said and broken:
         yield "\n".join(said)
-    turned = [one for one in change.checks if one.turn is not Turn.SAME]
+    turned = [f"- {_judged(one)}" for one in change.checks if one.turn is not Turn.SAME and one.new]
+    turned += _gone([one for one in change.checks if one.new is None])
     if turned:
-        yield "\n".join(f"- {_judged(one)}" for one in turned)
+        yield "\n".join(turned)
+    if said and not broken:
+        yield "\n".join(said)
     moved = change.turned(Turn.SAME)
     if moved:
         rows = [
@@ -249,7 +254,7 @@ def _review(change: FileChange) -> Iterator[str]:
 def _markdown_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = [f"| {' | '.join(heads)} |", f"|{'---|' * len(heads)}"]
     lines += [f"| {' | '.join(map(escape, row))} |" for row in rows]
-    return f"{title}:\n\n" + "\n".join(lines)
+    return "\n".join([f"<details><summary>{title}</summary>", "", *lines, "", "</details>"])
 
 
 def _told(turn: Turn, said: Entry) -> str:
@@ -259,12 +264,25 @@ def _told(turn: Turn, said: Entry) -> str:
     return f"{how}: **{said['severity']}** {escape(said['code'])}{where}: {escape(said['message'])}"
 
 
+def _gone(changes: Sequence[CheckChange]) -> Iterator[str]:
+    """Checks that are no longer made: those that did not pass one by one, the others together."""
+    for one in changes:
+        if one.either["verdict"] != "pass":
+            name = f"**{escape(_subject(one.either))}** ({escape(one.scene)})"
+            yield f"- {name} is gone; before, {_WAS[one.either['verdict']]}."
+    passed = [one.either["code"] for one in changes if one.either["verdict"] == "pass"]
+    if passed:
+        codes = ", ".join(
+            f"{code}{f' ({times} times)' if times > 1 else ''}" for code, times in sorted(Counter(passed).items())
+        )
+        yield f"- {_counted(len(passed), 'check')} that passed {'is' if len(passed) == 1 else 'are'} gone: {codes}."
+
+
 def _judged(change: CheckChange) -> str:
     """What a reviewer says of a verdict that changed."""
     old, new, either = change.old, change.new, change.either
     name = f"**{escape(_subject(either))}** ({escape(change.scene)})"
-    if new is None:
-        return f"{name} is gone; it was {either['verdict']}."
+    assert new is not None
     sign = _SIGNS[new["verdict"]]
     if old is None:
         return f"{sign} {name} is new and {_NOW[new['verdict']]}: {escape(_numbers(new))}."

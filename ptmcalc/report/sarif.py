@@ -80,6 +80,8 @@ def _result(path: str, entry: Entry, rule: int, fingerprint: str) -> dict[str, A
     place: dict[str, Any] = {"artifactLocation": {"uri": _uri(path)}}
     if entry.span:
         place["region"] = {"startLine": entry.span.line, "startColumn": entry.span.column}
+        if entry.span.end:
+            place["region"] |= {"endLine": entry.span.line, "endColumn": entry.span.end}
     location: dict[str, Any] = {"physicalLocation": place}
     if entry.path:
         location["logicalLocations"] = [{"fullyQualifiedName": dotted(entry.path), "kind": "member"}]

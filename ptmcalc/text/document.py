@@ -213,7 +213,7 @@ class _Reader:
             self._say("TXT107", f"the tag {quote(tag)} is refused", span, path, "delete it: a design file is data")
         node: _Node
         if isinstance(event, yaml.ScalarEvent):
-            self._measure(event.value, span)
+            _measure(event, span)
             node = _Scalar(span, resolve(event.value) if _plain(event) else event.value)
         elif isinstance(event, yaml.SequenceStartEvent):
             node = self._sequence(span, events, path)
@@ -275,19 +275,14 @@ class _Reader:
         key, span = "", _span(event)
         if isinstance(event, yaml.ScalarEvent):
             key = event.value
-            self._measure(key, span)
             if key and event.tag is None and event.anchor is None:
+                _measure(event, span)
                 self._spend(1, path, 2, span)
                 return key, span
         if not key:
             self._say("TXT111", "this key is not a word", span, path, "write `key: value`")
         self._node(event, events, (*path, key or "?"))
         return key, span
-
-    def _measure(self, text: str, span: Span) -> None:
-        if len(text) > MAX_SCALAR:
-            reason = f"this has {len(text)} characters, more than {MAX_SCALAR}"
-            raise _UnreadableError("TXT108", reason, span, "shorten it")
 
     def _say_cut(self, text: str, span: Span, path: KeyPath) -> None:
         plain = without_commas(text)
@@ -309,6 +304,13 @@ class _Reader:
                     reason = "`<<` merges a mapping or a list of mappings"
                     self._say("TXT110", reason, span, path, "write `<<: *anchor`")
         return readable
+
+
+def _measure(event: yaml.ScalarEvent, span: Span) -> None:
+    """Refuse a key or a value of too many letters."""
+    if len(event.value) > MAX_SCALAR:
+        reason = f"this has {len(event.value)} characters, more than {MAX_SCALAR}"
+        raise _UnreadableError("TXT108", reason, span, "shorten it")
 
 
 _Written = tuple[str, str, yaml.Event]
@@ -361,7 +363,10 @@ def resolve(text: str) -> object:
 
 
 def _span(event: yaml.Event) -> Span:
-    return _place(event.start_mark)
+    start, end = event.start_mark, event.end_mark
+    if start and end and end.line == start.line and isinstance(event, yaml.ScalarEvent):
+        return _at(start.line + 1, start.column + 1, end.column + 1)
+    return _place(start)
 
 
 def _place(mark: Any) -> Span:

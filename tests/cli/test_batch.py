@@ -7,8 +7,11 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import tracemalloc
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
+from dataclasses import replace
+from datetime import date
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -343,6 +346,41 @@ def test_the_csv_has_a_line_for_every_verdict_and_every_fault(folder: Path) -> N
     assert [(row["file"], row["code"]) for row in rows if row["verdict"] == "invalid"] == faults
     governing = [row["file"] for row in rows if row["governs"]]
     assert governing == [entry["path"] for entry in found["files"] if entry["scenes"]]
+
+
+# -- memory ---------------------------------------------------------------------------------------------------------
+
+
+def test_of_a_file_that_is_done_a_batch_keeps_no_more_than_its_name_and_key(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Names and keys are needed to the end, for the order and the exit status; they are there before the first file is
+    done. Of 40 KB that are found out about each of 1000 files nothing stays."""
+    monkeypatch.setattr(engine, "_MOST_IN_CHUNK", 50)
+    files = [tmp_path / f"{index:04}.yaml" for index in range(1000)]
+    for index, path in enumerate(files):
+        path.write_bytes(b"# %d\n" % index)
+    said = engine.record_of(engine.fresh(INVALID, Options()), INVALID, date(2026, 1, 1))
+
+    def work(raws: Sequence[bytes], options: Options) -> list[Record]:
+        return [replace(said, text=raw * (40_000 // len(raw))) for raw in raws]
+
+    held: list[int] = []
+    tracemalloc.start()
+    try:
+        before = tracemalloc.get_traced_memory()[0]
+        with Store() as store:
+            batch = Batch(files, Options(), store, work)
+            planned = tracemalloc.get_traced_memory()[0] - before
+            held += [tracemalloc.get_traced_memory()[0] for _ in batch.run(None)]
+            results = batch.results()
+            assert (len(store), len(results), len(results.tallies())) == (1000, 1000, 1000)
+            assert len({id(one) for one in results.tallies()}) == 1, "equal tallies are one"
+    finally:
+        tracemalloc.stop()
+    assert len(held) == 20
+    assert planned / 1000 < 1000
+    assert (max(held[10:]) - held[1]) / 1000 < 100
 
 
 # -- kill -9 --------------------------------------------------------------------------------------------------------

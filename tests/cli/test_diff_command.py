@@ -157,6 +157,19 @@ def test_the_comment_reads_like_a_review(states: Path) -> None:
     )
     assert "\n\nThis file is gone.\n" in text
     assert "- new: **error** SPC103, line 1: " in text
+    for title in ("Margins that moved", "Loads that changed beyond their error bars"):
+        assert f"<details><summary>{title}</summary>\n\n| " in worse, "tables are opened by who wants to know"
+    assert worse.count("|\n\n</details>") == 2
+    invalid = text.partition("invalid.yaml\n\n")[2].partition("\n\n### ")[0]
+    (gone,) = (line for line in invalid.splitlines() if line.startswith("- ") and " gone: " in line)
+    assert re.fullmatch(r"- \d+ checks that passed are gone: CNV101 \(2 times\), CNV102 .*, CNV105 .*\.", gone)
+
+
+def test_what_got_worse_comes_before_what_else_is_said(states: Path) -> None:
+    expired = "waive: [{check: CNV104, reason: tested, until: 2020-01-01}]\n"
+    (states / "new" / "worse.yaml").write_text(SMOOTH + expired, encoding="utf-8")
+    text = diffed("old/worse.yaml", "new/worse.yaml", "markdown").out
+    assert 0 < text.index("fails now") < text.index("- new: **warning**")
 
 
 def test_names_of_a_file_are_no_markup(states: Path) -> None:

@@ -236,6 +236,19 @@ def test_all_faults_are_told_at_once_beside_those_of_the_machine() -> None:
     assert len(done.err.splitlines()) == 5
 
 
+MANY = "".join(
+    f"  {key}: {{normal: {{sd: 1e-9 {unit}}}}}\n"
+    for key, unit in (
+        *(("route.length", "m"), ("route.lift", "m"), ("belt.width", "m"), ("belt.mass", "kg/m"), ("speed", "m/s")),
+        *(("belt.stiffness", "N"), ("belt.strength", "N/mm"), ("idlers.carry.pitch", "m"), ("takeup.tension", "N")),
+        *(("idlers.carry.set_mass", "kg"), ("idlers.return.pitch", "m"), ("idlers.return.set_mass", "kg")),
+        *(("load.capacity", "kg/s"), ("resistance.coefficient", ""), ("resistance.secondary", "")),
+        *(("drive.motor.inertia", "kg*m^2"), ("drive.motor.speed", "rpm"), ("drive.motor.mean_starting_torque", "N*m")),
+        *(("drive.gear.ratio", ""), ("drive.gear.efficiency", ""), ("drive.drum.friction", "")),
+    )
+)
+
+
 @pytest.mark.parametrize(
     ("block", "options", "reason"),
     [
@@ -246,6 +259,9 @@ def test_all_faults_are_told_at_once_beside_those_of_the_machine() -> None:
         ("  takeup.tension: {minus: 40 kN}\n", (), "it must be greater than 0 N"),
         ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "next to nothing of the distribution"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is no number of samples"),
+        ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "1000001"), "write one from 1 to 1000000"),
+        (MANY, ("--samples", "1000000"), "`--samples 1000000` of 21 values are too many (write one from 1 to 952380"),
+        ("".join(f"  belt.mass{n}: {{plus: 1 kg}}\n" for n in range(101)), (), "at most 100"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "100%"), "is not from 50 % to below 100 %"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "sure"), "--confidence:"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--scene", "stop"), "no scene is called `stop`"),

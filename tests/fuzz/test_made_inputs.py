@@ -16,14 +16,13 @@ from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, made, said, sl
 from ptmcalc.engine import load
 from ptmcalc.report import json as report_json
 
-DEAR = frozenset({4086})
-"""A train that chatters under a smooth motor takes seconds that no price foretells: to be mended in the numerics."""
-IN_CI, ALL, PART = 19_500, 1_000_000, 1_950
+FIRST, IN_CI, ALL, PART = 1_000, 19_500, 1_000_000, 1_850
+"""The first ones are told apart below, and held to the same; hypothesis makes 500 more."""
 
 
-@pytest.mark.parametrize("first", range(0, IN_CI, PART))
+@pytest.mark.parametrize("first", range(FIRST, IN_CI, PART))
 def test_no_input_breaks_the_program_or_hangs_it(first: int) -> None:
-    assert failures(n for n in range(first, first + PART) if n not in DEAR) == []
+    assert failures(range(first, first + PART)) == []
 
 
 @pytest.mark.study
@@ -116,7 +115,7 @@ def test_the_inputs_reach_every_floor() -> None:
     among them."""
     found: Counter[tuple[str, bool]] = Counter()
     codes: set[str] = set()
-    for number in range(1_000):
+    for number in range(FIRST):
         answer = said(made(number), number)
         found[MAKERS[number % len(MAKERS)].__name__, answer.valid] += 1
         codes |= set(answer.codes)

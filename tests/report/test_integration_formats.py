@@ -3,21 +3,25 @@
 import json
 import re
 from dataclasses import replace
+from functools import reduce
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as Xml
 
 import pytest
+import yaml
 from jsonschema import Draft202012Validator
 from support.command import ROOT, report_of_file
 from support.samples import SAMPLES
 from support.xsd import Schema
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
+from ptmcalc.base.span import Span
 from ptmcalc.contract.report import FileReport, count
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.report import Format, render
+from ptmcalc.text.document import parse, resolve
 
 JUNIT = Schema(Path(__file__).with_name("junit-10.xsd").read_text("utf-8"))
 """The schema of Jenkins (MIT, see its head)."""
@@ -153,6 +157,76 @@ def test_a_failed_check_an_undecided_one_and_a_faulty_unit_stand_in_their_region
     assert lines[14].startswith("resistance"), "its key is not written: the block it belongs into"
     assert places(FILES[2], "SPC106", "fail") == {(17, 8)}
     assert (ROOT / FILES[2]).read_text("utf-8").splitlines()[16][7:].startswith("2.5")
+
+
+def cut(text: str, span: Span) -> str:
+    """What stands at a place whose end is known."""
+    return text.splitlines()[span.line - 1][span.column - 1 : (span.end or 0) - 1]
+
+
+def unmeasured() -> tuple[str, str]:
+    """A chain whose modulus nobody measured, near a resonance: the page it stands on, and its text there."""
+    page = (ROOT / "tests/machines/chain_drive/resonance.md").read_text("utf-8")
+    (text,) = re.findall("## A modulus that nobody measured\n.*?```yaml\n(.*?)```", page, re.DOTALL)
+    return "chain.yaml", text
+
+
+def faulty(name: str) -> tuple[str, str]:
+    """A file, and its text."""
+    return name, (ROOT / name).read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("file", "code", "kind", "stands"),
+    [
+        (faulty(FILES[1]), "CNV101", "fail", "0.10"),
+        (unmeasured(), "CHN101", "review", "chain"),
+        (faulty(FILES[2]), "SPC106", "fail", "2.5"),
+    ],
+    ids=["failed belt slip", "undecided resonance", "number without its unit"],
+)
+def test_a_region_holds_the_word_that_governs_and_no_more(
+    file: tuple[str, str], code: str, kind: str, stands: str
+) -> None:
+    name, text = file
+    report = check(load_text(text.encode(), name), Options(repairs=False))
+    (found,) = (one for one in sarif(report)["results"] if (one["ruleId"], one["kind"]) == (code, kind))
+    region = found["locations"][0]["physicalLocation"]["region"]
+    assert region["startLine"] == region["endLine"]
+    assert text.splitlines()[region["startLine"] - 1][region["startColumn"] - 1 : region["endColumn"] - 1] == stands
+
+
+def test_places_of_all_words_of_a_file_end_where_the_words_end() -> None:
+    for path in sorted((ROOT / "specs").glob("*.yaml")):
+        text = path.read_text("utf-8")
+        document = parse(text.encode(), path.name)
+        for where, span in document.keys.items():
+            assert cut(text, span) == where[-1]
+        ended = {where: cut(text, span) for where, span in document.values.items() if span.end}
+        assert len(ended) > 10
+        for where, word in ended.items():
+            value = reduce(lambda data, step: data[step], where, document.data)  # type: ignore[index, arg-type, return-value]
+            assert yaml.safe_load(word) == value or resolve(word) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("a: 4 m  # far", "4 m"),
+        ("{name: \"重 ü\", a: '4 m', b: 1}", "'4 m'"),
+        ("b: &x 4 m\r\na: *x\r\n", "4 m"),
+        ("\ufeffa: 4 m", "4 m"),
+    ],
+)
+def test_a_word_ends_where_it_ends_whatever_stands_beside_it(text: str, word: str) -> None:
+    span = parse(text.encode(), "x.yaml").values["a",]
+    assert cut(text.removeprefix("\ufeff"), span).removeprefix("&x ") == word
+
+
+@pytest.mark.parametrize("text", ["a: 4\n  m", "a: |\n  4 m\n", "a: {b: 1}", "a: [1]", "a:\n  b: 1"])
+def test_of_what_goes_on_below_no_end_is_told(text: str) -> None:
+    span = parse(text.encode(), "x.yaml").values["a",]
+    assert span.end is None
 
 
 def test_a_check_without_its_input_is_open_and_a_waived_one_is_suppressed() -> None:

@@ -23,9 +23,10 @@ _UNSEEN = FADED + _POLYNOMIALS
 
 def played(case: Case, end: float, tolerance: float) -> tuple[Course, ...]:
     """The run that counts, and those it is compared with: one, or two with a nonlinear torque."""
-    course = motion.run(case, end, tolerance)
+    most = motion.most_work(case, end)
+    course = motion.run(case, end, tolerance, most_work=most)
     compared = _COMPARED if course.smooth else _COMPARED[:1]
-    return (course, *(motion.run(case, end, tolerance, refined) for refined in compared))
+    return (course, *(motion.run(case, end, tolerance, refined, most_work=2 * most) for refined in compared))
 
 
 def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]:

@@ -47,7 +47,7 @@ def _rigid(key: "_Scene") -> _Rigid:
     if motion.seconds(case, end) > motion.BESIDE:
         return _Rigid({}, {})
     try:
-        course = motion.run(case, end, _TOLERANCE)
+        course = motion.run(case, end, _TOLERANCE, most_work=motion.MOST_BESIDE)
     except NumericsError:  # a bound cannot rest on it; the solver that meets it says so
         return _Rigid({}, {})
     named = {name: course.torque(name) for name in (*spec.links, *spec.gears)}

@@ -14,7 +14,7 @@ from ptmcalc.machines.drivetrain.loads import parts
 from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.record import PANEL, Record
 from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
@@ -29,6 +29,9 @@ _EVENTS, _ROUNDS = 5e-3, 3.0
 """Seconds that the events of a play take; what a smooth torque curve costs over a linear motion."""
 BESIDE = 0.3
 """Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
+MOST_BESIDE = BESIDE / PANEL
+"""Panels at which such a run is given up that was predicted to take less."""
+_LEAST_WORK, _MOST_TIMES = 2e5, 30.0
 _DUST = 1e-11
 
 
@@ -74,11 +77,28 @@ def is_smooth(case: Case) -> bool:
     return any(isinstance(law, Smooth) for law in laws) or any(one.law == HUNT_CROSSLEY for one in train.springs)
 
 
-def run(case: Case, end: float, tolerance: float, refined: float = 1.0, *, keep: bool = False) -> Course:
-    """One run of a case to a time."""
+def run(
+    case: Case, end: float, tolerance: float, refined: float = 1.0, *, keep: bool = False, most_work: float = math.inf
+) -> Course:
+    """One run of a case to a time.
+
+    Raises:
+        NumericsError: it cannot be made, or takes more than `most_work` panels.
+    """
     system = TrainSystem(case.train)
     start = system.start()
-    record = march(system, *start, end, tolerance=tolerance, refined=refined, keep=keep, unsought=system.unsought)
+    mode, state = start
+    record = march(
+        system,
+        mode,
+        state,
+        end,
+        tolerance=tolerance,
+        refined=refined,
+        keep=keep,
+        most_work=most_work,
+        unsought=system.unsought,
+    )
     return Course(case, system, record, ledger(system, start, record))
 
 
@@ -103,7 +123,7 @@ def _rigid_time_of(key: "_Identity") -> float:
     case, end = key.case, _FIRST
     while end <= _LONGEST:
         try:
-            found = ended(run(case, end, 1e-6))
+            found = ended(run(case, end, 1e-6, most_work=most_work(case, end)))
         except NumericsError:  # the solver that meets it says so; a plan only needs some time
             break
         if math.isfinite(found):
@@ -269,6 +289,11 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
         for name, index in signals.items()
         if index is not None
     }
+
+
+def most_work(case: Case, end: float) -> float:
+    """Panels after which a run is given up: many times what was predicted, so that no run takes far longer."""
+    return _LEAST_WORK + _MOST_TIMES * seconds(case, end) / PANEL
 
 
 def seconds(case: Case, end: float) -> float:

@@ -30,7 +30,7 @@ from ptmcalc.machines.hoist.moving import (
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import PANEL, Record
+from ptmcalc.numerics.record import LONG, PANEL, Record
 from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
@@ -81,7 +81,7 @@ def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0
     """One run of a case, over its window or to another end."""
     system = TrainSystem(case.train)
     start = system.start()
-    end = end or case.window
+    end, most = end or case.window, _most_work(case, tolerance)
     record = march(
         system,
         *start,
@@ -90,7 +90,8 @@ def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0
         refined=refined,
         keep=keep,
         most_events=_MOST_EVENTS,
-        most_work=_most_work(case, tolerance),
+        most_work=most,
+        most_looks=most / LONG,
         unsought=system.unsought,
     )
     return Course(case, system, record, ledger(system, start, record))

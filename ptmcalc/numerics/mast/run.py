@@ -13,7 +13,7 @@ from ptmcalc.numerics.mast.parts import FloatArray
 from ptmcalc.numerics.mast.settling import Ring, Settled, settling
 from ptmcalc.numerics.mast.system import FREE, MOVED, Case, MastSystem
 from ptmcalc.numerics.piecewise import march
-from ptmcalc.numerics.record import Record
+from ptmcalc.numerics.record import LONG, Record
 
 MOST_EVENTS = 4000
 _JUST_AFTER = 1e-9
@@ -99,6 +99,7 @@ def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False, mo
         keep=keep,
         most_events=MOST_EVENTS,
         most_work=most_work,
+        most_looks=most_work / LONG,
         unsought=system.unsought,
     )
     put, damped = system.works(record.integrals)

@@ -3,9 +3,12 @@
 import math
 
 import pytest
+import yaml
 from support.machines import changed, report_of
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.engine.check import Options, check
+from ptmcalc.engine.load import load_text
 from ptmcalc.machines.drivetrain import bounds, motion
 from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain
@@ -82,3 +85,23 @@ def test_a_rigid_train_that_cannot_be_run_bounds_nothing(monkeypatch: pytest.Mon
     monkeypatch.setattr(motion, "run", broken)
     assert math.isfinite(motion.window(scene, case_of(spec, scene)))
     assert bounds.largest_backlash(spec, scene) == math.inf
+
+
+def test_a_run_that_takes_many_times_what_was_predicted_is_given_up() -> None:
+    """Its limit is on what it does, not on how closely peaks are looked for."""
+    spec = Drivetrain.model_validate(DATA)
+    case = case_of(spec, spec.all_scenes[0])
+    with pytest.raises(NumericsError, match=r"more than 1e\+02 steps .* given up"):
+        motion.run(case, 20.0, 1e-6, most_work=100.0)
+    free, bound = (motion.run(case, 20.0, 1e-6, most_work=most) for most in (math.inf, motion.most_work(case, 20.0)))
+    assert free.record.most_looks == bound.record.most_looks
+    assert free.record.top.values.tolist() == bound.record.top.values.tolist()
+    assert motion.most_work(case, 20.0) > 30 * bound.record.work
+
+
+def test_what_is_only_shown_beside_the_loads_is_not_run_beyond_the_budget() -> None:
+    loaded = load_text(yaml.safe_dump(DATA).encode(), "train.yaml")
+    for budget, shown in ((1.0, True), (1e-4, False)):
+        report = check(loaded, Options(budget=budget, repairs=False))
+        assert any(not one.decides for one in report.scenes[0].solvers) is shown
+        assert any(one.code == "NUM103" for one in report.diagnostics) is not shown
