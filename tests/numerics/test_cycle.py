@@ -213,3 +213,90 @@ def test_summits_between_the_places_looked_at_are_exact(stretches: int, phase: f
     assert (low, high) == pytest.approx((5 - size, 5 + size), rel=1e-13)
     assert high_at % TURN == pytest.approx(late % TURN, abs=3e-7)
     assert low_at % TURN == pytest.approx((late + math.pi) % TURN, abs=3e-7)
+
+
+@pytest.mark.parametrize("stretches", [6, 8])
+@pytest.mark.parametrize("phase", [0.0, 0.37, 1.1, 2.2, 3.9])
+def test_the_angle_of_a_summit_is_that_of_a_slope_of_nothing(stretches: int, phase: float) -> None:
+    """A skew summit, e = 5 + sin(phi - p) + sin(2 (phi - p))/3: where its slope, 1e-11 of that beside it, is 0."""
+    g = grid(stretches, 24)
+
+    def slope(phi: np.ndarray) -> np.ndarray:
+        return np.cos(phi - phase) + 2 / 3 * np.cos(2 * (phi - phase))
+
+    def bend(phi: float) -> float:
+        return -math.sin(phi - phase) - 4 / 3 * math.sin(2 * (phi - phase))
+
+    wanted = 5 + np.sin(g.angles - phase) + np.sin(2 * (g.angles - phase)) / 3
+    orbit = solve(g, lambda e: (-(e - wanted) + slope(g.angles), -np.ones(e.shape)), np.full(wanted.shape, 5.0))
+    assert orbit is not None
+    for value, angle in orbit.extremes():
+        assert abs(float(slope(np.array(angle)))) <= 2e-10 * abs(bend(angle))
+        assert value == pytest.approx(5 + math.sin(angle - phase) + math.sin(2 * (angle - phase)) / 3, rel=1e-13)
+
+
+def test_a_summit_takes_few_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """False position on the slope: some fifteen evaluations for each extreme, no fewer than its digits need."""
+    g, looks = grid(8, 24), []
+    orbit = solve(
+        g, lambda e: (-0.7 * (e - 5) + np.cos(g.angles - 0.4), np.full(e.shape, -0.7)), np.full(g.angles.shape, 3.0)
+    )
+    assert orbit is not None
+    kind = type(radau(24))
+    evaluate = kind.evaluate
+    monkeypatch.setattr(kind, "evaluate", lambda self, *given: (looks.append(1), evaluate(self, *given))[1])
+    orbit.extremes()
+    assert 10 <= len(looks) <= 34
+
+
+class TestNewton:
+    """Calls of the rate: one for each step and one for the slopes at the end."""
+
+    @staticmethod
+    def calls(noise: float, power: float, guess: float = 9.0) -> tuple[Orbit | None, int]:
+        """e' = -0.3 e^power from 9 on, with noise in its last digits."""
+        g, count = grid(10), 0
+
+        def rate(e: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            nonlocal count
+            count += 1
+            stray = 1 + noise * np.sin(1e16 * e + count)
+            return -0.3 * e**power * stray, -0.3 * power * e ** (power - 1)
+
+        return solve(g, rate, np.full(g.angles.shape, guess), start=9.0), count
+
+    def test_a_linear_equation_is_solved_at_once(self) -> None:
+        orbit, count = self.calls(0.0, 1.0)
+        assert count == 3, "one that solves it, one to see it, one for the slopes"
+        assert orbit is not None
+        assert orbit.at(TURN) == pytest.approx(9 * math.exp(-0.3 * TURN), rel=1e-12)
+
+    def test_another_one_doubles_its_digits(self) -> None:
+        for guess in (9.0, 3.0, 30.0):
+            orbit, count = self.calls(0.0, 0.5, guess)
+            assert orbit is not None
+            assert count <= 8
+            assert orbit.at(TURN) == pytest.approx((3 - 0.15 * TURN) ** 2, rel=1e-13)
+            assert orbit.rates == pytest.approx(-0.3 * np.sqrt(orbit.nodes), rel=1e-13)
+
+    @pytest.mark.parametrize(("noise", "stands"), [(3e-14, True), (1e-12, True), (3e-11, True), (1e-8, False)])
+    def test_noise_ends_it_where_it_is_small_and_is_refused_where_it_is_not(self, noise: float, stands: bool) -> None:
+        orbit, count = self.calls(noise, 0.5)
+        assert (orbit is not None) == stands
+        assert (count <= 14) == stands
+        if orbit is not None:
+            assert orbit.at(TURN) == pytest.approx((3 - 0.15 * TURN) ** 2, rel=10 * noise + 1e-13)
+
+    def test_a_step_falls_no_deeper_than_to_a_tenth(self) -> None:
+        """From far above Newton's step would lead below 0: the next e is a tenth there, then it goes on."""
+        seen = []
+        g = grid(10)
+
+        def rate(e: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            seen.append(float(e.min()))
+            return -0.002 * e**2, -0.004 * e
+
+        orbit = solve(g, rate, np.full(g.angles.shape, 4000.0), start=9.0)
+        assert orbit is not None
+        assert orbit.at(TURN) == pytest.approx(1 / (1 / 9 + 0.002 * TURN), rel=1e-12)
+        assert min(later / earlier for earlier, later in zip(seen, seen[1:], strict=False)) == pytest.approx(0.1)
