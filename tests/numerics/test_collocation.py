@@ -51,7 +51,7 @@ class TestPolynomials:
 
 
 def most_added(order: int) -> float:
-    """What the last two coefficients, of the size 2.3 each, add at most: int_0^x P_k = (P_(k+1) - P_(k-1))/(4 k + 2)."""
+    """What the last two coefficients, 2.3 each, add at most: int_0^x P_k = (P_(k+1) - P_(k-1))/(4 k + 2)."""
     x = np.linspace(-1, 1, 4001)
     at = [np.polynomial.legendre.Legendre.basis(k)(x) for k in range(order + 1)]
     k, last = order - 2, order - 1

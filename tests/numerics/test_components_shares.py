@@ -112,3 +112,16 @@ def test_oscillators_of_one_frequency_are_not_told_apart() -> None:
     found = components(rate, np.eye(4), 4)
     for state in (np.array([1.0, 0.0, 0.5, 0.0]), np.array([0.0, 0.0, 0.5, 3.0])):
         assert found.span(state, 1e-11, np.zeros(0)) == pytest.approx((24.0, 24.0))
+
+
+@pytest.mark.parametrize("unit", [1e-15, 1e15])
+def test_the_unit_of_time_does_not_matter(unit: float) -> None:
+    """Two decays and a free swing in another unit: the same shares, each as fast in its own unit."""
+    rate = np.zeros((4, 4))
+    rate[:2, :2], rate[2, 3], rate[3, 2] = [[-3.0, 4.0], [0.0, -70.0]], 24.0, -24.0
+    one, other = components(rate, np.eye(4), 4), components(unit * rate, np.eye(4), 4)
+    assert other.posed.all()
+    state = np.array([1.0, 0.3, 1e-5, 0.0])
+    for faded in (1e-12, 1e-3):
+        slowest, fastest = one.span(state, faded, np.zeros(0))
+        assert other.span(state, faded, np.zeros(0)) == pytest.approx((unit * slowest, unit * fastest))

@@ -237,7 +237,7 @@ def test_extremes_are_those_between_the_corners_whichever_crest_is_largest(
 def test_each_corner_hands_on_what_it_leaves_uncertain() -> None:
     """The bound of a stretch: with q = int |r| + (half the share of its length the strain takes of the rope) theta,
 
-        E_(j+1) = E_j + (|Y| + E_j)(e^q - 1)
+    E_(j+1) = E_j + (|Y| + E_j)(e^q - 1)
     """
     rope = replace(ROPE, length=14.0, damping_ratio=0.02)
     radius = random_map(3)
@@ -254,3 +254,18 @@ def test_each_corner_hands_on_what_it_leaves_uncertain() -> None:
         q = (g**2 + abs(offset) / 4 + 2 * 0.02 * g + largest * (rope.length - s[j + 1]) / s[j + 1] / 2) * theta[j]
         error += (norm + error) * math.expm1(q)
         assert motion.error[j] == pytest.approx(error, rel=1e-10)
+
+
+@pytest.mark.parametrize(("exponent", "told"), [(29.9, True), (30.15, False)])
+def test_a_bar_that_grows_by_e_to_the_thirtieth_is_none(exponent: float, told: bool) -> None:
+    """An even drum takes the rope in from s_0 to s_1 at the rate u: g^2 theta = u (s_0^(1/2) - s_1^(1/2))/(8 s_1
+    kappa^(1/2))."""
+    s0, s1 = ROPE.length, 0.4 * ROPE.length
+    u = exponent * 8 * s1 * math.sqrt(ROPE.rate) / (math.sqrt(s0) - math.sqrt(s1))
+    even = Map(np.array([0.0, (s0 - s1) * (1 + STATIC) / 0.15]), np.array([0.15, 0.15]))
+    speed = u * (1 + STATIC) / 0.15
+    if told:
+        assert haul(even, speed, ROPE).lengths[-1] == pytest.approx(s1, rel=1e-12)
+        return
+    with pytest.raises(NumericsError, match="faster than the load swings"):
+        haul(even, speed, ROPE)

@@ -169,7 +169,7 @@ class TestBetweenSamples:
         found, bar = self.watching(course, window, frequency)
         step = window / (math.ceil(max(omega, frequency) * window / 0.5) + 1)
         assert bar == pytest.approx(0.5 * omega**2 * step**2 / 8, rel=1e-9)
-        assert 0.5 <= found.largest_high[1]
+        assert found.largest_high[1] >= 0.5
         assert found.largest[0] == pytest.approx(1.0, rel=1e-9), "the largest place is a summit"
         assert found.samples == math.ceil(max(omega, frequency) * window / 0.5) + 1
 

@@ -38,6 +38,10 @@ def steady(t: np.ndarray, a: np.ndarray, w: np.ndarray) -> np.ndarray:
     return np.full(w.shape, 3.0)
 
 
+def stiff(t: np.ndarray, a: np.ndarray, w: np.ndarray) -> np.ndarray:
+    return np.asarray(-3e3 * (w - 10.0))
+
+
 def free(t: np.ndarray, a: np.ndarray, w: np.ndarray) -> np.ndarray:
     return np.zeros(w.shape)
 
@@ -62,7 +66,9 @@ def scaled(acceleration: Acceleration, unit: float) -> Acceleration:
 
 @pytest.mark.parametrize(("order", "tolerance"), SETTINGS)
 @pytest.mark.parametrize("unit", [1.0, 1e-3, 1e4])
-@pytest.mark.parametrize(("acceleration", "speed"), [(decay, 8.0), (decay, 0.4), (pendulum, 7.0), (steady, 0.01)])
+@pytest.mark.parametrize(
+    ("acceleration", "speed"), [(decay, 8.0), (decay, 0.4), (pendulum, 7.0), (steady, 0.01), (stiff, 1.0)]
+)
 def test_each_step_is_as_long_as_the_one_before_allows(
     acceleration: Acceleration, speed: float, unit: float, order: int, tolerance: float
 ) -> None:
@@ -251,3 +257,28 @@ class TestFirstEvent:
         found = self.first(lambda t, a, w: np.where(a > 1.8, 2.0, -1.0))
         assert found is not None
         assert 9 / 24 <= found[0] <= 10 / 24
+
+
+@pytest.mark.parametrize("noise", [0.0, 3e-13, 1e-9])
+@pytest.mark.parametrize("acceleration", [decay, pendulum, stiff])
+def test_the_work_told_is_what_was_asked_for(acceleration: Acceleration, noise: float) -> None:
+    """Every acceleration at the nodes counts, whatever came of it; the one at the beginning of a step does not."""
+    asked = 0
+
+    def counted(t: np.ndarray, a: np.ndarray, w: np.ndarray) -> np.ndarray:
+        nonlocal asked
+        asked += len(t) if len(t) > 1 else 0
+        return acceleration(t, a, w) * (1 + noise * np.sin(1e15 * w))
+
+    done = follow(Phase(counted, rest_only, until_time=0.7, until_angle=4.0), State(0.0, 1.0, 8.0), 11, 1e-9, 0.3)
+    assert done.evaluations == asked
+
+
+def test_times_and_angles_are_no_numbers_of_marks() -> None:
+    marks = watching(*[lambda t, a, w, x=x: 1.0 + x - a for x in range(5)])
+    ends = [follow(Phase(decay, marks), State(0.0, 0.5 + k, 8.0), 7, 1e-8).reason for k in range(5)]
+    assert ends == [0, 1, 2, 3, 4]
+    never = watching(lambda t, a, w: w, lambda t, a, w: w, lambda t, a, w: w)
+    assert follow(Phase(decay, never, until_angle=3.0), State(0.0, 1.0, 8.0), 7, 1e-8).reason == ANGLE < 0
+    assert follow(Phase(decay, never, until_time=0.1), State(0.0, 1.0, 8.0), 7, 1e-8).reason == TIME < 0
+    assert TIME != ANGLE

@@ -85,6 +85,14 @@ class TestCourse:
         just = begin * (1 - 2e-16) if begin else 0.0  # rounding of a corner is that corner
         assert self.COURSE.at(just, times) == pytest.approx(expected, rel=1e-14)
 
+    def test_rounding_of_a_late_corner_is_that_corner(self) -> None:
+        """1e-13 of the time and of a second, on either side of it: a piece and a decay begin there."""
+        late = Course((0.0, 5e3), (1.0, 4.0), (0.0, 0.0), decay=2.0, constant=1.0, since=5e3)
+        times = np.array([5e3])
+        assert late.at(5e3 - 4e-10, times) == pytest.approx([6.0])
+        assert late.at(5e3 - 6e-10, times) == pytest.approx([1.0])
+        assert late.at(5e3 + 6e-10, times) == pytest.approx([6.0])
+
     def test_before_its_first_corner_it_is_its_first_piece(self) -> None:
         late = Course((1.0, 2.0), (3.0, 5.0), (0.5, 0.0))
         assert late.at(0.2, np.array([0.2])) == pytest.approx([3.0 - 0.4])

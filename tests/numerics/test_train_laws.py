@@ -1,5 +1,6 @@
 """Laws of torques and signals as functionals: against their formulas, on every piece and beside every knot."""
 
+import itertools
 import math
 
 import numpy as np
@@ -33,7 +34,7 @@ def place(*signals: Signal) -> Place:
 
 
 def beside(knots: tuple[float, ...]) -> list[float]:
-    inside = [(a + b) / 2 for a, b in zip(knots, knots[1:], strict=False)]
+    inside = [(a + b) / 2 for a, b in itertools.pairwise(knots)]
     return [knots[0] - 2.3, *inside, *knots, knots[-1] + 1.9]
 
 
@@ -78,7 +79,7 @@ class TestStraight:
     def test_its_guards_are_the_ends_of_its_piece(self, law: Straight) -> None:
         """Inside a piece all are above 0; beyond an end exactly one is below, and leads to the piece that holds there;
         where no piece follows there is none."""
-        for x in beside(KNOTS)[:4] + [KNOTS[0] + 0.01, KNOTS[-1] + 5.0]:
+        for x in [*beside(KNOTS)[:4], KNOTS[0] + 0.01, KNOTS[-1] + 5.0]:
             piece = piece_at(law, x)
             guards = list(drive_guards(Drive.of("d", 0, law), (0, piece), place()))
             assert all(row @ [x, 9.0, 1.0] > 0 for row, _ in guards)
