@@ -311,3 +311,12 @@ def test_a_column_so_stiff_that_rounding_hides_its_root_swings_below_any_frequen
     """Its root alone would swing with 10 rad/s; (E J/l^3 over the mass)^(1/2) is 1e13 times as much."""
     hidden = Mast(4.5e-8, 4.2e7, 1200.0, math.inf, 1800.0, 4000.0, 1.9e-7, 1.4e-6, 0.9999999998988485)
     assert 0 <= mast_modes.mast_frequency(hidden, 1) < 10
+
+
+@pytest.mark.parametrize("attitude", [mast.HANGING, mast.STANDING])
+@pytest.mark.parametrize("root", [3e7, HELD])
+def test_a_tip_without_weight_is_a_cantilever_on_its_root(root: float, attitude: str) -> None:
+    """l^3/(3 E J) + l^2/k, and next to it for next to no weight."""
+    bare = 16.5**3 / (3 * 8e7) + 16.5**2 / root
+    assert mast.weighted_tip_compliance(16.5, 8e7, root, 0.0, attitude) == pytest.approx(bare, rel=1e-14)
+    assert mast.weighted_tip_compliance(16.5, 8e7, root, 1e-9, attitude) == pytest.approx(bare, rel=1e-12)

@@ -218,3 +218,25 @@ class TestSmallAngles:
     def test_no_bound_for_large_angles(self) -> None:
         assert pendulum.small_angle_error(1.0, 50.0, 3.0) == math.inf
         assert pendulum.small_angle_error(0.0, 50.0, 3.0) == 0.0
+
+
+@pytest.mark.parametrize(("exponent", "known"), [(99.9, True), (100.5, False)])
+def test_a_bound_of_a_swing_by_e_to_the_hundredth_is_none(exponent: float, known: bool) -> None:
+    """Lengths alike: 2 asinh(3 e/8) = x for e = 8 sinh(x/2)/3."""
+    speed = 8 / 3 * math.sinh(exponent / 2) * math.sqrt(G * 5.0)
+    low, high = pendulum.hoisted_angle_bounds(0.01, 5.0, 5.0, speed, G)
+    assert low == pytest.approx(0.01 * math.exp(-exponent), rel=1e-9)
+    assert high == (pytest.approx(0.01 * math.exp(exponent), rel=1e-9) if known else math.inf)
+
+
+@pytest.mark.parametrize("turns", [(0.4, 0.7), (0.995, 0.5), (1.005, 0.5), (0.5, 1.005), (1.005, 1.3), (2.3, 0.995)])
+def test_what_two_ramps_leave_is_the_sum_of_two_turned_jumps(turns: tuple[float, float]) -> None:
+    """e_1 - e_2 exp(i w (t_1/2 + t_r + t_2/2)) as a complex number, on both sides of where a ramp cancels itself."""
+    w = 1.7
+    t1, t2 = (2 * math.pi * turn / w for turn in turns)
+    one, two = (math.sin(w * t / 2) / (w * t / 2) for t in (t1, t2))
+    for run in (0.0, 0.9, 2.5):
+        phase = w * (t1 / 2 + run + t2 / 2)
+        left = abs(one - two * complex(math.cos(phase), math.sin(phase)))
+        found = pendulum.start_stop_residual(2.0, G, w, t1, run, t2)
+        assert found == pytest.approx(2.0 * w / G * left, rel=1e-10)

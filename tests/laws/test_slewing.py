@@ -60,7 +60,7 @@ def integrated(
 
 @pytest.mark.parametrize(
     ("back", "brakes", "against", "delay", "rise"),
-    list(itertools.product((0.55, 0.9), ((5e3, 0.0), (0.0, 8e3)), (1.5e3, -2e3), (0.0, 0.3), (0.0, 0.7))),
+    list(itertools.product((0.55, 0.9, 1.0), ((5e3, 0.0), (0.0, 8e3)), (1.5e3, -2e3), (0.0, 0.3), (0.0, 0.7, 7.0))),
 )
 def test_a_stop_through_the_gear_is_that_of_an_integration(
     back: float, brakes: tuple[float, float], against: float, delay: float, rise: float

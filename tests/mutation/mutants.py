@@ -150,5 +150,5 @@ def mutants(path: Path) -> list[Mutant]:
 
 def population(package: Path) -> Iterator[Mutant]:
     for room in ("laws", "numerics"):
-        for path in sorted((package / room).glob("*.py")):
+        for path in sorted((package / room).rglob("*.py")):
             yield from mutants(path)

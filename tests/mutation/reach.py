@@ -53,7 +53,7 @@ def make_speak(package: Path) -> None:
         f"{start.read_text('utf-8')}\nimport builtins\n\nbuiltins.__dict__.setdefault({NOTED!r}, set())\n", "utf-8"
     )
     for room in ("laws", "numerics"):
-        for path in (package / room).glob("*.py"):
+        for path in (package / room).rglob("*.py"):
             path.write_text(speaking(path), "utf-8")
 
 

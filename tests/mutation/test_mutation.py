@@ -61,6 +61,8 @@ def test_operators_and_numbers_are_drawn_but_nothing_that_is_said(law: Path) -> 
 def test_every_fault_is_another_program() -> None:
     drawn = list(population(ROOT / "ptmcalc"))
     assert len(drawn) > 5000
+    rooms = {mutant.path.relative_to(ROOT / "ptmcalc").parts[:-1] for mutant in drawn}
+    assert rooms >= {("laws",), ("numerics",), ("numerics", "rope"), ("numerics", "train")}
     for mutant in drawn[::200]:
         changed = ast.dump(ast.parse(mutant.source))
         assert changed != ast.dump(ast.parse(mutant.path.read_bytes())), mutant

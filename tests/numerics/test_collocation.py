@@ -50,20 +50,35 @@ class TestPolynomials:
         assert abs(rule.integral[-1] @ rule.nodes ** (2 * order - 1) - 1 / (2 * order)) > 1e-3 * 4.0 ** (-2 * order)
 
 
-@pytest.mark.parametrize("order", [5, 7, 12])
+def most_added(order: int) -> float:
+    """What the last two coefficients, 2.3 each, add at most: int_0^x P_k = (P_(k+1) - P_(k-1))/(4 k + 2)."""
+    x = np.linspace(-1, 1, 4001)
+    at = [np.polynomial.legendre.Legendre.basis(k)(x) for k in range(order + 1)]
+    k, last = order - 2, order - 1
+    before = (at[k + 1] - at[k - 1]) / (4 * k + 2) if k else (x + 1) / 2
+    return 2.3 * float((np.abs(before) + np.abs(at[last + 1] - at[last - 1]) / (4 * last + 2)).max())
+
+
+@pytest.mark.parametrize("order", [4, 5, 7, 12, 16])
 def test_the_tail_bounds_what_the_last_coefficients_add(order: int) -> None:
-    """int_0^x P_k = (P_(k+1) - P_(k-1))/(2 (2 k + 1)), no more than 1/(2 k + 1)."""
+    """From four nodes on both together, whatever their signs, and it is no more than three times what they can add."""
     rule, dense = radau(order), np.linspace(0, 1, 2001)
-    for k in (order - 2, order - 1):
+    for last in ((2.3, 2.3), (2.3, -2.3), (-2.3, 0.0), (0.0, 2.3)):
         coefficients = np.zeros(order)
-        coefficients[k] = -2.3
-        added = np.abs(rule.integrate(coefficients, dense)).max()
+        coefficients[-2:] = last
         assert rule.tail(coefficients) == pytest.approx(2.3 / (2 * order - 1), rel=1e-14)
-        assert added <= 2.3 / (2 * k + 1)
-        assert added <= rule.tail(coefficients) * 1.01
+        assert np.abs(rule.integrate(coefficients, dense)).max() <= most_added(order) * (1 + 1e-12)
+        assert most_added(order) <= rule.tail(coefficients)
+    assert 3 * most_added(order) > 2.3 / (2 * order - 1)
     coefficients = np.zeros((2, order))
     coefficients[:, :-2] = 5.0
     assert np.all(rule.tail(coefficients) == 0.0)
+
+
+@pytest.mark.parametrize(("order", "share"), [(2, 3.0), (3, 40 / 27)])
+def test_with_fewer_nodes_the_last_coefficients_add_more_than_the_tail(order: int, share: float) -> None:
+    tail = float(radau(order).tail(np.full(order, 2.3)))
+    assert most_added(order) == pytest.approx(share * tail, rel=1e-6)
 
 
 @pytest.mark.parametrize("order", [2, 8, 13])

@@ -1,5 +1,6 @@
 """Collocation and the closed cycle against equations with known solutions, and against scipy's integrator."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -213,3 +214,119 @@ def test_summits_between_the_places_looked_at_are_exact(stretches: int, phase: f
     assert (low, high) == pytest.approx((5 - size, 5 + size), rel=1e-13)
     assert high_at % TURN == pytest.approx(late % TURN, abs=3e-7)
     assert low_at % TURN == pytest.approx((late + math.pi) % TURN, abs=3e-7)
+
+
+@pytest.mark.parametrize("stretches", [6, 8])
+@pytest.mark.parametrize("phase", [0.0, 0.37, 1.1, 2.2, 3.9])
+@pytest.mark.parametrize("size", [1e-5, 1.0, 1e5])
+def test_the_angle_of_a_summit_is_that_of_a_slope_of_nothing(size: float, stretches: int, phase: float) -> None:
+    """A skew summit, e/size = 5 + sin(phi - p) + sin(2 (phi - p))/3: where its slope, to 1e-11 of it, is 0."""
+    g = grid(stretches, 24)
+
+    def slope(phi: np.ndarray) -> np.ndarray:
+        return np.cos(phi - phase) + 2 / 3 * np.cos(2 * (phi - phase))
+
+    def bend(phi: float) -> float:
+        return -math.sin(phi - phase) - 4 / 3 * math.sin(2 * (phi - phase))
+
+    wanted = 5 + np.sin(g.angles - phase) + np.sin(2 * (g.angles - phase)) / 3
+    rates = lambda e: (size * (wanted + slope(g.angles)) - e, -np.ones(e.shape))  # noqa: E731
+    orbit = solve(g, rates, np.full(wanted.shape, 5.0 * size))
+    assert orbit is not None
+    for value, angle in orbit.extremes():
+        assert abs(float(slope(np.array(angle)))) <= 2e-10 * abs(bend(angle))
+        expected = 5 + math.sin(angle - phase) + math.sin(2 * (angle - phase)) / 3
+        assert value == pytest.approx(size * expected, rel=1e-13)
+
+
+def test_a_summit_takes_few_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """False position on the slope: some fifteen evaluations for each extreme, no fewer than its digits need."""
+    g, looks = grid(8, 24), []
+    orbit = solve(
+        g, lambda e: (-0.7 * (e - 5) + np.cos(g.angles - 0.4), np.full(e.shape, -0.7)), np.full(g.angles.shape, 3.0)
+    )
+    assert orbit is not None
+    kind = type(radau(24))
+    evaluate = kind.evaluate
+    monkeypatch.setattr(kind, "evaluate", lambda self, *given: (looks.append(1), evaluate(self, *given))[1])
+    orbit.extremes()
+    assert 10 <= len(looks) <= 34
+
+
+def test_a_summit_that_would_lie_behind_a_corner_is_the_corner() -> None:
+    """e rises towards a vertex 0.5 % of the stretch behind its end, where it begins to fall: nothing lies beyond."""
+    g = Grid(np.array([0.0, 1.3, 2.9]), 5)
+    slopes = np.array([1.005 * 1.3 - g.angles[0], np.full(5, -0.4)])
+    for mirrored in (False, True):
+        way = -slopes[::-1, ::-1] if mirrored else slopes
+        here = Grid(2.9 - g.edges[::-1], 5) if mirrored else g
+        if mirrored:
+            way = np.array([np.full(5, 0.4), (here.angles[1] - here.edges[1]) * -1 - 0.005 * 1.3])
+        orbit = solve(here, lambda e, way=way: (way.copy(), np.zeros(e.shape)), np.full(way.shape, 4.0), 4.0)
+        assert orbit is not None
+        top = 4.0 + (0.4 * 1.6 if mirrored else 1.3**2 * 0.505)
+        assert orbit.extremes()[1] == pytest.approx((top, float(here.edges[1])), rel=1e-13)
+
+
+def test_how_far_a_stretch_may_be_off_goes_with_its_length() -> None:
+    g = Grid(np.array([0.0, 0.02, 1.3, 6.0]), 6)
+    slopes = np.random.default_rng(4).normal(size=(3, 6))
+    last = np.abs(slopes[:, -2:]).max(axis=1)
+    assert Orbit(g, np.ones(3), slopes, 1.0).tail() == pytest.approx(last / 11 * g.lengths, rel=1e-14)
+
+
+class TestNewton:
+    """Calls of the rate: one for each step and one for the slopes at the end."""
+
+    @staticmethod
+    def calls(noise: float, power: float, guess: float = 9.0, size: float = 1.0) -> tuple[Orbit | None, int]:
+        """With x = e/size: x' = -0.3 x^power from 9 on, every other call by a trifle more."""
+        g, count = grid(10), 0
+
+        def rate(e: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            nonlocal count
+            count += 1
+            x = e / size
+            return -0.3 * size * x**power * (1 + noise * (-1) ** count), -0.3 * power * x ** (power - 1)
+
+        return solve(g, rate, np.full(g.angles.shape, guess * size), start=9.0 * size), count
+
+    @pytest.mark.parametrize("size", [1e-7, 1.0, 1e7])
+    def test_a_linear_equation_is_solved_at_once(self, size: float) -> None:
+        orbit, count = self.calls(0.0, 1.0, size=size)
+        assert count == 3, "one that solves it, one to see it, one for the slopes"
+        assert orbit is not None
+        assert orbit.at(TURN) == pytest.approx(9 * size * math.exp(-0.3 * TURN), rel=1e-12)
+
+    @pytest.mark.parametrize("size", [1e-7, 1.0, 1e7])
+    def test_another_one_doubles_its_digits(self, size: float) -> None:
+        for guess in (9.0, 3.0, 30.0):
+            orbit, count = self.calls(0.0, 0.5, guess, size)
+            assert orbit is not None
+            assert count <= 8
+            assert orbit.at(TURN) / size == pytest.approx((3 - 0.15 * TURN) ** 2, rel=1e-13)
+            assert orbit.rates / size == pytest.approx(-0.3 * np.sqrt(orbit.nodes / size), rel=1e-13)
+
+    @pytest.mark.parametrize(
+        ("noise", "stands"), [(3e-14, True), (1e-12, True), (9e-11, True), (1.3e-10, False), (1e-8, False)]
+    )
+    def test_noise_ends_it_where_it_is_small_and_is_refused_where_it_is_not(self, noise: float, stands: bool) -> None:
+        orbit, count = self.calls(noise, 0.5)
+        assert (orbit is not None) == stands
+        assert (count <= 9) == stands
+        if orbit is not None:
+            assert orbit.at(TURN) == pytest.approx((3 - 0.15 * TURN) ** 2, rel=10 * noise + 1e-13)
+
+    def test_a_step_falls_no_deeper_than_to_a_tenth(self) -> None:
+        """From far above Newton's step would lead below 0: the next e is a tenth there, then it goes on."""
+        seen = []
+        g = grid(10)
+
+        def rate(e: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            seen.append(float(e.min()))
+            return -0.002 * e**2, -0.004 * e
+
+        orbit = solve(g, rate, np.full(g.angles.shape, 4000.0), start=9.0)
+        assert orbit is not None
+        assert orbit.at(TURN) == pytest.approx(1 / (1 / 9 + 0.002 * TURN), rel=1e-12)
+        assert min(later / earlier for earlier, later in itertools.pairwise(seen)) == pytest.approx(0.1)

@@ -208,3 +208,64 @@ class TestBars:
         fourth_root = (float(motion.lengths[1]) / float(motion.lengths[2])) ** 0.25
         assert bound == pytest.approx(rise * (1 + swing * fourth_root) + float(motion.bar(motion.times[-1])), rel=3e-4)
         assert motion.extremes()[0].value <= bound
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.003, 0.012, 0.2, 0.7])
+@pytest.mark.parametrize("lengths", [(30.0, 9.0), (30.0, 28.5), (9.0, 8.7)])
+def test_extremes_are_those_between_the_corners_whichever_crest_is_largest(
+    lengths: tuple[float, float], damping: float
+) -> None:
+    """A climb and a long even pull: crests grow as the rope gets shorter, or fade; each by looks ever closer."""
+    even = (lengths[0] - lengths[1]) / 0.16
+    radius = Map(np.array([0.0, 0.4, 0.5, 0.5 + even]), np.array([0.15, 0.15, 0.16, 0.16]))
+    rope = replace(ROPE, length=(lengths[0] + 0.0755) / (1 + STATIC), damping_ratio=damping)
+    motion = haul(radius, SPEED, rope)
+    for sign, extreme in zip((1, -1), motion.extremes(), strict=True):
+        assert sign * extreme.value == pytest.approx(sign * float(motion.at(extreme.time)[1]), rel=1e-13)
+        end = float(motion.times[-1])
+        near = (motion.times[:, None] + np.linspace(-0.8, 0.8, 6001)).ravel()  # a few swings beside each corner
+        times = np.unique(np.clip(np.concatenate([motion.times, near, np.linspace(0.0, end, 2001)]), 0.0, end))
+        for _ in range(3):
+            forces = sign * motion.at(times)[1]
+            top = int(forces.argmax())
+            times = np.linspace(times[max(top - 1, 0)], times[min(top + 1, len(times) - 1)], 401)
+        assert sign * extreme.value == pytest.approx(float(forces.max()), rel=1e-11)
+        bars = motion.bar(np.array([extreme.time, float(motion.times[-1])]))
+        assert float(bars[0]) * (1 - 1e-12) <= extreme.error
+
+
+def test_each_corner_hands_on_what_it_leaves_uncertain() -> None:
+    """The bound of a stretch: with q = int |r| + (half the share of its length the strain takes of the rope) theta,
+
+    E_(j+1) = E_j + (|Y| + E_j)(e^q - 1)
+    """
+    rope = replace(ROPE, length=14.0, damping_ratio=0.02)
+    radius = random_map(3)
+    motion = haul(radius, SPEED, rope)
+    s, v, theta = motion.lengths, motion.speeds, np.diff(motion.phases)
+    size = (ROPE.rate * s) ** 0.25
+    error, largest = 0.0, 0.0
+    for j, offset in enumerate(motion.offsets):
+        c = motion.amplitudes[j]
+        turn = math.sqrt(1 - 0.02**2)
+        norm = math.hypot(c.real, 0.02 * c.real + turn * c.imag)
+        g = max(v[j], v[j + 1]) / (1 + STATIC) / 4 / math.sqrt(ROPE.rate * s[j + 1])
+        largest = max(largest, abs(offset) + (norm + error) / size[j + 1])
+        q = (g**2 + abs(offset) / 4 + 2 * 0.02 * g + largest * (rope.length - s[j + 1]) / s[j + 1] / 2) * theta[j]
+        error += (norm + error) * math.expm1(q)
+        assert motion.error[j] == pytest.approx(error, rel=1e-10)
+
+
+@pytest.mark.parametrize(("exponent", "told"), [(29.9, True), (30.15, False)])
+def test_a_bar_that_grows_by_e_to_the_thirtieth_is_none(exponent: float, told: bool) -> None:
+    """An even drum takes the rope in from s_0 to s_1 at the rate u: g^2 theta = u (s_0^(1/2) - s_1^(1/2))/(8 s_1
+    kappa^(1/2))."""
+    s0, s1 = ROPE.length, 0.4 * ROPE.length
+    u = exponent * 8 * s1 * math.sqrt(ROPE.rate) / (math.sqrt(s0) - math.sqrt(s1))
+    even = Map(np.array([0.0, (s0 - s1) * (1 + STATIC) / 0.15]), np.array([0.15, 0.15]))
+    speed = u * (1 + STATIC) / 0.15
+    if told:
+        assert haul(even, speed, ROPE).lengths[-1] == pytest.approx(s1, rel=1e-12)
+        return
+    with pytest.raises(NumericsError, match="faster than the load swings"):
+        haul(even, speed, ROPE)

@@ -147,3 +147,61 @@ def test_too_long_a_window_says_so() -> None:
     one = Modes(np.array([1e6]), np.zeros(1), np.ones((1, 1)), np.ones(1), np.zeros(1))
     with pytest.raises(NumericsError, match="samples"):
         mode_sum(one, COURSES["straight"], 1e6)
+
+
+class TestBetweenSamples:
+    """Numbers between which a sum lies, where all that is missed can be told by hand."""
+
+    @staticmethod
+    def watching(course: Course, window: float, frequency: float = 3.0, zeta: float = 0.1) -> tuple[object, float]:
+        """Two places that see the input itself, the first larger; and the second's bar."""
+        modes = Modes(
+            np.array([frequency]), np.array([zeta]), np.zeros((1, 2)), np.array([2.0, 1.0]), np.zeros(2)
+        )  # fmt: skip
+        found = mode_sum(modes, course, window)
+        return found, float(found.largest_high[1] - found.largest[1])
+
+    @pytest.mark.parametrize(("omega", "frequency"), [(7.8, 3.0), (3.0, 11.0), (0.4, 3.0)])
+    def test_a_sine_bends_by_its_square(self, omega: float, frequency: float) -> None:
+        """|S''| <= a omega^2 and a straight line between samples misses no more than h^2/8 of it."""
+        course = Course(ZERO[:1], ZERO[:1], ZERO[:1], ZERO[:1], np.array([0.5]), ZERO[:1], omega)
+        window = 2.3 * 2 * math.pi / omega
+        found, bar = self.watching(course, window, frequency)
+        step = window / (math.ceil(max(omega, frequency) * window / 0.5) + 1)
+        assert bar == pytest.approx(0.5 * omega**2 * step**2 / 8, rel=1e-9)
+        assert found.largest_high[1] >= 0.5
+        assert found.largest[0] == pytest.approx(1.0, rel=1e-9), "the largest place is a summit"
+        assert found.samples == math.ceil(max(omega, frequency) * window / 0.5) + 1
+
+    def test_a_parabola_bends_as_it_does(self) -> None:
+        course = Course(ZERO[:1], ZERO[:1], np.array([2.0]), np.array([-1.5]), ZERO[:1], ZERO[:1])
+        _, bar = self.watching(course, 2.0, 4.0)
+        step = 2.0 / (math.ceil(4.0 * 2.0 / 0.5) + 1)
+        assert bar == pytest.approx(1.5 * step**2 / 8, rel=1e-9)
+
+    @pytest.mark.parametrize("zeta", [0.0, 0.3, 1.0, 2.5])
+    def test_a_free_mode_bends_by_its_energy(self, zeta: float) -> None:
+        """After a step d = -1, d' = 2 z w - 0: |d''| <= w^2 (1 + 2 z) (d^2 + (d'/w)^2)^(1/2)."""
+        w = 5.0
+        modes = Modes(np.array([w]), np.array([zeta]), np.array([[3.0, 1.0]]), np.array([3.0, 1.0]), np.zeros(2))
+        found = mode_sum(modes, Course.step(), 2.0)
+        step = 2.0 / (math.ceil(w * 2.0 / 0.5) + 1)
+        bend = w * w * (1 + 2 * zeta) * math.hypot(1.0, 2 * zeta)
+        assert found.largest_high[1] - found.largest[1] <= bend * step**2 / 8 * (1 + 1e-12)
+        assert found.largest_high[1] - found.largest[1] >= bend * step**2 / 8 - 0.02, "the summit of the other place"
+        times = np.linspace(0, 2, 20_001)
+        x = integrated(modes, Course.step(), 2.0)[:, 1]
+        assert x.max() <= found.largest_high[1]
+        assert len(times) > len(x)
+
+    def test_what_an_input_drives_adds_to_the_energy(self) -> None:
+        """A sine far from the mode: E grows by a omega^2/w per time at most, from what it begins with."""
+        w, zeta, omega, a, window = 5.0, 0.2, 1.3, 0.4, 1.9
+        course = Course(ZERO[:1], ZERO[:1], ZERO[:1], ZERO[:1], np.array([a]), ZERO[:1], omega)
+        modes = Modes(np.array([w]), np.array([zeta]), np.array([[3.0, 1.0]]), np.array([3.0, 1.0]), np.zeros(2))
+        found = mode_sum(modes, course, window)
+        step = window / (math.ceil(w * window / 0.5) + 1)
+        driven = a * omega**2
+        energy = a * omega / w + driven / w * window  # at the start d = 0, d' = -q'
+        bend = w * w * (1 + 2 * zeta) * energy + 2 * driven
+        assert found.largest_high[1] - found.largest[1] == pytest.approx(bend * step**2 / 8, rel=1e-9)

@@ -300,3 +300,12 @@ def test_what_cannot_be_resolved_is_said() -> None:
     haul = lifting(set_speed=None, capacity=NONE, stages=(Stage(Smooth(lambda w: np.full(w.shape, np.nan))),))
     with pytest.raises(NumericsError):
         March(haul, Rod(K, 0.1 * M)).play(1.0)
+
+
+@pytest.mark.parametrize("rope", ["rod", "hauled"])
+def test_a_finer_march_has_panels_so_much_shorter(rope: str) -> None:
+    given = Rod(K, 0.3 * M) if rope == "rod" else Hauled(K * 20.0, 20.0, 0.01, Q / K / 20.0)
+    one = March(lifting(), given).longest
+    assert [one / March(lifting(), given, finer).longest for finer in (2.0, 7.0)] == pytest.approx([2.0, 7.0])
+    if rope == "rod":
+        assert one <= math.sqrt(0.3 * M / K), "no longer than a wave takes"

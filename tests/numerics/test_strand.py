@@ -259,6 +259,20 @@ class TestSag:
         assert differences[-1] < 3e-3 * 9e3
         assert np.log2(differences[0] / differences[2]) / 2 > 0.85  # at the corners; second order between them
 
+    def test_extremes_are_told_at_nodes_and_at_the_ends(self) -> None:
+        """The force of a start is highest where the carrying strand runs on, 400 m behind and 400 m ahead of that."""
+        line = loop(on=12e3, off=6e3, tail_tension=6e3, spans=(900.0, 450.0))
+        cut = sagging.grid_of(line, 60)
+        motion = sagging.march(line, step(9e3), 2.0, cut)
+        assert motion.carry_max.position == 800.0
+        for one, cells, begins in (
+            (motion.carry_max, cut.carry, 400.0), (motion.carry_min, cut.carry, 400.0),
+            (motion.back_max, cut.back, 0.0), (motion.back_min, cut.back, 0.0),
+        ):  # fmt: skip
+            halves = (one.position - begins) / 400.0 * 2 * cells
+            assert halves == pytest.approx(round(halves), abs=1e-9)
+            assert 0 <= halves <= 2 * cells
+
     @pytest.mark.parametrize("rigid", [False, True])
     def test_shocks_converge(self, rigid: bool) -> None:
         """Halving the grid three times changes the run-on peak by less than a thousandth."""

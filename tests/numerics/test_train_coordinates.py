@@ -114,3 +114,24 @@ class TestLedger:
         train = Train((Body("m", 1.0, 0.0, 1.0),), springs=(Spring("s", 0, None, 25.0, 1.0),))
         found = run(train, 30.0)
         assert found.ledger.lost["s"] == pytest.approx(0.5 * (1 - math.exp(-30.0)), rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_links_begin_with_the_extension_of_their_bodies(seed: int) -> None:
+    """x = x_1 - x_2 - rest and its rate, whether a link is a coordinate or closes a loop of others."""
+    rng = np.random.default_rng(seed)
+    speeds, places = rng.normal(size=(2, 4))
+    chosen = tuple(Body(f"b{k}", float(k + 1), float(places[k]), float(speeds[k])) for k in range(4))
+    pairs = [(0, 1), (1, 2), (2, 0), (2, 3), (3, 1), (3, None), (0, None)]
+    order = rng.permutation(len(pairs))[: rng.integers(3, 8)].tolist()
+    springs = tuple(
+        Spring(f"s{k}", pairs[k][0], pairs[k][1], 10.0 + k, rest=float(rng.normal())) for k in order
+    )  # fmt: skip
+    system = TrainSystem(Train(chosen, springs=springs))
+    _, z = system.start()
+    for spring, stretch in zip(springs, system.stretches, strict=True):
+        other = (0.0, 0.0) if spring.second is None else (places[spring.second], speeds[spring.second])
+        assert stretch.x @ z == pytest.approx(places[spring.first] - other[0] - spring.rest, abs=1e-13)
+        assert stretch.rate @ z == pytest.approx(speeds[spring.first] - other[1], abs=1e-13)
+    for body, (place, speed) in enumerate(zip(places, speeds, strict=True)):
+        assert system.seen(z, body) == pytest.approx((speed, place), abs=1e-13)

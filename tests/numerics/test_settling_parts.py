@@ -1,0 +1,94 @@
+"""Settling: the time the envelopes fit, how far a stretch reaches, and both ends of the answer."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from ptmcalc.numerics.mast import settling as module
+from ptmcalc.numerics.mast.settling import Ring, settling
+
+
+def ring(seed: int, count: int = 3) -> Ring:
+    rng = np.random.default_rng(seed)
+    rates = -(10 ** rng.uniform(-2, 0, count)) + 1j * 10 ** rng.uniform(-0.5, 1.5, count)
+    return Ring(rng.normal(size=count) + 1j * rng.normal(size=count), rates)
+
+
+@pytest.mark.parametrize("seed", range(6))
+class TestParts:
+    def test_a_ring_of_modes_is_their_free_motion(self, seed: int) -> None:
+        """q'' + 2 z w q' + w^2 q = 0: value and slope at the start, and the equation later on."""
+        rng = np.random.default_rng(seed)
+        w, z, gains, q, v = rng.uniform(1, 9, 2), rng.uniform(0, 0.9, 2), *rng.normal(size=(3, 2))
+        for k in range(2):
+            one = Ring.of(gains[k : k + 1], w[k : k + 1], z[k : k + 1], q[k : k + 1], v[k : k + 1])
+            h = 1e-4
+            assert one.at(0.0) == pytest.approx(gains[k] * q[k], rel=1e-13)
+            assert (one.at(h) - one.at(-h)) / 2 / h == pytest.approx(gains[k] * v[k], abs=1e-5 * 100)
+            before, here, after = (one.at(0.7 + d) for d in (-h, 0.0, h))
+            bend, slope = (after - 2 * here + before) / h**2, (after - before) / 2 / h
+            assert bend + 2 * z[k] * w[k] * slope + w[k] ** 2 * here == pytest.approx(0.0, abs=1e-4)
+        both = Ring.of(gains, w, z, q, v)
+        parts = [Ring.of(gains[k : k + 1], w[k : k + 1], z[k : k + 1], q[k : k + 1], v[k : k + 1]) for k in range(2)]
+        assert both.at(0.4) == pytest.approx(sum(one.at(0.4) for one in parts), rel=1e-12)
+        assert both.envelope(0.4) == pytest.approx(sum(one.envelope(0.4) for one in parts), rel=1e-12)
+        slope = (both.at(1e-6) - both.at(-1e-6)) / 2e-6
+        assert slope == pytest.approx(float(gains @ v), rel=1e-6, abs=1e-6)
+
+    def test_the_time_the_envelopes_fit(self, seed: int) -> None:
+        one = ring(seed)
+        for share in (0.5, 0.05, 1e-6):
+            room = share * one.envelope(0.0)
+            found = module._inside(one, room)
+            assert found is not None
+            assert found == pytest.approx(brentq(lambda t, room=room: one.envelope(t) - room, 0, 1e5), rel=1e-9)
+            assert one.envelope(found) < room
+        assert module._inside(one, 1.01 * one.envelope(0.0)) == 0.0
+        lasting = Ring(np.append(one.amplitudes, 0.3), np.append(one.rates, 4j))
+        assert module._inside(lasting, 0.299) is None
+        assert module._inside(lasting, 0.301) is not None
+
+    def test_a_stretch_reaches_no_further_and_not_much_less(self, seed: int) -> None:
+        """Slow parts by tangent and curvature, fast ones by what they are: one of them alone is told by hand."""
+        one = ring(seed)
+        for begins, ends in ((0.0, 0.01), (0.3, 0.5), (1.0, 4.0)):
+            middle, half = (begins + ends) / 2, (ends - begins) / 2
+            value, reach = module._reach(one, begins, ends, middle)
+            course = np.array([one.at(t) for t in np.linspace(begins, ends, 401)])
+            assert value == pytest.approx(one.at(middle), rel=1e-13, abs=1e-14)
+            assert np.abs(course - value).max() <= reach * (1 + 1e-12)
+            expected = slope = curved = 0.0
+            for c, rate in zip(one.amplitudes, one.rates, strict=True):
+                size, part = abs(c) * math.exp(rate.real * begins), c * np.exp(rate * middle)
+                if abs(rate) * half <= 1.0:
+                    slope += (part * rate).real
+                    curved += size * abs(rate) ** 2 * half**2 / 2
+                else:
+                    expected += min(size * abs(rate) * half, size + abs(part.real))
+            assert reach == pytest.approx(expected + abs(slope) * half + curved, rel=1e-12)
+
+    @pytest.mark.parametrize("lean", [0.0, 0.2, -0.2])
+    def test_the_last_time_outside(self, seed: int, lean: float) -> None:
+        one = ring(seed)
+        window = 0.3 * one.envelope(0.0) + abs(lean)
+        found = settling(one, window, lean)
+        times = np.linspace(0, max(2 * found.time, 1.0), 40_001)
+        parts = one.amplitudes[:, None] * np.exp(one.rates[:, None] * times)
+        outside = times[np.abs(parts.real.sum(axis=0) + lean) >= window]
+        last = float(outside[-1]) if len(outside) else 0.0
+        assert found.low - 1e-9 <= found.time <= found.high
+        assert last <= found.high + 1e-12
+        assert found.low <= last + 2 * float(times[1])
+        assert found.high - found.low <= 1e-9 * max(found.time, 1e-3)
+        if last > 0:
+            assert abs(abs(one.at(found.time) + lean) - window) <= 1e-7 * window
+
+
+def test_what_never_leaves_has_settled_at_once_and_told_so() -> None:
+    for size in (0.5, 0.99):
+        found = settling(Ring(np.array([size + 0j]), np.array([-0.1 + 3j])), 1.0)
+        assert (found.time, found.low, found.high) == (0.0, 0.0, 0.0)
+    quiet = settling(Ring(np.array([1.05j]), np.array([-0.4 + 3j])), 1.0)  # its envelope does not fit, it does
+    assert (quiet.time, quiet.low, quiet.high) == (0.0, 0.0, 0.0)
