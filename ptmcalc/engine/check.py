@@ -226,7 +226,7 @@ class _Assembly:
             type=scene.type,
             effects=tuple(self._effects()),
             solvers=tuple(self._solvers()),
-            loads=tuple(self._loads(histories if self.options.histories else {})),
+            loads=tuple(self._loads(histories)),
             checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
             health=self._health(),
             events=next((run.result.events for run in reversed(self.settled.runs) if run.result.events), ()),

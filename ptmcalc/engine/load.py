@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.span import KeyPath, dotted
-from ptmcalc.base.units import RATIO
+from ptmcalc.base.units import RATIO, Quantity
 from ptmcalc.base.words import quote
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport
@@ -86,9 +86,7 @@ def changed(loaded: Loaded, path: KeyPath, value: float) -> Loaded:
         others = tuple(one for one in loaded.assumed if one.path != path)
         return replace(loaded, spec=spec.with_value(path, value), assumed=others)
     measure = measure_at(spec, path)
-    bare = measure is None or measure.quantity.dimension == RATIO.dimension
-    written = value if bare or measure is None else f"{value!r} {measure.quantity.si}"
-    data = _with(loaded.document.data, path, written)
+    data = with_key(loaded.document.data, path, written(value, measure.quantity) if measure else value)
     document = replace(loaded.document, data=data)
     try:
         spec, assumed = fill(kind, kind.spec.model_validate({**data, **loaded.asked}))
@@ -97,13 +95,20 @@ def changed(loaded: Loaded, path: KeyPath, value: float) -> Loaded:
     return replace(loaded, document=document, spec=spec, assumed=assumed)
 
 
-def _with(node: Any, path: KeyPath, value: object) -> Any:
-    """Data with another value at a key."""
+def with_key(node: Any, path: KeyPath, value: object) -> Any:
+    """A copy of plain data with another value at a path; blocks that are not there are made."""
     if not path:
         return value
-    copy = node.copy()
-    copy[path[0]] = _with(node[path[0]], path[1:], value)
-    return copy
+    step, rest = path[0], path[1:]
+    if isinstance(node, list) and isinstance(step, int):
+        return [with_key(one, rest, value) if index == step else one for index, one in enumerate(node)]
+    block = node if isinstance(node, dict) else {}
+    return {**block, step: with_key(block.get(step), rest, value)}
+
+
+def written(value: float, quantity: Quantity) -> str | float:
+    """A value as a design file writes it, to the last digit."""
+    return value if quantity.dimension == RATIO.dimension else f"{value!r} {quantity.si}"
 
 
 def _with_lines(finding: Finding, document: Document) -> str:

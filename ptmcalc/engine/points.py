@@ -21,7 +21,7 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import forget
 from ptmcalc.base.span import KeyPath, dotted, key_path
-from ptmcalc.base.units import RATIO, Quantity, show
+from ptmcalc.base.units import Quantity, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport, FileReport
@@ -29,7 +29,7 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.study import FloatArray, LoadTrack, Points, Said, Track, VariedKey
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.judge import checks_of, sides
-from ptmcalc.engine.load import Loaded, fill, load_text, measure_at
+from ptmcalc.engine.load import Loaded, fill, load_text, measure_at, with_key, written
 from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.run import widen
 from ptmcalc.numerics import lanes
@@ -103,11 +103,6 @@ def varied_key(loaded: Loaded, name: str) -> tuple[VariedKey, Measure]:
     return VariedKey(path, measure.quantity, present, loaded.document.value_span(path)), measure
 
 
-def written(value: float, quantity: Quantity) -> str | float:
-    """A value as a design file writes it, to the last digit."""
-    return value if quantity.dimension == RATIO.dimension else f"{value!r} {quantity.si}"
-
-
 # -- studies --------------------------------------------------------------------------------------------------------
 
 
@@ -151,7 +146,7 @@ class Study:
         data: Any = self.loaded.document.data
         data = {key: value for key, value in data.items() if key not in _LEFT_OUT}
         for key, value in zip(self.points.keys, values, strict=True):
-            data = _with(data, key.path, written(float(value), key.quantity))
+            data = with_key(data, key.path, written(float(value), key.quantity))
         return json.dumps(data, ensure_ascii=False).encode()
 
     def take(self, index: int, report: FileReport, labels: Iterable[str]) -> None:
@@ -385,14 +380,3 @@ def _ruling(
 def _alike(one: float, other: float) -> bool:
     """Whether two numbers are the same but for rounding, or both none."""
     return one == other or math.isclose(one, other, rel_tol=_SAME) or (math.isnan(one) and math.isnan(other))
-
-
-def _with(node: Any, path: KeyPath, value: object) -> Any:
-    """A copy of plain data with another value at a path; blocks that are not there are made."""
-    if not path:
-        return value
-    step, rest = path[0], path[1:]
-    if isinstance(node, list) and isinstance(step, int):
-        return [_with(one, rest, value) if index == step else one for index, one in enumerate(node)]
-    block = node if isinstance(node, dict) else {}
-    return {**block, step: _with(block.get(step), rest, value)}

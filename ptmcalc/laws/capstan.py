@@ -34,7 +34,7 @@ def slip_utilisation(
     """
     if isinstance(tight, float) and isinstance(slack, float) and isinstance(centrifugal, float):
         left = slack - centrifugal
-        return np.asarray((tight - centrifugal) * float(np.exp(-exponent)) / left if left > 0 else np.inf)
+        return np.asarray((tight - centrifugal) * np.exp(-exponent) / left if left > 0 else np.inf)
     grip = np.asarray(slack, float) - centrifugal
     pull = np.asarray(tight, float) - centrifugal
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -64,7 +64,7 @@ def slip_reserve_force(tight: float | ArrayLike, slack: float | ArrayLike, expon
         if not (tight > slack > 0):
             return np.asarray(np.inf if slack > 0 else 0.0)
         with np.errstate(over="ignore"):
-            return np.asarray(slack * float(np.expm1(exponent)) / (tight - slack))
+            return np.asarray(slack * np.expm1(exponent) / (tight - slack))
     grip, pull = np.asarray(slack, float), np.asarray(tight, float) - slack
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         reserve = grip * np.expm1(exponent) / pull

@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from ptmcalc import __version__
@@ -30,21 +31,20 @@ SCHEMA_VERSION = "1"
 
 
 def _encoder() -> Callable[[Any], str]:
-    """JSON of a value in one line. What `json` builds anew for each value is built once, where it is there."""
+    """JSON of a value in one line, in which no CI server that reads the log finds a command of its own: `##[...]`.
+
+    What `json` builds anew for each value is built once, where it is there.
+    """
     build, text = (getattr(json.encoder, name, None) for name in ("c_make_encoder", "encode_basestring"))
     plain = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
     if build is None or text is None:
-        return plain.encode
+        return lambda value: plain.encode(value).replace("##", _SIGNS)
     pieces = build(None, plain.default, text, None, plain.key_separator, plain.item_separator, False, False, False)
-    return lambda value: "".join(pieces(value, 0))
+    return lambda value: "".join(pieces(value, 0)).replace("##", _SIGNS)
 
 
-_encoded = _encoder()
-
-
-def _encode(value: Any) -> str:
-    """JSON in which no servant of a CI server that reads the log finds a command of its own: `##[...]`."""
-    return _encoded(value).replace("##", "#\\u0023")
+_SIGNS = "#\\u0023"
+_encode = _encoder()
 
 
 def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -103,7 +103,7 @@ def rows(found: list[dict[str, Any]]) -> str:
 
 def dump(document: Mapping[str, Any]) -> str:
     """JSON text without NaN and Infinity."""
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False).replace("##", "#\\u0023") + "\n"
+    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False).replace("##", _SIGNS) + "\n"
 
 
 def line(value: Any) -> str:
@@ -224,6 +224,7 @@ def _solver(solver: SolverReport) -> dict[str, Any]:
     }
 
 
+@cache
 def _unit(quantity: Quantity) -> dict[str, str]:
     """The SI unit; of a rotational speed, whose unit may also be that of a frequency, what people read it in."""
     shown_in = {"shown_in": quantity.display[0]} if quantity.dimension == ANGULAR_SPEED.dimension else {}

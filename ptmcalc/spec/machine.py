@@ -70,7 +70,7 @@ class MachineSpec(Fragment):
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect says so"""
 
-    tolerances: dict[str, Tolerance] = Field(default_factory=dict)
+    tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=200)
     """how far values may really be off, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
 
     waive: tuple[Waiver, ...] = ()

@@ -213,9 +213,7 @@ class _Reader:
             self._say("TXT107", f"the tag {quote(tag)} is refused", span, path, "delete it: a design file is data")
         node: _Node
         if isinstance(event, yaml.ScalarEvent):
-            if len(event.value) > MAX_SCALAR:
-                reason = f"this has {len(event.value)} characters, more than {MAX_SCALAR}"
-                raise _UnreadableError("TXT108", reason, span, "shorten it")
+            self._measure(event.value, span)
             node = _Scalar(span, resolve(event.value) if _plain(event) else event.value)
         elif isinstance(event, yaml.SequenceStartEvent):
             node = self._sequence(span, events, path)
@@ -277,6 +275,7 @@ class _Reader:
         key, span = "", _span(event)
         if isinstance(event, yaml.ScalarEvent):
             key = event.value
+            self._measure(key, span)
             if key and event.tag is None and event.anchor is None:
                 self._spend(1, path, 2, span)
                 return key, span
@@ -284,6 +283,11 @@ class _Reader:
             self._say("TXT111", "this key is not a word", span, path, "write `key: value`")
         self._node(event, events, (*path, key or "?"))
         return key, span
+
+    def _measure(self, text: str, span: Span) -> None:
+        if len(text) > MAX_SCALAR:
+            reason = f"this has {len(text)} characters, more than {MAX_SCALAR}"
+            raise _UnreadableError("TXT108", reason, span, "shorten it")
 
     def _say_cut(self, text: str, span: Span, path: KeyPath) -> None:
         plain = without_commas(text)

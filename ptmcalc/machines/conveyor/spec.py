@@ -291,7 +291,7 @@ class Conveyor(MachineSpec):
     """motors, gear and drum at the head; or give `drives`"""
     drives: Annotated[dict[str, PlacedDrive], Field(min_length=1, max_length=8)] | None = None
     """several drives by name, instead of `drive`"""
-    brakes: dict[str, Brake] = Field(default_factory=dict, max_length=20)
+    brakes: dict[str, Brake] = Field(default_factory=dict, max_length=50)
     """brakes by name"""
     backstop: Backstop | None = None
     """what keeps it from running back"""

@@ -157,8 +157,15 @@ def test_in_resonance_it_fails_what_the_textbook_would_pass(order: int) -> None:
         judgement = check_of(scene_of(report), code)
         assert judgement.verdict is Verdict.FAIL
         assert judgement.blame.path == ("speed",)
-        assert judgement.repair is None  # a stronger chain is no way out
     below, above = (one(report, f"safe_speed_{side}").estimate.value for side in ("below", "above"))
+    assert check_of(scene_of(report), "CHN102").repair is None  # a stronger chain is no way out
+    speeds = check_of(scene_of(report), "CHN101").repair
+    assert speeds is not None
+    assert speeds.path == ("speed",)
+    assert speeds.other is not None
+    low, high = sorted((speeds.value, speeds.other))
+    assert low == pytest.approx(below, rel=1e-3)
+    assert high == pytest.approx(above, rel=1e-3)
     assert below < FIRST / order < above
     warning = next(d for d in report.diagnostics if d.code == "NUM109")
     assert warning.path == ("speed",)
