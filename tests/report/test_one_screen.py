@@ -42,7 +42,7 @@ def report(request: pytest.FixtureRequest, machine: str) -> FileReport:
     text, (sound, weak, key) = (ROOT / "specs" / f"{machine}.yaml").read_text("utf-8"), TOO_WEAK[machine]
     assert text.count(sound) == 1
     made = text if request.param is Verdict.PASS else text.replace(sound, weak)
-    found = check(load_text(made.encode(), f"specs/{machine}.yaml"), Options())
+    found = check(load_text(made.encode(), f"specs/{machine}.yaml"), Options(courses=True))
     assert found.verdict == request.param.value
     repair = words.worst_first(found)[0][1].repair
     assert (dotted(repair.path) if repair else "") == (key if request.param is Verdict.FAIL else "")
