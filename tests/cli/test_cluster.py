@@ -92,7 +92,7 @@ def test_a_cluster_needs_the_same_program(two_workers: Cluster, specs: Callable[
 def test_a_scheduler_that_goes_leaves_one_clear_error_and_what_is_done(
     tmp_path: Path, specs: Callable[[int], None]
 ) -> None:
-    specs(100)
+    specs(400)
     whole = checked("--jobs", "1")
     with cluster(tmp_path, 1) as found, after_a_chunk(found.scheduler.kill):
         done = checked("--executor", found.executor, "--store", "results", "-o", "json=report.json")
@@ -106,11 +106,11 @@ def test_a_scheduler_that_goes_leaves_one_clear_error_and_what_is_done(
     printed = json.loads(done.out)["files"]
     with Store(Path("results")) as store:
         kept = len(store)
-    assert 0 < kept <= len(printed) < 100
+    assert 0 < kept <= len(printed) < 400
     assert all(entry in json.loads(whole.out)["files"] for entry in printed)
     again = checked("--jobs", "1", "--store", "results")
     assert again.out == whole.out
-    assert f"{kept} of 100 files known" in again.err
+    assert f"{kept} of 400 files known" in again.err
 
 
 @pytest.mark.parametrize(
