@@ -12,6 +12,7 @@ only loses energy: the march ends where what is left of it cannot reach another 
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -124,6 +125,20 @@ def mode_sum(modes: Modes, course: Course, window: float) -> Peaks:
     return _Sum(modes, course, window).go()
 
 
+def sampled(modes: Modes, course: Course, times: FloatArray) -> FloatArray:
+    """The sum at times, shape (times, places).
+
+    Args:
+        modes: the modes and the places.
+        course: the input.
+        times: rising, the first one 0 or later [s].
+
+    **Error** exact for the modes there are; those left out follow at once.
+    **Source** module docstring.
+    """
+    return _Sum(modes, course, float(times[-1])).at(times)
+
+
 def kicks(course: Course, window: float) -> tuple[float, float]:
     """Sum of the jumps of an input and the variation of its slope within a window [1, Hz].
 
@@ -162,18 +177,9 @@ class _Sum:
         self.samples = 0
 
     def go(self) -> Peaks:
-        course = self.course
-        value = slope = 0.0
-        for piece, begins in enumerate(course.times):
-            if begins > self.window:
-                break
-            jump = float(course.at(piece, np.zeros(1))[0]) - value
-            self.state[:, 1] += 2 * self.zeta * self.w * jump - (course.slope(piece, 0.0) - slope)
-            self.state[:, 0] -= jump
-            length = _length(course, piece, self.window)
-            self._piece(piece, float(begins), length)
-            value, slope = float(course.at(piece, np.array([length]))[0]), course.slope(piece, length)
-        jumps, variation = kicks(course, self.window)
+        for piece, begins, length in self._pieces():
+            self._piece(piece, begins, length)
+        jumps, variation = kicks(self.course, self.window)
         stray = jumps + (variation / float(self.w.max()) if variation else 0.0)
         off = self.modes.left_out * stray
         (top, bottom), (high, low) = self.best, self.limit
@@ -188,6 +194,40 @@ class _Sum:
             -np.maximum(bottom - off, 0.0),
             self.samples,
         )
+
+    def at(self, times: FloatArray) -> FloatArray:
+        """The sums at rising times within the window."""
+        found = np.zeros((len(times), len(self.modes.whole)))
+        for piece, begins, length in self._pieces():
+            forced = self._forced(piece, 0.0)
+            for chunk in np.split(here := np.flatnonzero(times >= begins), range(_CHUNK, len(here), _CHUNK)):
+                since = times[chunk] - begins
+                free = np.einsum(
+                    "tmj,mj->tm", free_motion(self.w, self.zeta, since[:, None])[:, :, 0, :], self.state - forced
+                )
+                found[chunk] = self._sums(piece, since, free)
+            self._leave(piece, length)
+        return found
+
+    def _pieces(self) -> Iterator[tuple[int, float, float]]:
+        """Number, beginning and length of each piece of the input in the window; the state has taken its kink."""
+        course = self.course
+        value = slope = 0.0
+        for piece, begins in enumerate(course.times):
+            if begins > self.window:
+                break
+            jump = float(course.at(piece, np.zeros(1))[0]) - value
+            self.state[:, 1] += 2 * self.zeta * self.w * jump - (course.slope(piece, 0.0) - slope)
+            self.state[:, 0] -= jump
+            length = _length(course, piece, self.window)
+            yield piece, float(begins), length
+            value, slope = float(course.at(piece, np.array([length]))[0]), course.slope(piece, length)
+
+    def _leave(self, piece: int, length: float) -> None:
+        """The state at the end of a piece, exactly."""
+        whole = free_motion(self.w, self.zeta, np.array([length]))
+        rest = self.state - self._forced(piece, 0.0)
+        self.state = np.einsum("mij,mj->mi", whole, rest) + self._forced(piece, length)
 
     def _piece(self, piece: int, begins: float, length: float) -> None:
         """March through a piece of the input."""
@@ -215,9 +255,7 @@ class _Sum:
             free = np.einsum("mij,mj->mi", maps[here], free)
             done += here
         self.samples += done * len(self.w)
-        # exactly at the end, whatever was left out
-        whole = free_motion(self.w, self.zeta, np.array([length]))
-        self.state = np.einsum("mij,mj->mi", whole, self.state - forced) + self._forced(piece, length)
+        self._leave(piece, length)  # whatever was left out
 
     def _forced(self, piece: int, since: float) -> FloatArray:
         """The part of (d, d') that the bend and the sine of a piece hold up, shape (k, 2)."""

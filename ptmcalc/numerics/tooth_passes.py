@@ -76,6 +76,7 @@ def tooth_passes(
     damping_ratios: FloatArray,
     gains: FloatArray,
     direct: Inputs | None = None,
+    watch: Callable[[FloatArray, FloatArray], None] | None = None,
 ) -> Passing:
     """Extremes of sums of modes that follow accelerations which jump at every engagement.
 
@@ -88,6 +89,7 @@ def tooth_passes(
         damping_ratios: zeta, also above 1, shape (k,) [1].
         gains: g, shape (k, places).
         direct: what is added at every place, (passes, any, places).
+        watch: is told all that was looked at, group by group: times, and sums of shape (times, places).
 
     Returns:
         the extremes; 0, the state before, counts.
@@ -113,6 +115,8 @@ def tooth_passes(
         if direct is not None:
             sums = sums + direct(run.times, middles)
         flat, times = sums.reshape(-1, places), run.times.ravel()
+        if watch is not None:
+            watch(times, flat)
         for side, sign in enumerate((1.0, -1.0)):
             where = (sign * flat).argmax(axis=0)
             tops = sign * flat[where, np.arange(places)]

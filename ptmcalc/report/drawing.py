@@ -1,11 +1,14 @@
 """How tables look on a terminal."""
 
-from collections.abc import Callable
+import re
+import textwrap
+from collections.abc import Callable, Sequence
 from io import StringIO
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from ptmcalc.base.diagnostic import Severity, Verdict
 
@@ -24,6 +27,12 @@ STYLE = {
 
 GAP = 3
 """Between two columns."""
+
+_EDGES = 2
+"""Left and right of a table that has an edge."""
+
+GLUE = "\xa0"
+"""A blank at which no line is broken; no printable text holds one."""
 
 
 def printed(write: Callable[[Console], None], width: int, color: bool) -> str:
@@ -56,3 +65,44 @@ def put(console: Console, table: Table) -> None:
     console.print(table)
     if not table.show_edge:
         console.print()
+
+
+def glued(amount: str) -> str:
+    """A number that keeps its unit and its bar in its line; an interval may go on in the next."""
+    return re.sub(r" (?![\[(×])", GLUE, amount)
+
+
+def wrapped(text: str, width: int) -> str:
+    """A text in lines of this width, broken at blanks as far as the words allow."""
+    lines = textwrap.wrap(text, max(width, 1), break_on_hyphens=False)
+    return "\n".join(lines).replace(GLUE, " ")
+
+
+def widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
+    """Widths of columns that leave words whole as far as the screen allows, the rest where it saves most lines."""
+    columns = list(zip(*cells, strict=True))
+    wide = [max(len(word) for cell in column for word in (*cell.split(" "), "")) for column in columns]
+    while sum(wide) + GAP * len(wide) > width and max(wide) > 1:
+        wide[wide.index(max(wide))] -= 1
+    longest = [max(map(len, column)) for column in columns]
+    while sum(wide) + GAP * len(wide) < width:
+        lines = [long / own if long > own else 0.0 for long, own in zip(longest, wide, strict=True)]
+        if not max(lines):
+            break
+        wide[lines.index(max(lines))] += 1
+    return wide
+
+
+def fill(table: Table, rows: Sequence[Sequence[str]], width: int, styles: Sequence[str] = ()) -> Table:
+    """Rows put into a table of so wide a screen, numbers whole; `styles` are those of the first cells."""
+    headings = [str(column.header) for column in table.columns]
+    wide = widths([headings, *rows], width + GAP - _EDGES * table.show_edge)
+    for column, own in zip(table.columns, wide, strict=True):
+        column.width = own
+        column.header = Text(wrapped(str(column.header), own))
+    for index, row in enumerate(rows):
+        cells = [Text(wrapped(cell, own)) for cell, own in zip(row, wide, strict=True)]
+        if styles:
+            cells[0].stylize(styles[index])
+        table.add_row(*cells)
+    return table

@@ -11,8 +11,7 @@ from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import EffectReport, FileReport, SceneReport
 from ptmcalc.report import words
-
-_GLUE = "\xa0"  # no line is broken at it, and no printable text holds one
+from ptmcalc.report.drawing import GLUE
 
 
 def sections(report: FileReport, width: int) -> Iterator[tuple[str, list[str]]]:
@@ -24,16 +23,16 @@ def sections(report: FileReport, width: int) -> Iterator[tuple[str, list[str]]]:
         "Assumed: the file does not say": [_assumed(report)],
     }
     for heading, paragraphs in found.items():
-        lines = [line for parts in paragraphs if parts for line in _flowed(parts, width)]
+        lines = [line for parts in paragraphs if parts for line in flowed(parts, width)]
         if lines:
             yield heading, lines
 
 
-def _flowed(parts: Sequence[str], width: int) -> list[str]:
+def flowed(parts: Sequence[str], width: int) -> list[str]:
     """A paragraph that keeps each part in one line as far as the screen allows."""
-    text = " ".join(part.replace(" ", _GLUE) for part in parts)
+    text = " ".join(part.replace(" ", GLUE) for part in parts)
     lines = textwrap.wrap(text, width, initial_indent=" ", subsequent_indent="   ", break_on_hyphens=False)
-    return [line.replace(_GLUE, " ") for line in lines]
+    return [line.replace(GLUE, " ") for line in lines]
 
 
 def _listed(parts: Iterable[str], mark: str = ",") -> list[str]:

@@ -11,10 +11,10 @@ from rich.text import Text
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import dotted
-from ptmcalc.contract.report import FileReport, LoadReport, SceneReport, count
+from ptmcalc.contract.report import FileReport, Judgement, LoadReport, SceneReport, count
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.report import details, ledger, pick, tables, words
-from ptmcalc.report.drawing import GAP, STYLE, new_table, printed, put
+from ptmcalc.report.drawing import GAP, STYLE, fill, glued, new_table, printed, put, widths
 from ptmcalc.report.pick import Row
 
 
@@ -37,27 +37,8 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose:
 def listing(columns: Sequence[str], rows: Iterable[Sequence[str]], *, width: int) -> str:
     """A plain table of texts, for the commands that list things."""
     cells = words.printable([list(columns), *map(list, rows)])
-    table = new_table("")
-    for column, wide in zip(columns, _widths(cells, width), strict=True):
-        table.add_column(column, width=wide, overflow="fold")
-    for row in cells[1:]:
-        table.add_row(*map(Text, row))  # `[head]` is a part of the machine, no style
-    return printed(lambda console: console.print(table), width, color=False)
-
-
-def _widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
-    """Widths of columns that leave words whole as far as the screen allows, the rest where it saves most lines."""
-    columns = list(zip(*cells, strict=True))
-    widths = [max(len(word) for cell in column for word in (*cell.split(), "")) for column in columns]
-    while sum(widths) + GAP * len(widths) > width and max(widths) > 1:
-        widths[widths.index(max(widths))] -= 1
-    longest = [max(map(len, column)) for column in columns]
-    while sum(widths) + GAP * len(widths) < width:
-        lines = [long / wide if long > wide else 0.0 for long, wide in zip(longest, widths, strict=True)]
-        if not max(lines):
-            break
-        widths[lines.index(max(lines))] += 1
-    return widths
+    table = new_table("", *columns)
+    return printed(lambda console: console.print(fill(table, cells[1:], width)), width, color=False)
 
 
 def _title(console: Console, report: FileReport) -> None:
@@ -68,8 +49,49 @@ def _title(console: Console, report: FileReport) -> None:
     title.append("  ")
     title.append(report.verdict.upper(), style=STYLE[report.verdict])
     console.print(title)
+    _worst(console, report)
     console.print()
     _diagnostics(console, report.diagnostics, notes=False)
+
+
+def _worst(console: Console, report: FileReport) -> None:
+    """Why the verdict is what it is: the worst check with its numbers, the key that governs it and the way out.
+
+    It stands above everything that may fill a screen.
+    """
+    for scene, judgement in words.worst_first(report)[:1]:
+        verdict = _verdict(judgement)
+        about = f"{verdict} {judgement.code} {words.subject(judgement)}, {scene}:"
+        parts = [*about.split(), *_numbers(report, judgement), *words.remark(judgement).split()]
+        first, *others = ledger.flowed(parts, console.width)
+        line = Text(first)
+        line.stylize(STYLE[judgement.verdict.value], 1, 1 + len(verdict))
+        console.print(line)
+        for other in others:
+            console.print(Text(other))
+
+
+def _numbers(report: FileReport, judgement: Judgement) -> Iterator[str]:
+    """`0.4348, limit ≥ 1.2, margin -63.8 %; governed by drum.friction (belt.yaml:25:15);`."""
+    found = {
+        "": words.amount(judgement.value, judgement.quantity) if judgement.value else "",
+        "limit ": _limit(judgement),
+        "margin ": words.margin(judgement),
+    }
+    told = [f"{name}{number}" for name, number in found.items() if number]
+    yield from (f"{part}{',' if part is not told[-1] else ';'}" for part in told)
+    key, place = _governed(report, judgement).rsplit(" (", 1)
+    yield key
+    yield f"({place}{';' * bool(words.remark(judgement))}"
+
+
+def _limit(judgement: Judgement) -> str:
+    limit = words.amount(judgement.limit, judgement.quantity) if judgement.limit else ""
+    return f"{words.SIGN[judgement.sense]} {limit}" if limit else ""
+
+
+def _governed(report: FileReport, judgement: Judgement) -> str:
+    return f"governed by {dotted(judgement.blame.path)} ({report.path}:{words.place(judgement.blame.span)})"
 
 
 def _short(console: Console, report: FileReport) -> None:
@@ -142,12 +164,13 @@ def _loads(console: Console, scenes: tuple[SceneReport, ...], names: frozenset[s
         shown = [column for index in group for column in columns[index]]
         table = new_table(title, "", "", edge=edge)
         for name, style, _ in shown:
-            table.add_column(name, justify="right", overflow="fold", style=style)
-        for row, info in enumerate(infos):
-            if any(cells[row] for _, _, cells in shown):
-                unit = units[info.name].removeprefix("1")
-                table.add_row(info.title, unit, *(cells[row] for _, _, cells in shown))
-        put(console, table)
+            table.add_column(name, justify="right", style=style)
+        rows = [
+            [info.title, units[info.name].removeprefix("1"), *(glued(cells[row]) for _, _, cells in shown)]
+            for row, info in enumerate(infos)
+            if any(cells[row] for _, _, cells in shown)
+        ]
+        put(console, fill(table, rows, console.width))
         title = ""
 
 
@@ -220,30 +243,60 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
     """Verdicts in rows, the worst first; under them the key that governs each that is not sound, and the way out."""
     if not rows:
         return
-    beside = [_beside(row) for row in rows] if not edge else []
-    remarks = ["remark"] if any(beside) else []
-    table = new_table("Checks", "verdict", "check", "scene", "value", "limit", "margin", *remarks, edge=edge)
+    styles = [STYLE[row.judgement.verdict.value] for row in rows]
+    headings, cells = _in_columns(rows, edge, console.width)
+    put(console, fill(new_table("Checks", *headings, edge=edge), cells, console.width, styles))
     lines = []
     for index, (scene, judgement) in enumerate((row.scene, row.judgement) for row in rows):
-        verdict = Text(judgement.verdict.value.replace("_", " "), style=STYLE[judgement.verdict.value])
-        value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
-        limit = words.amount(judgement.limit, judgement.quantity) if judgement.limit else ""
-        limit = f"{words.SIGN[judgement.sense]} {limit}" if limit else ""
-        title = f"{judgement.code} {words.subject(judgement)}"
-        table.add_row(verdict, title, scene, value, limit, words.margin(judgement), *beside[index : index + 1])
         remark = words.remark(judgement)
         name = " ".join(filter(None, (judgement.code, judgement.element, scene)))
-        if judgement.verdict is not Verdict.PASS:
-            place = f"{report.path}:{words.place(judgement.blame.span)}"
-            governed = f" governed by {dotted(judgement.blame.path)} ({place})"
-            lines.append(Text.assemble(verdict, f" {name}:{governed}{'; ' * bool(remark)}{remark}"))
-        elif remark and edge:
-            lines.append(Text.assemble(verdict, f" {name}: {remark}"))
-    put(console, table)
+        told = f" {name}: "
+        if judgement.verdict is not Verdict.PASS and index:  # the first stands above everything
+            told += f"{_governed(report, judgement)}{'; ' * bool(remark)}{remark}"
+        elif judgement.verdict is Verdict.PASS and remark and edge:
+            told += remark
+        else:
+            continue
+        lines.append(Text.assemble((_verdict(judgement), styles[index]), told))
     for line in lines:
         console.print(line)
     if lines:
         console.print()
+
+
+_TITLE = 24
+"""A check whose title gets less room than this in a row of its own columns shares it with the scene and the remark."""
+
+
+def _in_columns(rows: Sequence[Row], edge: bool, width: int) -> tuple[list[str], list[list[str]]]:
+    """Headings and cells: scene and remark in columns of their own, or with the title where the screen is narrow."""
+    headings = ["verdict", "check", "scene", "value", "limit", "margin", "remark"]
+    table = [_cells(row, edge) for row in rows]
+    if not any(cells[-1] for cells in table):
+        headings, table = headings[:-1], [cells[:-1] for cells in table]
+    if widths([headings, *table], width)[1] >= min(_TITLE, max(len(cells[1]) for cells in table)):
+        return headings, table
+    beside = [f" ({cells[6]})" if cells[6:] and cells[6] else "" for cells in table]
+    narrow = [
+        [cells[0], f"{cells[1]}, {cells[2]}{remark}", *cells[3:6]] for cells, remark in zip(table, beside, strict=True)
+    ]
+    return ["verdict", "check, scene", *headings[3:6]], narrow
+
+
+def _cells(row: Row, edge: bool) -> list[str]:
+    judgement = row.judgement
+    value = words.amount(judgement.value, judgement.quantity) if judgement.value else ""
+    return [
+        glued(_verdict(judgement)),
+        f"{judgement.code} {words.subject(judgement)}",
+        row.scene,
+        *map(glued, (value, _limit(judgement), words.margin(judgement))),
+        "" if edge else _beside(row),
+    ]
+
+
+def _verdict(judgement: Judgement) -> str:
+    return judgement.verdict.value.replace("_", " ")
 
 
 def _beside(row: Row) -> str:

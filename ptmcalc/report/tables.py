@@ -3,8 +3,8 @@
 from rich.console import Console
 from rich.text import Text
 
-from ptmcalc.contract.report import FileReport
-from ptmcalc.report.drawing import new_table, put
+from ptmcalc.contract.report import Amount, Cell, FileReport
+from ptmcalc.report.drawing import fill, glued, new_table, put
 from ptmcalc.report.rows import cell
 
 
@@ -13,11 +13,14 @@ def draw(console: Console, report: FileReport, *, whole: bool) -> None:
     for table in report.tables:
         shown = [index for index, column in enumerate(table.columns) if whole or not column.detail]
         drawn = new_table("", *(table.columns[index].heading for index in shown))
-        for row in table.rows:
-            drawn.add_row(*(cell(row[index]) for index in shown))
+        cells = [[_text(row[index]) for index in shown] for row in table.rows]
         console.print(Text(table.title, style="bold"))
-        put(console, drawn)
+        put(console, fill(drawn, cells, console.width))
         for note in table.notes:
             console.print(Text(f" note: {note}"))
         if table.notes:
             console.print()
+
+
+def _text(one: Cell) -> str:
+    return glued(cell(one)) if isinstance(one, Amount) else cell(one)

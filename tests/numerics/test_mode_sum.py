@@ -1,5 +1,6 @@
 """Sums of modes against DOP853 started again at every kink of the input, and against closed forms."""
 
+import itertools
 import math
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.mode_sum import Course, Modes, kicks, mode_sum
+from ptmcalc.numerics.mode_sum import Course, Modes, kicks, mode_sum, sampled
 
 ZERO = np.zeros(3)
 COURSES = {
@@ -94,6 +95,26 @@ def test_extremes_are_those_of_the_equations_of_motion(name: str) -> None:
         assert largest <= together.largest_high[place] + 1e-9
         assert together.smallest_low[place] - 1e-9 <= smallest
         assert found.largest_high[0] == pytest.approx(together.largest_high[place], rel=1e-4, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_samples_are_those_of_the_equations_of_motion(name: str) -> None:
+    course = COURSES[name]
+    kinks = [*course.times.tolist(), 3.0]
+    times = np.concatenate([np.linspace(a, b, 6001) for a, b in itertools.pairwise(kinks)])
+    found, truth = sampled(MODES, course, times), integrated(MODES, course, 3.0)
+    inner = np.isin(times, course.times[1:], invert=True)  # a jump has two values
+    close = 5e-6 if name == "sine at a natural frequency" else 1e-8  # which is moved off it by a ten-millionth
+    assert found[inner] == pytest.approx(truth[inner], rel=1e-7, abs=close)
+
+
+@pytest.mark.parametrize("name", COURSES)
+def test_the_extremes_are_among_the_samples(name: str) -> None:
+    peaks = mode_sum(MODES, COURSES[name], 3.0)
+    place = int(peaks.largest.argmax())
+    at = float(peaks.largest_time[place])
+    found = sampled(MODES, COURSES[name], np.unique([0.0, at / 2, at, 3.0]))
+    assert found[:, place].max() == pytest.approx(peaks.largest[place], rel=1e-12)
 
 
 @pytest.mark.parametrize("name", COURSES)

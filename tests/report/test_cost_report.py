@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import re
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -169,6 +170,22 @@ def test_the_page_draws_what_was_measured_and_lists_the_rest() -> None:
     listed = " ".join(one.text or "" for one in page(REPORT).iter("li"))
     for part in ("broken 0 failed", "dear 0 not run", "endless 0, 500 ms: no bound"):
         assert part in listed
+
+
+def test_the_page_has_the_style_of_all_pages_and_tells_its_numbers_to_those_who_cannot_see_it() -> None:
+    found = page(REPORT)
+    style = "".join(one.text or "" for one in found.iter("style"))
+    assert (Path(work_precision.__file__).parent / "html" / "style.css").read_text("utf-8") in style
+    assert "prefers-color-scheme: dark" in style
+    (picture,) = found.iter("svg")
+    assert picture.get("role") == "img"
+    assert REPORT.scenes[0] in str(picture.get("aria-label"))
+    table = next(found.iter("table"))
+    assert [row.findtext("th") for row in table.findall("tbody/tr")] == sorted(
+        {*circles(REPORT, "bar"), *circles(REPORT, "error")},
+        key=lambda name: next(one.seconds or 0.0 for one in REPORT.settings if one.name == name),
+    )
+    assert "#" not in "".join(one.get("stroke", "") + one.get("fill", "") for one in picture.iter())
 
 
 def test_both_axes_are_logarithmic() -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from support.command import ROOT, environment, ptmcalc, python
+from support.command import ROOT, environment, ptmcalc, python, report_of_file
 from support.web_pages import Element, as_document, page_of, page_of_text, read, reported, without_texts
 
 from ptmcalc.base import units
@@ -569,3 +569,13 @@ def test_json_of_a_page_is_that_without(tmp_path: Path) -> None:
     document = json.dumps(as_document(reported(KINDS["shaft"])))
     assert "figures" not in document
     assert "history" not in document
+
+
+def test_no_interval_has_the_same_text_at_both_ends() -> None:
+    """`1.857 s to 1.857 s` says nothing: the interval is there, and too narrow for the digits."""
+    path = "specs/crane_slewing.yaml"
+    text = html.page(report_of_file(path), (ROOT / path).read_text("utf-8"))
+    ends = re.findall(r'<td class="number">([^<]+) to ([^<]+)</td>', text)
+    assert all(low != high for low, high in ends)
+    assert "narrower than its digits" in text
+    assert "exact for its level" in text

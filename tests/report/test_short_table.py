@@ -106,7 +106,12 @@ def test_nothing_that_is_not_passed_is_left_out(seed: int) -> None:
         verdict = judgement.verdict.value.replace("_", " ")
         name = " ".join(filter(None, (judgement.code, judgement.element, where)))
         assert re.search(rf"^{verdict} +{re.escape(title)} +{where} ", text, re.MULTILINE)
-        assert f"{verdict} {name}: governed by key (toy.yaml:7:3)" in text
+        if (where, judgement) == shown[0]:
+            assert re.match(rf"toy.*\n {verdict} {title}, {where}: .*governed by key \(toy.yaml:7:3\)", text), (
+                "the worst stands above everything"
+            )
+        else:
+            assert f"{verdict} {name}: governed by key (toy.yaml:7:3)" in text
         assert f"title of {judgement.loads[0]} " in text
 
 
@@ -132,7 +137,7 @@ def test_the_closest_margin_to_a_limit_of_nothing_is_the_smallest() -> None:
 def test_what_is_not_passed_stands_first_of_all() -> None:
     """The loads are first where nothing has to be done."""
     bad, sound = short(SAMPLES["failing"]), short(SAMPLES["passing"])
-    assert bad.index("\nChecks") < bad.index("governed by") < bad.index("\nLoads")
+    assert bad.index("governed by") < bad.index("\nChecks") < bad.index("\nLoads")
     assert sound.index("\nLoads") < sound.index("\nChecks")
 
 

@@ -60,7 +60,9 @@ def test_the_worst_verdict_comes_first_and_then_the_smallest_margin(path: str) -
 
 def test_a_failed_check_shows_the_line_to_blame_and_the_value_that_passes() -> None:
     text = " ".join(table(report_of_file(SLIPPING)).split())
-    assert f"fail CNV101 run_loaded: governed by drive.drum.friction ({SLIPPING}:25:15)" in text
+    about = "fail CNV101 belt slip at the drive drum, run_loaded: 0.4348, limit ≥ 1.2, margin -63.8 %;"
+    assert f"{about} governed by drive.drum.friction ({SLIPPING}:25:15); passes with" in text
+    assert f"undecided CNV101 start_empty: governed by resistance.start_factor ({SLIPPING}:15:1); fail if" in text
     assert re.search(r"passes with takeup\.tension = 82\.\d+ kN", text)
 
 
@@ -72,12 +74,14 @@ def test_the_line_to_blame_is_the_one_in_the_file() -> None:
 
 def test_an_undecided_check_names_the_key_to_supply() -> None:
     text = " ".join(table(SAMPLES["undecided"]).split())
-    assert "undecided TOY101 hang: governed by shock (toy.yaml:1:1); fail if `shock` is 1.2: give its value" in text
+    assert "undecided TOY101 too much weight on the hook, hang: " in text
+    assert "governed by shock (toy.yaml:1:1); fail if `shock` is 1.2: give its value" in text
 
 
 def test_a_check_not_made_names_the_missing_key() -> None:
     text = " ".join(table(SAMPLES["not_checked"]).split())
-    assert "not checked TOY101 hang: governed by strength (toy.yaml:3:11); `strength` is not given" in text
+    assert "not checked TOY101 too much weight on the hook, hang: " in text
+    assert "governed by strength (toy.yaml:3:11); `strength` is not given" in text
 
 
 def test_the_textbook_stands_beside_the_load_with_its_ratio() -> None:

@@ -14,7 +14,7 @@ from ptmcalc.report import html
 from ptmcalc.report import json as as_json
 from support.command import ROOT
 
-VOID = {"meta", "br", "link", "img", "input", "hr", "col"}
+VOID = {"meta", "br", "wbr", "link", "img", "input", "hr", "col"}
 
 
 @dataclass

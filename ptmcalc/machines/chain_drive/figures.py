@@ -1,4 +1,4 @@
-"""What of a chain drive people look at: the polygon effect over the speed, and the speeds to keep away from."""
+"""What of a chain drive people look at: the polygon effect over the speed, speeds to avoid, starts and stops."""
 
 from collections.abc import Iterator
 
@@ -8,6 +8,8 @@ from ptmcalc.contract.report import SceneReport
 from ptmcalc.contract.result import of
 from ptmcalc.machines.chain_drive.resonances import operating_range
 from ptmcalc.machines.chain_drive.spec import ChainDrive
+
+_MOMENTS = (("start_time", "full speed of the rigid chain"), ("stop_time", "at rest"))
 
 
 def _speeds(spec: ChainDrive, scene: SceneReport) -> Marks:
@@ -48,7 +50,19 @@ FIGURES = (
         "start_tension",
         "Tension of the chain over time",
         ("start", "stop", "emergency_stop", "coast"),
-        (Course("tension_start"), Course("tension_min")),
+        (
+            Course("tension_start", title="tension at the drive's run-on"),
+            Course("tension_min", title="tension where it is least"),
+        ),
         "tension",
+        moments=_MOMENTS,
+    ),
+    Figure(
+        "speed",
+        "Speed of the chain over time",
+        ("start", "stop", "emergency_stop", "coast"),
+        (Course("start_time", title="speed of the rigid chain"), Course("stop_time", title="speed of the rigid chain")),
+        "speed",
+        moments=_MOMENTS,
     ),
 )

@@ -30,6 +30,8 @@ _LIGHT = 1e-12
 """Mass of the slack strand between two shafts over that of the tight one: it only gives way, and is not 0."""
 _PERIODS = 1.5
 """Window of a start at an imposed speed behind its end, in periods of the lowest mode."""
+_SEEN = 200
+"""Samples of a speed over time."""
 _CURVE = 2000
 """Steps of speed along a motor's curve."""
 
@@ -198,6 +200,27 @@ def start_case(spec: ChainDrive, scene: Start) -> StartCase:
 def ratios(spec: ChainDrive, scene: ChainScene, frequencies: FloatArray) -> FloatArray:
     """Damping ratios of modes; the law of the file read at each frequency [1]."""
     return damping_ratios(damping(spec, scene), frequencies)
+
+
+def speed_over_time(case: Swinging) -> tuple[FloatArray, FloatArray]:
+    """Speed that the rigid body gains, up to the end of the window: the integral of its course [s, m/s].
+
+    **Error** that of Simpson's rule between its samples, nothing where the course is of parabolas.
+    """
+    course = case.course
+    kinks = course.times[course.times < case.window]
+    edges = np.unique(np.concatenate([np.linspace(0.0, case.window, _SEEN), kinks]))
+    widths = np.diff(edges)
+    piece = np.maximum(np.searchsorted(course.times, edges[:-1], "right") - 1, 0)
+    gains = [
+        width
+        / 6
+        * course.at(int(k), edge - course.times[k] + width * np.array([0.0, 0.5, 1.0]))
+        @ np.array([1.0, 4.0, 1.0])
+        for k, edge, width in zip(piece, edges[:-1], widths, strict=True)
+    ]
+    times, speeds = case.held + edges, case.acceleration * np.concatenate([[0.0], np.cumsum(gains)])
+    return (np.concatenate([[0.0], times]), np.concatenate([[0.0], speeds])) if case.held > 0 else (times, speeds)
 
 
 # -- what the modes follow ------------------------------------------------------------------------------------------

@@ -260,16 +260,24 @@ def _worse(load: LoadReport, other: LoadReport) -> bool:
     return new < old if any(word in load.info.name for word in _SMALL) else abs(new) > abs(old)
 
 
+def _interval(estimate: Estimate, quantity: Quantity) -> str:
+    """Between which numbers a load lies."""
+    if estimate.low == estimate.high:
+        return "exact for its level"
+    if not estimate.bounded:
+        return "no bound"
+    low, high = (words.number(end, quantity) for end in (estimate.low, estimate.high))
+    return f"{low} to {high}" if low != high else "narrower than its digits"
+
+
 def _load(number: int, scene: SceneReport, load: LoadReport) -> Entry:
     estimate, quantity = load.estimate, load.info.quantity
     unit = words.common_unit([estimate.value], quantity)
-    ends = [words.number(end, quantity) for end in (estimate.low, estimate.high)]
-    exact = estimate.low == estimate.high
     return {
         "title": load.info.title,
         "name": load.info.name,
         "value": words.number(estimate.value, quantity),
-        "interval": "exact for its level" if exact else " to ".join(ends) if estimate.bounded else "no bound",
+        "interval": _interval(estimate, quantity),
         "level": _level(scene, load.solver),
         "solver": load.solver,
         "anchor": f"solver-{number}-{load.solver}",

@@ -147,6 +147,10 @@ class TestStart:
         # the first element's tension stands half an element behind the run-on
         at_run_on = (3 * tensions[:, 0] - tensions[:, 1]) / 2
         assert dynamic.value == pytest.approx(at_run_on.max(), rel=6e-3)
+        course = found.histories()["tension_start"]
+        truth = np.interp(course.times, found.window[1] * np.arange(1501) / 1500, at_run_on)
+        swing = np.array(course.values) - course.values[0]
+        assert swing == pytest.approx(truth, abs=0.02 * at_run_on.max())
         back = numbers.resistance(1.2)[0]
         rises = np.array([0.0, back - numbers.chain * G * 5, back - numbers.chain * G * 5,
                           numbers.resistance(1.2)[2]])  # fmt: skip

@@ -18,7 +18,7 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
         S_D = 3 m a_max,   m = (m_G + lambda m_K) L        V = K (p/L) (A/q)^(1/2),  K = 3500
 
     **Range** conveyors whose tail is not driven; lambda by a table of lengths with steps at 25 and 60 m.
-    **Error** no bound: unsafe near every resonance unless the first mode has 9 % of damping, too high above the first
+    **Error** no bound: unsafe near every resonance unless the first mode has 10 % of damping, too high above the first
     one. It never decides.
     **Source** N. Yu. Dorokhov, lecture notes, Kramatorsk 2007 (`laws.polygon`, `laws.chain_resonance`).
     """

@@ -2,14 +2,22 @@
 
 import math
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
 from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, rigid_tensions
-from ptmcalc.machines.chain_drive.starting import StartCase, curve_start, drive_of, motor_torque, start_case
+from ptmcalc.machines.chain_drive.starting import (
+    StartCase,
+    curve_start,
+    drive_of,
+    motor_torque,
+    speed_over_time,
+    start_case,
+)
 
 
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -33,7 +41,17 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     loads["start_time"] = _start_time(spec, scene, case)
     if case.follows_curve:
         loads |= {name: Estimate.unknown(loads[name].value) for name in TENSIONS}
-    return Result({name: Found(load) for name, load in loads.items()}, work=1, window=(0.0, case.held + case.window))
+    window = (0.0, case.held + case.window)
+    found = {name: Found(load) for name, load in loads.items()}
+    return Result(found, work=1, window=window, histories=lambda: _histories(case))
+
+
+def _histories(case: StartCase) -> dict[str, History]:
+    """Speed of the rigid chain over time; along a motor's curve it follows no course of time."""
+    if case.follows_curve or not case.moves:
+        return {}
+    times, speeds = speed_over_time(case)
+    return {"start_time": History(units.SPEED, times.tolist(), speeds.tolist())}
 
 
 def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_modes, chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -16,7 +17,7 @@ from ptmcalc.machines.chain_drive.model import FloatArray, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting import StartCase, Swinging, ratios, start_case
-from ptmcalc.numerics.mode_sum import Modes, Peaks, kicks, mode_sum
+from ptmcalc.numerics.mode_sum import Modes, Peaks, kicks, mode_sum, sampled
 
 _FEWEST = 24
 """Modes at the coarsest level; four times as many at each finer one."""
@@ -26,6 +27,8 @@ _FAR_BEYOND = 4.0
 """Damping ratio from which on a mode counts with those left out."""
 _ANGLE = 0.5
 """Angle by which the fastest mode turns from one section to the next [rad]."""
+_A_PERIOD, _FEWEST_SEEN, _MOST_SEEN = 40, 400, 4000
+"""Samples of a course in a period of the lowest mode, and in all."""
 _SECONDS = 6e-8
 """Per mode, sample and section; measured once, and only the ratio to other solvers' matters."""
 
@@ -74,7 +77,7 @@ def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int
         {name: Found(load, at) for name, load in loads.items()},
         work=peaks.samples,
         window=(0.0, case.held + case.window),
-        findings=(),
+        histories=lambda: {"tension_start": course_of(case, modes, case.line.run_on, at["time"])},
     )
 
 
@@ -116,12 +119,13 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
     case = start_case(spec, scene)
     _require_motion(case)
     many = felt(spec, scene, case, _FEWEST << (2 * level))
-    at_drive = peaks_at(spec, scene, case, many, ((CARRY, np.ones(1)),))
+    at_end = ((CARRY, np.ones(1)),)
+    at_drive = peaks_at(spec, scene, case, many, at_end)
     count = felt(spec, scene, case, _SECTIONS << level)
     sections = sections_of(case, count)
     along = peaks_at(spec, scene, case, count, sections)
     dynamic = _largest(case, at_drive, 0)
-    smallest, where = extreme_anywhere(case, along, sections, count)
+    smallest, where, which = extreme_anywhere(case, along, sections, count)
     at = {"time": case.held + float(at_drive.largest_time[0])}
     loads = {name: Found(load, at) for name, load in loads_of(spec, case, dynamic, None).items()}
     loads["tension_min"] = Found(smallest, where)
@@ -130,6 +134,10 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
         work=at_drive.samples + along.samples,
         window=(0.0, case.held + case.window),
         health={"modes": float(many), "sections": float(len(along.smallest))},
+        histories=lambda: {
+            "tension_start": course_of(case, modes_at(spec, scene, case, many, at_end), case.line.run_on, at["time"]),
+            "tension_min": course_at(spec, scene, case, count, one_section(sections, which), where["time"]),
+        },
     )
     return beyond_slack(spec, found)
 
@@ -173,6 +181,32 @@ def sections_of(case: Swinging, count: int) -> Sections:
     return tuple(found)
 
 
+def course_of(case: Swinging, modes: Modes, static: float, at: float) -> History:
+    """Tension over time at the one place of the modes; one sample is that at a time `at`, which is of a peak."""
+    times = _seen_at(case, float(modes.frequencies[0]), at)
+    after = times > case.held  # at the very first moment the state before
+    moved = np.zeros(len(times))
+    moved[after] = sampled(modes, case.course, times[after] - case.held)[:, 0]
+    return History(units.FORCE, times.tolist(), (static + case.acceleration * moved).tolist())
+
+
+def course_at(
+    spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, place: tuple[int, FloatArray], at: float
+) -> History:
+    """Tension over time at one section; one sample is that at a time `at`, which is of a peak."""
+    return course_of(case, modes_at(spec, scene, case, count, (place,)), float(static_at(case, *place)[0]), at)
+
+
+def _seen_at(case: Swinging, frequency: float, at: float) -> FloatArray:
+    """Times at which a course is seen: so many in a period, at each kink of the drive, and at a time of a peak [s]."""
+    periods = case.window * frequency / (2 * math.pi)
+    count = int(np.clip(_A_PERIOD * periods, _FEWEST_SEEN, _MOST_SEEN))
+    even = np.linspace(0.0, case.window, count)
+    kinks = case.course.times[case.course.times <= case.window]
+    times = case.held + np.concatenate([even, kinks])
+    return np.unique(np.concatenate([[0.0], times, [min(max(at, 0.0), case.held + case.window)]]))
+
+
 def modes_at(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, sections: Sections) -> Modes:
     """The modes of a start at sections."""
     w = natural_frequencies(case, count)
@@ -189,8 +223,9 @@ def peaks_at(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int, se
 
 def extreme_anywhere(
     case: Swinging, peaks: Peaks, sections: Sections, count: int, sign: int = -1
-) -> tuple[Estimate, dict[str, float]]:
-    """Smallest (or with sign 1 the largest) tension anywhere with its bar, and where and when it is [N, m, s]."""
+) -> tuple[Estimate, dict[str, float], int]:
+    """Smallest (or with sign 1 the largest) tension anywhere with its bar, where and when it is [N, m, s], and its
+    section."""
     a, static = case.acceleration, np.concatenate([static_at(case, strand, x) for strand, x in sections])
     found = (peaks.smallest, peaks.smallest_low, peaks.smallest_high, peaks.smallest_time)
     if sign > 0:
@@ -202,7 +237,14 @@ def extreme_anywhere(
     middle, bar = float(value[which]), max(float(value[which]) - least, most - float(value[which]))
     ends = (least, most) if sign < 0 else (-most, -least)
     at = {"time": case.held + float(found[3][which]), "position": position_of(case, sections, which)}
-    return Estimate(-sign * middle, ends[0], ends[1], numerical=bar), at
+    return Estimate(-sign * middle, ends[0], ends[1], numerical=bar), at, which
+
+
+def one_section(sections: Sections, which: int) -> tuple[int, FloatArray]:
+    """The strand and the share of a section by its number."""
+    strands = np.concatenate([np.full(len(x), strand) for strand, x in sections])
+    shares = np.concatenate([x for _, x in sections])
+    return int(strands[which]), shares[which : which + 1]
 
 
 def position_of(case: Swinging, sections: Sections, which: int) -> float:

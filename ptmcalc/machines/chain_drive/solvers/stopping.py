@@ -3,23 +3,35 @@
 import math
 from collections.abc import Callable
 
+from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, Result
+from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import ChainLine, chain_line, mean_arm, natural_frequencies, radius
+from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
 from ptmcalc.machines.chain_drive.solvers.start_waves import (
     beyond_slack,
+    course_at,
     extreme_anywhere,
     felt,
+    one_section,
     peaks_at,
     sections_of,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Hold, Stop, Stopping
-from ptmcalc.machines.chain_drive.stopping import allowed_way, extremes, stop_case, stop_factor, swings
+from ptmcalc.machines.chain_drive.starting import speed_over_time
+from ptmcalc.machines.chain_drive.stopping import (
+    StopCase,
+    StopSwing,
+    allowed_way,
+    extremes,
+    stop_case,
+    stop_factor,
+    swings,
+)
 from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.spec.scene import Scene
 
@@ -66,7 +78,16 @@ def run(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) 
             for coefficient in told.values()
             for finding in too_long_a_way(spec.all_scenes, scene, scene.measured_distance, coefficient)
         )
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1, findings=findings)
+    exact = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    return Result(exact, work=1, findings=findings, histories=lambda: _histories(spec, case))
+
+
+def _histories(spec: ChainDrive, case: StopCase) -> dict[str, History]:
+    """Speed of the rigid chain over time, where it comes to rest."""
+    if math.isinf(case.rest()[0]):
+        return {}
+    times, lost = speed_over_time(next(swings(spec, case)))
+    return {"stop_time": History(units.SPEED, times.tolist(), (case.line.speed + lost).tolist())}
 
 
 def _identified(spec: ChainDrive, scene: Coast, line: ChainLine, way: float) -> dict[str, float]:
@@ -97,12 +118,15 @@ def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
     """
     case = stop_case(spec, scene)
     lows, highs, work = [], [], 0
+    courses: list[tuple[StopSwing, int, tuple[int, FloatArray]]] = []
     for swing in swings(spec, case):
         count = felt(spec, scene, swing, _MODES << level)
         sections = sections_of(swing, count)
         peaks = peaks_at(spec, scene, swing, count, sections)
-        lows.append(extreme_anywhere(swing, peaks, sections, count))
-        highs.append(extreme_anywhere(swing, peaks, sections, count, 1))
+        least, at, which = extreme_anywhere(swing, peaks, sections, count)
+        lows.append((least, at))
+        highs.append(extreme_anywhere(swing, peaks, sections, count, 1)[:2])
+        courses.append((swing, count, one_section(sections, which)))
         work += peaks.samples
     smallest, where = _held_together(lows, min)
     largest, when = _held_together(highs, max)
@@ -113,7 +137,12 @@ def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
         "tension_min": Found(smallest, where),
         "safety_start": Found(Estimate(middle, low, high, largest.numerical * slope), when),
     }
-    return beyond_slack(spec, Result(loads, work=work, window=(0.0, case.rest()[0])))
+
+    def histories() -> dict[str, History]:
+        which = [one.value for one, _ in lows].index(smallest.value)
+        return {"tension_min": course_at(spec, scene, *courses[which], where["time"])}
+
+    return beyond_slack(spec, Result(loads, work=work, window=(0.0, case.rest()[0]), histories=histories))
 
 
 _MODES = 24

@@ -1,14 +1,16 @@
 """A chain that changes its speed under its teeth: the rigid body's answer, and every mode tooth after tooth."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import loop_bounds, polygon
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -24,6 +26,7 @@ from ptmcalc.machines.chain_drive.passing import (
 from ptmcalc.machines.chain_drive.solvers.start_waves import (
     Sections,
     beyond_slack,
+    one_section,
     position_of,
     sections_of,
     travel_time,
@@ -73,7 +76,8 @@ def range_notes(spec: ChainDrive, scene: SpeedRange, carried: frozenset[str], le
 @dataclass(frozen=True, slots=True)
 class _Found:
     """Dynamic tensions: the largest at the run-on with its bar and its time, the smallest at every section with its bar
-    and its time; what every mode followed at most; the places in time looked at."""
+    and its time; what every mode followed at most; the places in time looked at; the leads of the first joint behind
+    the largest, and behind the smallest at every section."""
 
     largest: Estimate
     time: float
@@ -82,6 +86,8 @@ class _Found:
     smallest_time: FloatArray
     followed: FloatArray
     work: int
+    lead: float
+    smallest_lead: FloatArray
 
 
 def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) -> _Found:
@@ -110,13 +116,20 @@ def _passed(spec: ChainDrive, passing: Passing, sections: Sections, level: int) 
         np.array([one.smallest_time for one in found])[rows, columns][1:],
         np.max([one.followed for one in found], axis=0),
         sum(one.work for one in found),
+        which / count,
+        (rows / count)[1:],
     )
 
 
 _RUN_ON = CARRY, np.ones(1)
 
 
-def _ridden(spec: ChainDrive, passing: Passing, sections: Sections, lead: float) -> tooth_passes.Passing:
+Watch = Callable[[FloatArray, FloatArray], None]
+
+
+def _ridden(
+    spec: ChainDrive, passing: Passing, sections: Sections, lead: float, watch: Watch | None = None
+) -> tooth_passes.Passing:
     """All passes when the first joint is a lead behind its engagement."""
     share, begun, teeth = residual(spec), passing.excited_by_start, spec.sprocket.teeth
     on, off = passing.shapes(*_RUN_ON)[:, 0], passing.shapes(RETURN, np.zeros(1))[:, 0]
@@ -149,7 +162,17 @@ def _ridden(spec: ChainDrive, passing: Passing, sections: Sections, lead: float)
         passing.damping_ratios,
         gains,
         followed,
+        watch,
     )
+
+
+def _seen(spec: ChainDrive, passing: Passing, sections: Sections, lead: float) -> tuple[FloatArray, FloatArray]:
+    """Times, and the dynamic tension at the last of the places, at the run-on where there is no section."""
+    parts: list[tuple[FloatArray, FloatArray]] = []
+    _ridden(spec, passing, sections, lead, lambda times, sums: parts.append((times, sums[:, -1])))
+    times, tensions = (np.concatenate(one) for one in zip(*parts, strict=True))
+    order = np.argsort(times, kind="stable")
+    return times[order], tensions[order]
 
 
 def _by_the_driven(spec: ChainDrive, passing: Passing, sections: Sections) -> FloatArray:
@@ -208,17 +231,39 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
         raise NumericsError("NUM102", "the drive does not move the chain: there is no motion to compute")
     sections = sections_of(case, len(passing.frequencies))
     found = _passed(spec, passing, sections, level)
-    smallest, at = _lowest(case, passing, found, sections)
+    smallest, at, which = _lowest(case, passing, found, sections)
     loads = {
         name: Found(load, {"time": case.held + found.time})
         for name, load in loads_of(spec, case, found.largest, None).items()
     }
     loads["tension_min"] = Found(smallest, at)
-    return beyond_slack(spec, Result(loads, work=found.work, window=(0.0, case.held + case.window)))
+
+    def histories() -> dict[str, History]:
+        place = one_section(sections, which)
+        seen = {
+            "tension_start": (case.line.run_on, _seen(spec, passing, (), found.lead)),
+            "tension_min": (
+                float(static_at(case, *place)[0]),
+                _seen(spec, passing, (place,), float(found.smallest_lead[which])),
+            ),
+        }
+        return {
+            name: History(
+                units.FORCE,
+                [0.0, *(case.held + times).tolist()],
+                [static, *(static + tensions).tolist()],
+            )
+            for name, (static, (times, tensions)) in seen.items()
+        }
+
+    window = (0.0, case.held + case.window)
+    return beyond_slack(spec, Result(loads, work=found.work, window=window, histories=histories))
 
 
-def _lowest(case: StartCase, passing: Passing, found: _Found, sections: Sections) -> tuple[Estimate, dict[str, float]]:
-    """Smallest tension anywhere, with what the modes can do between two sections in its bar.
+def _lowest(
+    case: StartCase, passing: Passing, found: _Found, sections: Sections
+) -> tuple[Estimate, dict[str, float], int]:
+    """Smallest tension anywhere, with what the modes can do between two sections in its bar; its section.
 
     |B_k(s)''| <= (w t)^2 |B_k|, t the travel time of the strand; an eighth of it times the square of the distance
     """
@@ -235,7 +280,7 @@ def _lowest(case: StartCase, passing: Passing, found: _Found, sections: Sections
     value = float(values[which])
     bar = max(value - float(lows.min()), high - value)
     at = {"time": case.held + float(found.smallest_time[which]), "position": position_of(case, sections, which)}
-    return Estimate(value, float(lows.min()), max(high, value), numerical=bar), at
+    return Estimate(value, float(lows.min()), max(high, value), numerical=bar), at, which
 
 
 def _cost(spec: ChainDrive, passing: Passing, sections: int, level: int) -> float:
