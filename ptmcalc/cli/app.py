@@ -99,9 +99,7 @@ class Law(StrEnum):
 
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
-BudgetOption = Annotated[
-    str, typer.Option("--budget", help="Predicted time that each scene of a file may take, e.g. 2s.")
-]
+BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
     typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
