@@ -391,7 +391,23 @@ def _next(settled: Settled, spec: MachineSpec, waiting: Iterable[Rung], wanted: 
             helps = any(_helps(settled, spec, rung, name, share) for name in wanted)
             if not settled.runs or forced & rung.carried or helps:
                 return rung
-    return None
+    return next((rung for rung in waiting if any(_is_another_way(settled, rung, name) for name in wanted)), None)
+
+
+def _is_another_way(settled: Settled, rung: Rung, name: str) -> bool:
+    """Whether a solver that has not run carries what the best run of a load does, whose bar is its own numerics' and
+    has no finer setting: a bound that cannot be sharpened, where a computation is left."""
+    best = settled.loads.get(name)
+    if best is None or family(name) not in rung.solver.gives or rung.solver is best.rung.solver:
+        return False
+    ran = any(run.rung.solver is rung.solver and run.rung.carried >= best.rung.carried for run in settled.runs)
+    finer = any(
+        one.solver is best.rung.solver and one.carried == best.rung.carried and one.level > best.rung.level
+        for one in settled.plan.rungs
+    )
+    bar = best.estimate
+    own = bar.bounded and bar.numerical >= _SOME_PART * bar.bar > 0
+    return own and not ran and not finer and rung.carried >= best.rung.carried
 
 
 def _helps(settled: Settled, spec: MachineSpec, rung: Rung, name: str, share: float) -> bool:
