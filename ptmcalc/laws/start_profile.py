@@ -148,22 +148,24 @@ def time_to_momentum(
         momentum: p [kg*m/s].
 
     Returns:
-        time t [s].
+        time t; infinite where F is not above W [s].
 
-    **Range** F > W, and F rises through W at t_0.
+    **Range** F rises through W at t_0.
     **Error** rounding: a bisection to the last digit.
     **Source** Newton's law.
     """
     f, w, start, wanted = np.broadcast_arrays(*(np.asarray(one, float) for one in (force, resistance, held, momentum)))
+    moves = f > w
+    excess = wanted / np.where(moves, f - w, 1.0)
     if shape == STEP:
-        return np.asarray(wanted / (f - w))
-    high = rise_time + wanted / (f - w)
+        return np.where(moves, excess, np.inf)
+    high = rise_time + excess
     low, before = np.zeros_like(high), rise_integral(shape, rise_time, start)
     while True:
         middle = (low + high) / 2
-        inside = (low < middle) & (middle < high)
+        inside = moves & (low < middle) & (middle < high)
         if not inside.any():
-            return np.asarray(high)
+            return np.where(moves, high, np.inf)
         short = f * (rise_integral(shape, rise_time, start + middle) - before) - w * middle < wanted
         low, high = np.where(inside & short, middle, low), np.where(inside & ~short, middle, high)
 
