@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import shutil
 import signal
+import tempfile
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
@@ -19,6 +20,9 @@ from ptmcalc.engine.registry import kind_names
 from ptmcalc.engine.store import Record
 from ptmcalc.report import json
 
+_LONGEST_PLACE = 60
+"""Bytes of the name of the temporary folder in which a server of forks finds room for its socket: a name of a socket
+has at most 92 to 108, by system."""
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -53,7 +57,8 @@ def pool(jobs: int, kinds: Iterable[str]) -> Callable[[], Executor]:
     """
     for name in _THREADS:
         os.environ.setdefault(name, "1")
-    start = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
+    short = len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_PLACE
+    start = "forkserver" if short and "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
     context = multiprocessing.get_context(start)
     if start == "forkserver":
         known = kind_names()

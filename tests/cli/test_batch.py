@@ -298,7 +298,7 @@ def test_an_interrupt_keeps_and_prints_what_is_done(folder: Path, monkeypatch: p
     whole = checked()
     assert all(entry in document(whole)["files"] for entry in printed)
     monkeypatch.undo()
-    os.chdir(folder.parent)
+    monkeypatch.chdir(folder.parent)
     assert checked("--store", "results").out == whole.out
 
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 import yaml
-from support.command import Done, ptmcalc
+from support.command import ROOT, Done, ptmcalc
 
-PASSING = "specs/short_conveyor.yaml"
+PASSING = str(ROOT / "specs" / "short_conveyor.yaml")
 STRENGTH = ("solve", PASSING, "--check", "CNV102", "--vary", "belt.strength", "--scene", "run_loaded")
 
 

@@ -41,14 +41,16 @@ def test_a_line_goes_from_the_least_to_the_largest() -> None:
     assert sparkline(()) == ""
 
 
-TABLE = ("check", "specs/hoist.yaml", "--scene", "lift_loaded", "--format", "table")
+TABLE = ("check", str(ROOT / "specs" / "hoist.yaml"), "--scene", "lift_loaded", "--format", "table")
 
 
 def test_the_table_of_one_file_shows_courses_and_one_of_a_folder_does_not() -> None:
     shown = ptmcalc(*TABLE).out
     assert "course" in shown
     assert "█" in shown
-    assert "course" not in ptmcalc("check", "specs/hoist", "--format", "table", "--exclude", "crane_*").out
+    assert (
+        "course" not in ptmcalc("check", str(ROOT / "specs" / "hoist"), "--format", "table", "--exclude", "crane_*").out
+    )
 
 
 def test_on_a_terminal_of_ascii_the_signs_of_a_table_have_others_and_no_column_shifts() -> None:
