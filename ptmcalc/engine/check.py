@@ -361,7 +361,7 @@ class _Assembly:
         path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
         seconds = min(REPAIR_SECONDS, self.options.budget)
         try:
-            found = solve(self.loaded, ruling.check, path, scene.label, finest=0, seconds=seconds) if path else None
+            found = solve(self.loaded, ruling.check, path, scene.label, seconds=seconds) if path else None
         except UsageError:
             return None
         edges = (found.value, found.other) if found else ()

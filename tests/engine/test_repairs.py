@@ -109,7 +109,7 @@ def holds(case: Case, seconds: float) -> bool:
     assert case.loaded.spec is not None
     present = float(case.loaded.spec.value_at(case.path))
     try:
-        edge = solve(case.loaded, case.check, case.path, case.scene, finest=0, seconds=seconds)
+        edge = solve(case.loaded, case.check, case.path, case.scene, seconds=seconds)
     except UsageError:
         return False
     if edge is None:
