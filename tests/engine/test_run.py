@@ -758,3 +758,16 @@ def test_the_price_of_the_next_solver_is_in_the_report() -> None:
     (ran,) = scene.solvers
     assert ran.next is not None
     assert (ran.next.name, ran.next.predicted_seconds) == ("fine", pytest.approx(1e-2))
+
+
+def test_a_bound_that_cannot_be_sharpened_gives_way_to_a_computation_that_carries_as_much() -> None:
+    """Both carry the swing; the bound has one setting, and its bar straddles the limit. Alone it would stay open."""
+    swing = effect("swing")
+    bound = solver("bound", pull(8, 12), carries=("swing",), seconds=1e-3)
+    computed = solver("computed", pull(8.9, 9.1), carries=("swing",), seconds=1e-2)
+    assert judgement(report(kind_of(bound, effects=[swing]))).verdict is Verdict.UNDECIDED
+    found = report(kind_of(bound, computed, effects=[swing]))
+    assert judgement(found).verdict is Verdict.PASS
+    assert [one.name for one in found.scenes[0].solvers] == ["bound", "computed"]
+    decided = report(kind_of(solver("bound", pull(8, 9), carries=("swing",), seconds=1e-3), computed, effects=[swing]))
+    assert [one.name for one in decided.scenes[0].solvers] == ["bound"], "nothing is open, nothing is computed"

@@ -426,3 +426,12 @@ class TestPoints:
         for frequency in (0.7, 3.3, 17.0):
             _, after = oscillator(points, False, frequency)
             assert start_profile.residual(points, 1.0, frequency) == pytest.approx(after, abs=1e-8)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_force_that_is_not_above_the_resistance_never_gathers_a_momentum(shape: str) -> None:
+    """Nor does it where others beside it do, whose times stay as they are alone."""
+    found = start_profile.time_to_momentum(shape, RISE, [5e3, 4e3, 9e3], 5e3, 0.0, 7e4)
+    assert np.isinf(found[:2]).all()
+    assert found[2] == start_profile.time_to_momentum(shape, RISE, 9e3, 5e3, 0.0, 7e4)
+    assert np.isfinite(found[2])
