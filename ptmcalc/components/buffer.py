@@ -13,15 +13,19 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import buffer
-from ptmcalc.spec.fields import Measure, PositiveForce, PositiveLength, PositiveSpeed
+from ptmcalc.spec.fields import (
+    Measure,
+    PositiveForce,
+    PositiveFraction,
+    PositiveLength,
+    PositiveLineMass,
+    PositiveSpeed,
+    PositiveStiffness,
+)
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 
-BufferStiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
-Orifice = Annotated[float, Measure(units.LINE_MASS, above=0)]
-ShapeShare = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
-
 _SLOW = 0.01
-"""Share of the speed from which on something in an orifice buffer stands."""
+"""PositiveShare of the speed from which on something in an orifice buffer stands."""
 _OF = {"linear": "stiffness", "constant": "force", "hydraulic": "orifice", "progressive": "end_force"}
 _EXAMPLE = {
     "stiffness": "stiffness: 400 kN/m",
@@ -39,7 +43,7 @@ class Buffer(Fragment):
     friction, hydraulic with a tapered pin; `hydraulic`: one orifice, its force goes with the square of the speed"""
     count: Annotated[int, Field(ge=1, le=16, strict=True)] = 2
     """buffers that are hit at once, one on each rail"""
-    stiffness: BufferStiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """of one `linear` buffer"""
     force: PositiveForce | None = None
     """of one `constant` buffer"""
@@ -47,7 +51,7 @@ class Buffer(Fragment):
     """of one `progressive` buffer at the end of its stroke"""
     power: Annotated[float, Measure(units.RATIO, above=0, at_most=10)] = 2.0
     """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
-    orifice: Orifice | None = None
+    orifice: PositiveLineMass | None = None
     """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
     stroke: PositiveLength
     """way it can be pressed in"""
@@ -55,7 +59,7 @@ class Buffer(Fragment):
     """largest force of one buffer, or of what it stands on; needed to check it"""
     largest_speed: PositiveSpeed | None = None
     """it may be hit with, from its maker's list"""
-    shape: ShapeShare | None = None
+    shape: PositiveFraction | None = None
     """energy over largest force times stroke; by the type when left out"""
 
     @classmethod

@@ -17,14 +17,14 @@ from ptmcalc.spec.fields import (
     PositiveInertia,
     PositivePower,
     PositiveRatio,
+    PositiveShare,
     PositiveTorque,
+    ReverseEfficiency,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
 
-DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
 PartsFactor = Annotated[float, Measure(units.FACTOR, at_least=1, at_most=3)]
-ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
 
 
 class SlewMotor(Fragment):
@@ -52,7 +52,7 @@ class SlewMotor(Fragment):
     """of one motor, or give `power` and `speed`; needed to check its heating"""
     power: PositivePower | None = None
     """rated power of one motor"""
-    rated_duty: DutyFactor = 1.0
+    rated_duty: PositiveShare = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     largest_torque: PositiveTorque | None = None
     """the most one motor may be loaded with for a short time"""

@@ -6,12 +6,14 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from ptmcalc.base import units
 from ptmcalc.laws import start_profile
-from ptmcalc.spec.fields import Fraction, Measure, PositiveTime, Time
+from ptmcalc.spec.fields import (
+    Fraction,
+    PositiveFrequency,
+    PositiveTime,
+    Time,
+)
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
-
-PositiveFrequency = Annotated[float, Measure(units.FREQUENCY, above=0)]
 
 
 class ProfilePoint(Fragment):

@@ -1,66 +1,27 @@
 """The drive that makes a crane, a trolley or a stacker travel: motors, gear, brakes, and how it is controlled."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Literal
 
-from ptmcalc.base import units
-from ptmcalc.components import drive
 from ptmcalc.components.drive import Gear
+from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.laws import gearing
 from ptmcalc.spec.fields import (
-    Inertia,
-    Measure,
+    Efficiency,
     PositiveAcceleration,
-    PositivePower,
     PositiveTime,
     PositiveTorque,
     Time,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 
-ReverseEfficiency = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
-DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
 _SELF_LOCKING = 0.5
-Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
-
-
-class TravelMotor(drive.Motor):
-    """The travel motors, one of several equal ones."""
-
-    coupling_inertia: Inertia | None = None
-    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
-    rated_torque: PositiveTorque | None = None
-    """of one motor, or give `power` and `speed`; needed to check its heating"""
-    power: PositivePower | None = None
-    """rated power of one motor"""
-    rated_duty: DutyFactor = 1.0
-    """duty factor of the rating, e.g. `40 %`; continuous when left out"""
-    starts_per_hour: Rate | None = None
-    """how often the maker lets it start; needed to check the starts"""
-    cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
-        "self_ventilated"
-    )
-    """how it is cooled at rest"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The rating is given in one way."""
-        yield from super().conflicts(given)
-        yield from at_most_one(given, "rated_torque", "power")
-        yield from together(given, "power", "speed", "the rated torque is power over speed")
-
-    @property
-    def rated(self) -> float | None:
-        """Rated torque of one motor [N*m]."""
-        if self.power is not None and self.speed is not None:
-            return self.power / self.speed
-        return self.rated_torque
 
 
 class TravelGear(Gear):
     """The gear between motors and driven wheels, the last stage included."""
 
-    reverse_efficiency: ReverseEfficiency | None = None
+    reverse_efficiency: Efficiency | None = None
     """from wheel to motor; 2 - 1/efficiency when left out"""
 
     @classmethod
@@ -88,7 +49,7 @@ class TravelBrake(Fragment):
 class TravelDrive(Fragment):
     """Motors, gear and brakes, and how they are controlled."""
 
-    motor: TravelMotor
+    motor: DutyMotor
     """the travel motors"""
     gear: TravelGear
     """between motor shafts and driven wheels"""

@@ -10,6 +10,7 @@ from ptmcalc.base import units
 from ptmcalc.laws import sprocket
 from ptmcalc.numerics.harmonic.parts import HYSTERETIC, KELVIN_VOIGT, ZENER
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Fraction,
     Inertia,
     Measure,
@@ -25,8 +26,6 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 
-RatioFromOne = Annotated[float, Measure(units.FACTOR, at_least=1)]
-DampingRatio = Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)]
 PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
 
@@ -39,7 +38,7 @@ class Damping(Fragment):
 
     law: Literal["kelvin_voigt", "hysteretic", "zener"] = "kelvin_voigt"
     """`kelvin_voigt`: grows with the frequency; `hysteretic`: the same at all; `zener`: strongest at one"""
-    ratio: DampingRatio | None = None
+    ratio: Fraction | None = None
     """damping ratio of the first natural frequency; 0.05 is assumed when it is left out"""
     time: PositiveTime | None = None
     """retardation time (kelvin_voigt, instead of `ratio`) or relaxation time (zener)"""
@@ -74,7 +73,7 @@ class ChainData(Fragment):
     """of one strand with its plates, flights or slats, without load"""
     count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
     """chains side by side, or rows of a multiple roller chain, in a strand"""
-    unevenness: RatioFromOne | None = None
+    unevenness: FactorFromOne | None = None
     """share of the most loaded of several chains over an even one; 1.2 is assumed when left out, 1 for one chain"""
     breaking_load: PositiveForce
     """of one chain"""

@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.machines.chain_drive.chain_data import DrivenSprocket, RatioFromOne, TailSprocket, even
+from ptmcalc.machines.chain_drive.chain_data import DrivenSprocket, TailSprocket, even
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Force,
-    Height,
     LineMass,
     MassFlow,
     Measure,
@@ -20,6 +20,7 @@ from ptmcalc.spec.fields import (
     PositiveRatio,
     PositiveSpan,
     PositiveTorque,
+    SignedSpan,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 
@@ -33,11 +34,11 @@ class Resistance(Fragment):
     """resistance of the chain over its weight: 0.1 to 0.15 on rollers, 0.2 to 0.35 sliding"""
     load_coefficient: PositiveRatio | None = None
     """resistance of the load over its weight where the chain drags it; `coefficient` when left out"""
-    turn_factor: RatioFromOne | None = None
+    turn_factor: FactorFromOne | None = None
     """factor k on all resistances for the turns round sprockets and guides; 1.1 is assumed when it is left out"""
     force: Force = 0.0
     """further resistance at the tail end: feeding, boot, cleaning"""
-    start_factor: RatioFromOne | None = None
+    start_factor: FactorFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None = None
     """lowest resistance there can be, running and warm, over that in motion: for stops and backstops; 0.8 is assumed
@@ -67,7 +68,7 @@ class ConveyorLayout(Fragment):
     type: Literal["conveyor"]
     length: PositiveSpan
     """between the shafts, one strand"""
-    lift: Height = 0.0
+    lift: SignedSpan = 0.0
     """height the load is raised by; negative when it is lowered"""
     load: LineMass | None = None
     """on the working strand, per length; or give `capacity`"""
@@ -109,7 +110,7 @@ class TwoShafts(Fragment):
     """sag of the slack strand over its length; 1 to 3 % is usual"""
     rated_power: PositivePower | None = None
     """of one chain on 19 teeth at this speed, from the maker's chart; needed to check the choice of chain"""
-    service_factor: RatioFromOne | None = None
+    service_factor: FactorFromOne | None = None
     """f_1 of ISO 10823 for driver and driven machine, 1 to 2.1; 1.4 is assumed when it is left out"""
     tooth_exponent: Exponent = 1.08
     """of the tooth factor (19/z_1)^e: 1.08 by ISO 10823, 1 in some course cards"""

@@ -11,7 +11,6 @@ from ptmcalc.components.start import Profile
 from ptmcalc.laws import chain_selection, sprocket
 from ptmcalc.machines.chain_drive.chain_data import (
     ChainData,
-    RatioFromOne,
     Sprocket,
     Wear,
     even,
@@ -20,13 +19,14 @@ from ptmcalc.machines.chain_drive.chain_data import (
 )
 from ptmcalc.machines.chain_drive.layout import Layout, TwoShafts
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Force,
     Fraction,
     Inertia,
-    Measure,
     PositiveAngle,
     PositivePressure,
     PositiveRatio,
+    PositiveShare,
     PositiveSpan,
     PositiveSpeed,
     PositiveTime,
@@ -68,7 +68,7 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the sprocket shaft"""
-    reserve: RatioFromOne = 1.25
+    reserve: FactorFromOne = 1.25
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 
@@ -95,13 +95,10 @@ class Operating(Fragment):
             yield Conflict(("highest",), "it is not above the lowest speed", "swap them")
 
 
-BandWidth = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-
-
 class ResonanceLimit(Fragment):
     """What counts as too near a resonance."""
 
-    band: BandWidth = 0.15
+    band: PositiveShare = 0.15
     """how near to a resonance speed, as a share of it; twice the damping ratio where that is more"""
     weight: PositiveRatio = 0.5
     """force of a tooth harmonic in resonance, over m a_max, from which on it matters"""

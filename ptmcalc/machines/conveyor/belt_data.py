@@ -9,10 +9,12 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.machines.conveyor.damping import Damping
 from ptmcalc.spec.fields import (
+    Length,
     LineMass,
     Mass,
     MassFlow,
     Measure,
+    PositiveDensity,
     PositiveForce,
     PositiveLength,
     PositiveLineForce,
@@ -22,10 +24,8 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 
-LengthFromZero = Annotated[float, Measure(units.LENGTH, at_least=0)]
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
-PositiveDensity = Annotated[float, Measure(units.DENSITY, above=0)]
 
 
 class Belt(Fragment):
@@ -105,7 +105,7 @@ class Trough(Fragment):
 
     angle: TroughAngle
     """of the wing rolls to the level"""
-    middle_roll: LengthFromZero
+    middle_roll: Length
     """length of the middle roll; 0 mm for two rolls"""
 
 
@@ -151,7 +151,7 @@ class Transition(Fragment):
 
     length: PositiveSpan
     """from the drum's axis to the first full trough"""
-    pulley_lift: LengthFromZero = 0.0
+    pulley_lift: Length = 0.0
     """height of the drum's face over the middle roll; a third of the trough's depth is usual"""
 
 

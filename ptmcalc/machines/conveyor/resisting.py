@@ -5,22 +5,18 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from ptmcalc.base import units
-from ptmcalc.base.units import FACTOR
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Force,
     Fraction,
-    Measure,
     PositiveForce,
     PositiveLength,
+    PositivePressure,
     PositiveRatio,
     PositiveSpan,
     SignedSpeed,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one
-
-RatioFromOne = Annotated[float, Measure(FACTOR, at_least=1)]
-PositivePressure = Annotated[float, Measure(units.PRESSURE, above=0)]
 
 _OF_THE_STREAM = ("skirt", "loading")
 
@@ -90,7 +86,7 @@ class Cema(Fragment):
     """roll diameter, from which A_i follows: 2.3, 1.8, 1.5 or 2.4 lbf"""
     flexure: PositiveRatio | None = None
     """K_y of CEMA's table over length, slope and weights; 0.03 is assumed when it is left out"""
-    temperature: RatioFromOne = 1.0
+    temperature: FactorFromOne = 1.0
     """K_t; 1 above freezing"""
 
     @classmethod
@@ -104,7 +100,7 @@ class Resistance(Fragment):
 
     coefficient: PositiveRatio | None = None
     """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
-    secondary: RatioFromOne | None = None
+    secondary: FactorFromOne | None = None
     """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
     secondary_force: Force | None = None
     """secondary resistances as a force at the loading point, instead of `secondary`"""
@@ -114,7 +110,7 @@ class Resistance(Fragment):
     """part of the idlers' resistance at rated speed that is proportional to the speed"""
     forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
     """special resistances by name, besides main and secondary ones"""
-    start_factor: RatioFromOne | None = None
+    start_factor: FactorFromOne | None = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: PositiveRatio = 1.0
     """resistance while it runs out over resistance in motion; below 1 for a warm, light-running belt"""

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ptmcalc.base.memory import kept_for
 from ptmcalc.numerics import lanes
-from ptmcalc.spec.fields import Height, PositiveLength, PositiveSpan
+from ptmcalc.spec.fields import PositiveLength, PositiveSpan, SignedSpan
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 
 
@@ -18,7 +18,7 @@ class Section(Fragment):
 
     length: PositiveSpan
     """along the belt"""
-    lift: Height = 0.0
+    lift: SignedSpan = 0.0
     """height the load is raised by; negative when it is lowered"""
     carry_pitch: PositiveLength | None = None
     """idler pitch of the carry strand there, instead of that of `idlers.carry`"""
@@ -73,7 +73,7 @@ class Route(Fragment):
 
     length: PositiveSpan | None = None
     """distance between tail and head drum, along the belt; or give `sections`"""
-    lift: Height = 0.0
+    lift: SignedSpan = 0.0
     """height the load is raised by; negative when it is lowered"""
     sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
     """parts of different slope from the tail to the head, instead of `length` and `lift`"""

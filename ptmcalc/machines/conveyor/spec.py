@@ -11,9 +11,10 @@ from ptmcalc.components.drive import Gear, Motor
 from ptmcalc.components.start import Profile
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.belt_data import Belt, Idlers, Load, Transitions
-from ptmcalc.machines.conveyor.resisting import RatioFromOne, Resistance
+from ptmcalc.machines.conveyor.resisting import Resistance
 from ptmcalc.machines.conveyor.sections import Route
 from ptmcalc.spec.fields import (
+    FactorFromOne,
     Fraction,
     Inertia,
     PositiveAcceleration,
@@ -90,7 +91,7 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the drum shaft of the head"""
-    reserve: RatioFromOne = 1.25
+    reserve: FactorFromOne = 1.25
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 
@@ -127,7 +128,7 @@ class TailDrum(Fragment):
 class SlipLimit(Fragment):
     """How much grip must be left at the drum."""
 
-    reserve: RatioFromOne = 1.2
+    reserve: FactorFromOne = 1.2
     """reserve of friction force k_T; 1.1 to 1.5 in practice"""
     definition: Literal["force", "ratio"] = "force"
     """`force` puts the reserve on the friction force, `ratio` on the ratio of the tensions (stricter)"""
@@ -154,7 +155,7 @@ class ConveyorChecks(CheckSettings):
     """longest time of any stop"""
     section_fill: PositiveRatio = 1.0
     """largest stream over what the cross-section of the load holds"""
-    edge_overload: RatioFromOne = 1.15
+    edge_overload: FactorFromOne = 1.15
     """largest tension per width of a fibre at a transition or in a vertical curve over that of the steadily running
     belt's safety"""
     start_acceleration: PositiveAcceleration | None = None

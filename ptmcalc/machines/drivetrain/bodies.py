@@ -8,12 +8,16 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.laws import bodies
-from ptmcalc.spec.fields import Measure, PositiveLength, PositiveMass
+from ptmcalc.spec.fields import (
+    Length,
+    Measure,
+    PositiveDensity,
+    PositiveFraction,
+    PositiveLength,
+    PositiveMass,
+)
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 
-Density = Annotated[float, Measure(units.DENSITY, above=0)]
-Length = Annotated[float, Measure(units.LENGTH, at_least=0)]
-Shape = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
 STEEL = 7850.0
 
 
@@ -82,7 +86,7 @@ class Drum(Fragment):
     """of each end disc"""
     shaft_diameter: Length
     """of the shaft through both discs"""
-    density: Density = STEEL
+    density: PositiveDensity = STEEL
     """7850 kg/m^3 when left out"""
 
     @classmethod
@@ -134,7 +138,7 @@ class Sheave(Fragment):
     type: Literal["sheave"]
     rings: Annotated[tuple[RingPart, ...], Field(min_length=1, max_length=20)]
     """rim, web and hub"""
-    density: Density = STEEL
+    density: PositiveDensity = STEEL
     """7850 kg/m^3 when left out"""
 
     @property
@@ -152,7 +156,7 @@ class Coupling(Fragment):
     """mass of the whole body"""
     diameter: PositiveLength
     """outer diameter"""
-    shape: Shape = 0.5
+    shape: PositiveFraction = 0.5
     """k in k m R^2: 0.4 to 0.6, a ring is 1"""
 
     @property

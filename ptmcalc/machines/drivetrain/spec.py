@@ -15,12 +15,16 @@ from ptmcalc.machines.drivetrain.bodies import AnyBody
 from ptmcalc.machines.drivetrain.wiring import GROUND, wiring
 from ptmcalc.spec.fields import (
     Efficiency,
+    FactorFromOne,
     Fraction,
     Inertia,
     Mass,
     Measure,
+    PositiveFrequency,
     PositiveLength,
     PositiveTime,
+    Ratio,
+    ReverseEfficiency,
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
@@ -43,11 +47,7 @@ Stiffness = Annotated[float, either(units.TORSIONAL_STIFFNESS, units.STIFFNESS, 
 Damping = Annotated[float, either(units.TORSIONAL_DAMPING, units.DAMPING, at_least=0)]
 AnyImpulse = Annotated[float, either(units.ANGULAR_IMPULSE, units.IMPULSE)]
 AngularFrequency = Annotated[float, Measure(units.ANGULAR_FREQUENCY, above=0)]
-Frequency = Annotated[float, Measure(units.FREQUENCY, above=0)]
 Exponent = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
-StaticRatio = Annotated[float, Measure(units.FACTOR, at_least=1)]
-ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
-GearRatio = Annotated[float, Measure(units.RATIO)]
 
 
 class Body(Fragment):
@@ -192,7 +192,7 @@ class Gear(Fragment):
     """the inertia on the motor's side"""
     end: str = Field(alias="to")
     """the inertia on the load's side"""
-    ratio: GearRatio | None = None
+    ratio: Ratio | None = None
     """speed of `from` over speed of `to`; negative where it reverses"""
     radius: Annotated[float, Measure(units.LENGTH, above=0)] | None = None
     """of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
@@ -231,7 +231,7 @@ class Brake(Fragment):
     """`ground`, or the inertia on the other side of a clutch"""
     torque: PositiveTorque
     """torque or force while it slips, fully applied"""
-    static_ratio: StaticRatio = 1.0
+    static_ratio: FactorFromOne = 1.0
     """torque that it holds at rest over that"""
     delay: Time = 0.0
     """from the command until it begins to act"""
@@ -252,7 +252,7 @@ class Resistance(Fragment):
     """the inertia it acts on"""
     coulomb: TorqueOrNone = 0.0
     """dry friction, against the motion whatever the speed"""
-    static_ratio: StaticRatio = 1.0
+    static_ratio: FactorFromOne = 1.0
     """what must be overcome at rest over that"""
     viscous: Damping = 0.0
     """per speed"""
@@ -295,7 +295,7 @@ class SineTorque(OnInertia):
     type: Literal["sine"]
     amplitude: Torque
     """half of its swing"""
-    frequency: Frequency | None = None
+    frequency: PositiveFrequency | None = None
     """cycles per second"""
     angular_frequency: AngularFrequency | None = None
     """w itself, instead of `frequency`"""

@@ -3,9 +3,10 @@
 import math
 from dataclasses import dataclass
 
+from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.laws import brake, duty, hoisting, inertia
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.drive_data import Gearbox, Motor
+from ptmcalc.machines.hoist.drive_data import Gearbox
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist
 
@@ -34,12 +35,12 @@ def torque_down(spec: Hoist, mass: float, hook_height: float | None) -> float:
     return hoisting.lowering_torque(on_drum, gearbox_of(spec).ratio, model.reverse_efficiency(spec))
 
 
-def starting_torque(motor: Motor) -> float:
+def starting_torque(motor: DutyMotor) -> float:
     """Mean starting torque of all motors [N*m]."""
     return motor.count * motor.mean_torque
 
 
-def start_time(spec: Hoist, motor: Motor, mass: float, hook_height: float | None, up: bool) -> float:
+def start_time(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None, up: bool) -> float:
     """Of a hanging load by the mean starting torque, everything rigid; infinite where it does not move [s]."""
     return hoisting.hoist_start_time(
         starting_torque(motor),
@@ -54,14 +55,14 @@ def start_time(spec: Hoist, motor: Motor, mass: float, hook_height: float | None
     )
 
 
-def field_speed(motor: Motor) -> float | None:
+def field_speed(motor: DutyMotor) -> float | None:
     """Speed of the motor without load, for induction motors that of the field; None where it is not known [rad/s]."""
     if motor.no_load_speed is not None or motor.curve is None:
         return motor.no_load_speed
     return motor.curve.no_load_speed
 
 
-def start_heat(spec: Hoist, motor: Motor, field: float, mass: float, hook_height: float | None) -> float:
+def start_heat(spec: Hoist, motor: DutyMotor, field: float, mass: float, hook_height: float | None) -> float:
     """In the rotor of one motor in a start upwards, everything rigid; infinite where it does not lift [J]."""
     gear, efficiency = gearbox_of(spec), model.efficiency(spec)
     share = torque_up(spec, mass, hook_height) / starting_torque(motor)
@@ -136,7 +137,7 @@ def duty_factor(spec: Hoist) -> float:
     return filled(spec.duty.factor) if duty.DUTY_TYPES[spec.duty.type].at_rest else 1.0
 
 
-def rms_torque(spec: Hoist, motor: Motor) -> float:
+def rms_torque(spec: Hoist, motor: DutyMotor) -> float:
     """Torque that heats the motors as much as hoisting and lowering the spectrum, over the time they are on [N*m].
 
     Where the duty type counts starts, each of them is the mean starting torque for the time of a rigid start.
@@ -155,7 +156,7 @@ def rms_torque(spec: Hoist, motor: Motor) -> float:
     return duty.rms_torque(torques, times)
 
 
-def permissible_torque(spec: Hoist, motor: Motor) -> float | None:
+def permissible_torque(spec: Hoist, motor: DutyMotor) -> float | None:
     """Torque all motors bear at the duty factor of the file; None where their rating is not known [N*m]."""
     if motor.rated is None:
         return None

@@ -9,54 +9,18 @@ from ptmcalc.base import units
 from ptmcalc.components import drive
 from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.spec.fields import (
-    Inertia,
+    HourlyRate,
     Measure,
-    PositivePower,
+    PositiveShare,
     PositiveTorque,
+    ReverseEfficiency,
     RunningTime,
+    Share,
     Time,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
 
 Mechanism = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
-ReverseEfficiency = Annotated[float, Measure(units.RATIO, at_most=1)]
-DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
-LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
-Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-
-
-class Motor(drive.Motor):
-    """The hoisting motors, one of several equal ones."""
-
-    coupling_inertia: Inertia | None = None
-    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
-    rated_torque: PositiveTorque | None = None
-    """of one motor, or give `power` and `speed`; needed to check its heating"""
-    power: PositivePower | None = None
-    """rated power of one motor"""
-    rated_duty: DutyFactor = 1.0
-    """duty factor of the rating, e.g. `40 %`; continuous when left out"""
-    starts_per_hour: Rate | None = None
-    """how often the maker lets it start; needed to check the starts"""
-    cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
-        "self_ventilated"
-    )
-    """how it is cooled at rest"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The rating is given in one way."""
-        yield from super().conflicts(given)
-        yield from at_most_one(given, "rated_torque", "power")
-        yield from together(given, "power", "speed", "the rated torque is power over speed")
-
-    @property
-    def rated(self) -> float | None:
-        """Rated torque of one motor [N*m]."""
-        if self.power is not None and self.speed is not None:
-            return self.power / self.speed
-        return self.rated_torque
 
 
 class Gearbox(drive.Gear):
@@ -115,9 +79,9 @@ class Classes(Fragment):
 class SpectrumPoint(Fragment):
     """A part of the hoist's working life."""
 
-    share: Share
+    share: PositiveShare
     """of all cycles"""
-    load: LoadShare
+    load: Share
     """over the rated load"""
 
 
@@ -126,9 +90,9 @@ class Duty(Fragment):
 
     type: Literal["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"] = "S3"
     """duty type of IEC 60034-1"""
-    factor: DutyFactor | None = None
+    factor: PositiveShare | None = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Rate | None = None
+    starts_per_hour: HourlyRate | None = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
+from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.start import Profile
-from ptmcalc.machines.hoist.drive_data import Brake, Classes, Duty, Gearbox, Motor
+from ptmcalc.machines.hoist.drive_data import Brake, Classes, Duty, Gearbox
 from ptmcalc.machines.hoist.tackle import (
     Drum,
     Limiter,
@@ -29,12 +30,11 @@ from ptmcalc.spec.fields import (
     PositiveSpan,
     PositiveSpeed,
     PositiveStress,
+    Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
-
-HookHeight = Annotated[float, Measure(units.SPAN, at_least=0)]
 
 
 class Speeds(Fragment):
@@ -108,7 +108,7 @@ class HoistScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the hook, or the hook block alone"""
-    hook_height: HookHeight | None = None
+    hook_height: Span | None = None
     """of the hook above its lowest position; at the lowest when left out"""
 
     def default_name(self) -> str:
@@ -213,7 +213,7 @@ class Hoist(MachineSpec):
     """how the rope lies on the drum in several layers"""
     gearbox: Gearbox | None = None
     """between motor and drum; with `motor` needed for starts and stops"""
-    motor: Motor | None = None
+    motor: DutyMotor | None = None
     """the hoisting motors"""
     brake: Brake | None = None
     """the holding brake"""

@@ -9,24 +9,24 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.spec.fields import (
     Efficiency,
+    Fraction,
     Inertia,
     Mass,
     Measure,
     PositiveArea,
     PositiveForce,
+    PositiveFraction,
     PositiveLength,
     PositiveLineMass,
+    PositiveStiffness,
     PositiveStress,
+    Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 
 MOST_FALLS = 64
 
-Ratio = Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)]
 Wraps = Annotated[float, Measure(units.FACTOR, at_least=0, at_most=100)]
-Offset = Annotated[float, Measure(units.SPAN, at_least=0)]
-FillFactor = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
-Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
 
 
 class Reeving(Fragment):
@@ -46,9 +46,9 @@ class Reeving(Fragment):
     """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
     equaliser_diameter: PositiveLength | None = None
     """of the equalising sheave at the bottom of the groove"""
-    lead_length: Offset = 0.0
+    lead_length: Span = 0.0
     """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
-    lead_offset: Offset = 0.0
+    lead_offset: Span = 0.0
     """of the first sheave, or that of the hook block, from the middle of the rope's travel along the drum, towards the
     turns wound last"""
 
@@ -77,7 +77,7 @@ class Rope(Fragment):
     """what the maker calls it, e.g. `6x36WS-IWRC 1960 sZ`"""
     area: PositiveArea | None = None
     """metallic area, or give `fill_factor`"""
-    fill_factor: FillFactor | None = None
+    fill_factor: PositiveFraction | None = None
     """metallic area over that of the circle round the rope; 0.5 is assumed when neither is given"""
     modulus: PositiveStress | None = None
     """modulus of elasticity of the rope on its metallic area, not of its wire; 105 GPa is assumed when left out"""
@@ -87,7 +87,7 @@ class Rope(Fragment):
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
     """whether it is a rotation-resistant rope, which bears a smaller fleet angle"""
-    damping: Ratio = 0.0
+    damping: Fraction = 0.0
     """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
 
     @classmethod
@@ -122,11 +122,11 @@ class Drum(Fragment):
 class Structure(Fragment):
     """What the hoist stands on: a bridge, a jib, a trestle. Without it the hoist is held fast."""
 
-    stiffness: Stiffness
+    stiffness: PositiveStiffness
     """force over deflection where the hoist stands"""
     mass: Mass = 0.0
     """that moves with it; of a simple bridge about half of its own, and the trolley"""
-    damping: Ratio = 0.0
+    damping: Fraction = 0.0
     """damping ratio of its own vibration"""
 
 

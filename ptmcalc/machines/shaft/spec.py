@@ -11,10 +11,12 @@ from ptmcalc.base import units
 from ptmcalc.components.motor import AnyMotor
 from ptmcalc.machines.shaft import wiring
 from ptmcalc.spec.fields import (
+    Angle,
     Efficiency,
     Force,
     Fraction,
     Inertia,
+    Length,
     Mass,
     Measure,
     PositiveAngle,
@@ -24,6 +26,7 @@ from ptmcalc.spec.fields import (
     PositiveMass,
     PositiveRatio,
     PositiveTime,
+    SignedForce,
     SignedTorque,
     Time,
     Torque,
@@ -32,11 +35,8 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
 
-Angle = Annotated[float, Measure(units.ANGLE)]
 SignedInertia = Annotated[float, Measure(units.INERTIA)]
 SignedEnergy = Annotated[float, Measure(units.ENERGY)]
-SignedForce = Annotated[float, Measure(units.FORCE)]
-Distance = Annotated[float, Measure(units.LENGTH, at_least=0)]
 Offset = Annotated[float, Measure(units.LENGTH)]
 Stiffness = Annotated[float, Measure(units.LINE_FORCE, at_least=0)]
 Viscous = Annotated[float, Measure(units.TORQUE_SLOPE, at_least=0)]
@@ -232,7 +232,7 @@ class TableLoad(Fragment):
 class ForcePoint(Fragment):
     """One point of the force over the stroke."""
 
-    distance: Distance
+    distance: Length
     """of the slider from its dead centre"""
     force: Force
     """on the tool there"""

@@ -14,14 +14,18 @@ from ptmcalc.spec.fields import (
     Measure,
     PositiveAngle,
     PositiveAngularSpeed,
+    PositiveArea,
     PositiveForce,
     PositiveInertia,
     PositiveMass,
     PositivePressure,
     PositiveRatio,
+    PositiveShare,
     PositiveSpan,
     PositiveTime,
     PositiveTorque,
+    Share,
+    Span,
     Time,
     Torque,
 )
@@ -29,13 +33,9 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, togeth
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.scene import Scene
 
-Radius = Annotated[float, Measure(units.SPAN, at_least=0)]
 Slope = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=0.5)]
-SweptArea = Annotated[float, Measure(units.AREA, above=0)]
 SwayAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=1.2)]
 BrakeAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=6.2832)]
-Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
 
 
 class Load(Fragment):
@@ -56,7 +56,7 @@ class Body(Fragment):
 
     mass: Mass
     """of the part"""
-    radius: Radius
+    radius: Span
     """from the slewing axis to its centre of mass"""
     inertia: Inertia = 0.0
     """about its own centre of mass; a point when left out"""
@@ -69,7 +69,7 @@ class Jib(Fragment):
     """of the jib"""
     length: PositiveSpan
     """of the jib, as seen from above"""
-    foot_radius: Radius = 0.0
+    foot_radius: Span = 0.0
     """from the slewing axis to its near end"""
 
 
@@ -82,7 +82,7 @@ class Wind(Fragment):
     """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
     gust: Torque | None = None
     """torque of a gust that comes on top of the steady wind; held like the largest wind"""
-    area: SweptArea | None = Field(default=None, examples=["12 m^2"])
+    area: PositiveArea | None = Field(default=None, examples=["12 m^2"])
     """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
     arm: PositiveSpan | None = Field(default=None, examples=["4 m"])
     """from the slewing axis to the middle of the area"""
@@ -195,9 +195,9 @@ class Ring(Fragment):
     """all that rests on it without the load; the sum of the parts when left out"""
     unbalance: Annotated[float, Measure(units.TORQUE)] | None = None
     """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
-    head_height: Radius = 0.0
+    head_height: Span = 0.0
     """of the head of the jib over the ring, where the load's swing pulls"""
-    wind_height: Radius = 0.0
+    wind_height: Span = 0.0
     """of the middle of the wind's area over the ring"""
     wind_force: PositiveForce | None = None
     """of the largest wind in service along the jib"""
@@ -219,9 +219,9 @@ class Ring(Fragment):
 class SpectrumPoint(Fragment):
     """A part of the crane's working life."""
 
-    share: Share
+    share: PositiveShare
     """of all cycles"""
-    load: LoadShare
+    load: Share
     """over the rated load"""
 
 

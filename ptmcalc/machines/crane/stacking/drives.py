@@ -11,6 +11,7 @@ from ptmcalc.components.travel_drive import TravelDrive
 from ptmcalc.spec.fields import (
     Efficiency,
     Force,
+    HourlyRate,
     Inertia,
     Measure,
     PositiveAcceleration,
@@ -23,6 +24,7 @@ from ptmcalc.spec.fields import (
     PositiveRatio,
     PositiveSpan,
     PositiveSpeed,
+    PositiveStiffness,
     PositiveStress,
     PositiveTorque,
     Time,
@@ -30,9 +32,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
 
-Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
 Slope = Annotated[float, Measure(units.DAMPING, above=0)]
-Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
 Falls = Annotated[int, Field(ge=1, le=64, strict=True)]
 Group = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 
@@ -68,9 +68,9 @@ class Travel(Fragment):
     """motors, gear and brakes, instead of forces and ramps"""
     wheel_diameter: PositiveLength | None = None
     """of the driven wheels; with a `drive`"""
-    starts_per_hour: Rate | None = None
+    starts_per_hour: HourlyRate | None = None
     """what the mechanism does all day; needed to check its starts"""
-    permitted_starts_per_hour: Rate | None = None
+    permitted_starts_per_hour: HourlyRate | None = None
     """what motor and brake allow; that of the drive's motor when left out"""
     buffers: Buffer | None = None
     """at the ends of its way; needed for a `buffer`"""
@@ -112,9 +112,9 @@ class Rotation(Fragment):
     """at the column"""
     resistance: Torque = 0.0
     """of its bearings, at the column"""
-    starts_per_hour: Rate | None = None
+    starts_per_hour: HourlyRate | None = None
     """what the mechanism does all day; needed to check its starts"""
-    permitted_starts_per_hour: Rate | None = None
+    permitted_starts_per_hour: HourlyRate | None = None
     """what motor and brake allow; needed to check the starts"""
 
 
@@ -133,7 +133,7 @@ class HoistRope(Fragment):
     """nominal"""
     breaking_force: PositiveForce | None = None
     """of one part of rope; needed to check its safety"""
-    stiffness: Stiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """of all falls at the carriage; or give `area` and `length`"""
     area: PositiveArea | None = None
     """metallic, of one part of rope"""
@@ -215,9 +215,9 @@ class Hoisting(Fragment):
     """what switches it off at too large a force"""
     group: Group | None = None
     """of the mechanism (ISO 4301-1); with it the rope has to keep the safety of ISO 4308-1"""
-    starts_per_hour: Rate | None = None
+    starts_per_hour: HourlyRate | None = None
     """what the hoist does all day; needed to check its starts"""
-    permitted_starts_per_hour: Rate | None = None
+    permitted_starts_per_hour: HourlyRate | None = None
     """what motor and brake allow; needed to check the starts"""
 
     @property

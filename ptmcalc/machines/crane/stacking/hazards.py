@@ -8,13 +8,20 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.spec.fields import Fraction, Measure, PositiveForce, PositiveLength, PositiveMass, PositiveSpeed, Time
+from ptmcalc.spec.fields import (
+    Fraction,
+    Length,
+    Measure,
+    PositiveForce,
+    PositiveLength,
+    PositiveMass,
+    PositiveSpeed,
+    PositiveStiffness,
+    SignedSpan,
+    Time,
+)
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
 
-Arm = Annotated[float, Measure(units.SPAN)]
-Level = Annotated[float, Measure(units.SPAN, at_least=0)]
-SmallLength = Annotated[float, Measure(units.LENGTH, at_least=0)]
-Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
 TripRatio = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
 
 
@@ -23,7 +30,7 @@ class Obstacle(Fragment):
 
     contact: Literal["elastic", "plastic"] = "elastic"
     """whether the far end springs back, or stays where it hits"""
-    stiffness: Stiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """of the place that is hit; of an `elastic` contact"""
     restitution: Fraction = 1.0
     """speed after an `elastic` contact over that before"""
@@ -53,7 +60,7 @@ class Fork(Fragment):
     bounds the force then"""
     torsion_stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
     """of the column against twisting, where the carriage is; rigid when left out"""
-    arm: Arm = 0.0
+    arm: SignedSpan = 0.0
     """of the pushing fork from the axis of the column, along the aisle"""
     rating: PositiveForce | None = None
     """largest force of the telescope; needed to check it"""
@@ -62,9 +69,9 @@ class Fork(Fragment):
 class Rack(Fragment):
     """The rack at the fork."""
 
-    stiffness_push: Stiffness | None = None
+    stiffness_push: PositiveStiffness | None = None
     """against the fork that pushes; with a `fork` it is needed"""
-    stiffness_vertical: Stiffness | None = None
+    stiffness_vertical: PositiveStiffness | None = None
     """against the fork that lifts; rigid when left out"""
     rating_push: PositiveForce | None = None
     """largest force of the pushing fork on the rack; needed to check it"""
@@ -84,9 +91,9 @@ class Waviness(Fragment):
 class Rail(Fragment):
     """The rail a rack stacker runs on."""
 
-    step: SmallLength = 0.0
+    step: Length = 0.0
     """height of the largest step"""
-    gap: SmallLength = 0.0
+    gap: Length = 0.0
     """width of the largest gap"""
     waviness: Waviness | None = None
     """even waves"""
@@ -109,7 +116,7 @@ class SafetyGear(Fragment):
     give way"""
     force: PositiveForce | None = None
     """braking force of a `progressive` gear"""
-    stiffness: Stiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """of an `instantaneous` gear with its mounting and the column"""
     stroke: PositiveLength = Field(examples=["300 mm"])
     """way it has: of a `progressive` gear to brake in, of an `instantaneous` one what it may give way"""
@@ -117,7 +124,7 @@ class SafetyGear(Fragment):
     """speed at which it trips over the hoisting speed; 1.2 to 1.5"""
     reaction_time: Time = 0.05
     """from tripping until it grips"""
-    arm: Arm = 0.0
+    arm: SignedSpan = 0.0
     """of the gear's force from the axis of the column, along the travel of bridge or base"""
 
     @classmethod

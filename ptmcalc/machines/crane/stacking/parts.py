@@ -6,16 +6,24 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.spec.fields import Fraction, Mass, Measure, PositiveForce, PositiveLength, PositiveMass, PositiveSpan
+from ptmcalc.spec.fields import (
+    Fraction,
+    Length,
+    Mass,
+    Measure,
+    PositiveForce,
+    PositiveLength,
+    PositiveMass,
+    PositiveSpan,
+    PositiveStiffness,
+    PositiveStress,
+    SignedSpan,
+    Span,
+)
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 
-Arm = Annotated[float, Measure(units.SPAN)]
-Level = Annotated[float, Measure(units.SPAN, at_least=0)]
-SmallLength = Annotated[float, Measure(units.LENGTH, at_least=0)]
 SecondMoment = Annotated[float, Measure(units.SECOND_MOMENT, above=0)]
 SectionModulus = Annotated[float, Measure(units.SECTION_MODULUS, above=0)]
-Elasticity = Annotated[float, Measure(units.STRESS, above=0)]
-Stiffness = Annotated[float, Measure(units.STIFFNESS, above=0)]
 RootStiffness = Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)]
 Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
@@ -34,7 +42,7 @@ class Bridge(Fragment):
     """second moment of area of ONE girder, for bending in the horizontal plane"""
     ends: Literal["supported", "clamped"] = "supported"
     """how the end carriages hold the girders: they let them turn, or clamp them wholly"""
-    elasticity: Elasticity = STEEL
+    elasticity: PositiveStress = STEEL
     """modulus of elasticity; 210 GPa when left out"""
     section_modulus_vertical: SectionModulus | None = None
     """of ONE girder, for bending in the vertical plane; needed for its stress"""
@@ -49,7 +57,7 @@ class Trolley(Fragment):
     """with hoist and slewing gear of the column, without column, carriage and cab"""
     gauge: PositiveLength
     """from girder to girder"""
-    position: Level | None = None
+    position: Span | None = None
     """of the column, from the nearer end of the bridge; in the middle when left out"""
     wheels: Literal["free", "braked"] = "free"
     """whether the wheels roll along the girders as these bend; a braked trolley is a little stiffer"""
@@ -64,11 +72,11 @@ class Base(Fragment):
     """from the front to the rear wheel"""
     wheel_diameter: PositiveLength
     """at the tread"""
-    column: Level | None = None
+    column: Span | None = None
     """of the column from the rear wheel; in the middle when left out"""
-    centre: Level | None = None
+    centre: Span | None = None
     """of its centre of mass from the rear wheel; in the middle when left out"""
-    height: Level = 0.0
+    height: Span = 0.0
     """of its centre of mass above the rail"""
     gauge: PositiveLength | None = None
     """between its two rails, of a machine that stands across the aisle by itself; one rail when left out"""
@@ -77,9 +85,9 @@ class Base(Fragment):
 class TopGuide(Fragment):
     """What holds the head of the column of a rack stacker along the aisle or across it."""
 
-    stiffness: Stiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """along the aisle, of the guide at the head; the head is free when left out"""
-    gap: SmallLength = 0.0
+    gap: Length = 0.0
     """play to each side before it holds"""
     rating: PositiveForce | None = None
     """largest force of the guide across the aisle; needed to see whether it keeps the machine upright"""
@@ -90,19 +98,19 @@ class Column(Fragment):
 
     length: PositiveSpan
     """from where it is held to its far end; of an overhead stacker from the neutral axis of the girders"""
-    foot: Level = 0.0
+    foot: Span = 0.0
     """of its lower end, above the floor"""
     mass: PositiveMass
     """of all masts, with the head"""
     count: Annotated[int, Field(ge=1, le=2, strict=True)] = 1
     """masts"""
-    elasticity: Elasticity = STEEL
+    elasticity: PositiveStress = STEEL
     """modulus of elasticity; 210 GPa when left out"""
     second_moment: SecondMoment | None = None
     """of area, for bending along the travel of bridge or base; or give `stiffness`"""
     second_moment_across: SecondMoment | None = None
     """of area, for bending across it: along the girders, across the aisle; as along when left out"""
-    stiffness: Stiffness | None = None
+    stiffness: PositiveStiffness | None = None
     """at the far end, along every travel, of column and what holds it; instead of the sections of column and girders"""
     root_stiffness: RootStiffness | None = None
     """of the joint that holds the column, against turning; rigid when left out"""
@@ -140,7 +148,7 @@ class Rollers(Fragment):
     """of its axle"""
     pin_friction: Fraction = 0.015
     """of its bearing; 0.015 rolling, 0.08 to 0.1 plain"""
-    lever_arm: SmallLength = 0.0005
+    lever_arm: Length = 0.0005
     """of rolling, a length; 0.3 to 0.6 mm on steel"""
     per_set: Annotated[int, Field(ge=1, le=8, strict=True)] = 1
     """rollers that share the reaction of a set"""
@@ -155,17 +163,17 @@ class Carriage(Fragment):
 
     mass: PositiveMass
     """without load and cab, with its fork"""
-    load_arm: Arm = 0.0
+    load_arm: SignedSpan = 0.0
     """of the load, from the line of the ropes, along the travel of bridge or base"""
-    own_arm: Arm = 0.0
+    own_arm: SignedSpan = 0.0
     """of the carriage's own centre of mass"""
-    load_arm_across: Arm = 0.0
+    load_arm_across: SignedSpan = 0.0
     """of the load, from the line of the ropes across it: with the fork out"""
-    own_arm_across: Arm = 0.0
+    own_arm_across: SignedSpan = 0.0
     """of the carriage's own centre of mass"""
-    lowest: Level | None = None
+    lowest: Span | None = None
     """place of the carriage above the floor, at least; at the lower end of the column when left out"""
-    highest: Level | None = None
+    highest: Span | None = None
     """place of the carriage above the floor, at most; at the upper end of the column when left out"""
     rollers: Rollers
     """its guide rollers"""
@@ -183,7 +191,7 @@ class Cab(Fragment):
 
     mass: Mass
     """with the driver"""
-    arm: Arm = 0.0
+    arm: SignedSpan = 0.0
     """of its centre of mass, from the line of the ropes, along the travel of bridge or base"""
-    arm_across: Arm = 0.0
+    arm_across: SignedSpan = 0.0
     """of its centre of mass across it"""

@@ -1,13 +1,12 @@
 """What happens to a stacker crane."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
-from ptmcalc.base import units
-from ptmcalc.spec.fields import Measure
+from ptmcalc.spec.fields import (
+    PositiveFraction,
+    Span,
+)
 from ptmcalc.spec.scene import Scene
-
-Level = Annotated[float, Measure(units.SPAN, at_least=0)]
-SpeedShare = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
 
 Mechanism = Literal["bridge", "trolley", "travel"]
 """What travels: the bridge or the trolley of an overhead stacker, the base of a rack stacker."""
@@ -18,7 +17,7 @@ class StackerScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the fork, or nothing"""
-    height: Level | None = None
+    height: Span | None = None
     """of the carriage above the floor; as far from where the column is held as it comes when left out"""
 
     def default_name(self) -> str:
@@ -80,7 +79,7 @@ class Brake(DrivenScene):
     """A mechanism is brought to rest from its speed, and held."""
 
     type: Literal["brake"] = "brake"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed before the stop: 0.1 for one from creep speed"""
 
 
@@ -88,7 +87,7 @@ class ObstacleScene(MechanismScene):
     """The free end of the column of an overhead stacker runs into an obstacle."""
 
     type: Literal["obstacle"] = "obstacle"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed"""
     drive: Literal["off", "on"] = "off"
     """whether the drive still pushes"""
@@ -100,7 +99,7 @@ class BufferScene(MechanismScene):
     """It runs onto its buffers."""
 
     type: Literal["buffer"] = "buffer"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed at which they are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
     drive: Literal["off", "on"] = "off"
     """whether the drive still pushes"""
@@ -116,7 +115,7 @@ class ForkCaught(StackerScene):
     """The fork is caught by the rack while the carriage is hoisted."""
 
     type: Literal["fork_caught"] = "fork_caught"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full hoisting speed"""
 
 
@@ -124,7 +123,7 @@ class RailScene(StackerScene):
     """A rack stacker runs over what is uneven in its rail."""
 
     type: Literal["rail"] = "rail"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed"""
 
 

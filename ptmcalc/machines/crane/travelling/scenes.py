@@ -5,10 +5,14 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.spec.fields import Measure, PositiveMass, PositiveSpan, PositiveTime
+from ptmcalc.spec.fields import (
+    Measure,
+    PositiveFraction,
+    PositiveMass,
+    PositiveSpan,
+    PositiveTime,
+)
 from ptmcalc.spec.scene import Scene
-
-SpeedShare = Annotated[float, Measure(units.RATIO, above=0, at_most=1)]
 
 
 class TravelScene(Scene):
@@ -68,7 +72,7 @@ class Collision(TravelScene):
     """It runs onto its buffers."""
 
     type: Literal["collision"] = "collision"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed at which the buffers are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
     suspension: Literal["swinging", "guided"] = "swinging"
     """whether the load swings on, or is guided and hits with the crane"""
@@ -84,7 +88,7 @@ class RailStep(TravelScene):
     """A wheel runs over the largest step and the largest gap of the rail."""
 
     type: Literal["rail_step"] = "rail_step"
-    speed_share: SpeedShare = 1.0
+    speed_share: PositiveFraction = 1.0
     """of full speed"""
 
 

@@ -23,7 +23,9 @@ from ptmcalc.machines.crane.travelling.scenes import (
 )
 from ptmcalc.spec.fields import (
     Fraction,
+    HourlyRate,
     Inertia,
+    Length,
     Mass,
     Measure,
     PositiveAngle,
@@ -32,26 +34,23 @@ from ptmcalc.spec.fields import (
     PositiveMass,
     PositivePressure,
     PositiveRatio,
+    PositiveShare,
     PositiveSpan,
     PositiveSpeed,
     PositiveTime,
     RunningTime,
+    Share,
+    SignedSpan,
+    Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 
-Level = Annotated[float, Measure(units.SPAN, at_least=0)]
-Place = Annotated[float, Measure(units.SPAN)]
 WindArea = Annotated[float, Measure(units.FACE, at_least=0)]
 Count = Annotated[int, Field(ge=1, le=16, strict=True)]
 Slope = Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.2)]
-Length = Annotated[float, Measure(units.LENGTH, at_least=0)]
 Phi = Annotated[float, Measure(units.RATIO, above=0, at_most=10)]
 Corner = Literal["A1", "A2", "B1", "B2"]
-DutyFactor = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-Rate = Annotated[float, Measure(units.FACTOR, above=0, at_most=3600)]
-Share = Annotated[float, Measure(units.SHARE, above=0, at_most=1)]
-LoadShare = Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)]
 
 
 class Bridge(Fragment):
@@ -63,11 +62,11 @@ class Bridge(Fragment):
     """from rail A to rail B"""
     centre: PositiveSpan | None = None
     """of gravity, from rail A; in the middle when left out"""
-    height: Level = 0.0
+    height: Span = 0.0
     """of its centre of gravity above the wheels' rails"""
-    cantilever_a: Level = 0.0
+    cantilever_a: Span = 0.0
     """of a gantry, beyond rail A"""
-    cantilever_b: Level = 0.0
+    cantilever_b: Span = 0.0
     """of a gantry, beyond rail B"""
 
 
@@ -78,13 +77,13 @@ class Trolley(Fragment):
     """with the hoist, without the hook block"""
     gauge: PositiveLength | None = None
     """from its rail A to its rail B; of a trolley that travels"""
-    nearest: Place | None = None
+    nearest: SignedSpan | None = None
     """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
-    farthest: Place | None = None
+    farthest: SignedSpan | None = None
     """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
     hook: PositiveLength | None = None
     """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
-    height: Level = 0.0
+    height: Span = 0.0
     """of its centre of gravity above the wheels' rails"""
 
 
@@ -198,7 +197,7 @@ class Wind(Fragment):
     """force coefficient of the area"""
     load_shape: PositiveRatio = 1.2
     """force coefficient of the load"""
-    height: Level | None = None
+    height: Span | None = None
     """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
     pressure: PositivePressure
     """in which the crane works: starts, travels, stops"""
@@ -227,9 +226,9 @@ class Parking(Fragment):
 class SpectrumPoint(Fragment):
     """A part of the crane's working life."""
 
-    share: Share
+    share: PositiveShare
     """of all cycles"""
-    load: LoadShare
+    load: Share
     """over the rated load"""
 
 
@@ -238,9 +237,9 @@ class Duty(Fragment):
 
     type: Literal["S1", "S3", "S4", "S5"] = "S3"
     """duty type of IEC 60034-1; S4 and S5 count the starts"""
-    factor: DutyFactor | None = None
+    factor: PositiveShare | None = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Rate | None = None
+    starts_per_hour: HourlyRate | None = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""

@@ -4,11 +4,12 @@ import math
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.drive_data import Duty, Motor
+from ptmcalc.machines.hoist.drive_data import Duty
 from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
@@ -166,7 +167,7 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     }
 
 
-def _of_the_motor(spec: Hoist, motor: Motor, mass: float, height: float | None) -> Numbers:
+def _of_the_motor(spec: Hoist, motor: DutyMotor, mass: float, height: float | None) -> Numbers:
     loads: Numbers = {}
     field = drive.field_speed(motor)
     if field is not None:

@@ -1,0 +1,41 @@
+"""A drive motor with its rating: what its heating and its starts are checked against."""
+
+from collections.abc import Iterator
+from typing import Literal
+
+from ptmcalc.components import drive
+from ptmcalc.spec.fields import HourlyRate, Inertia, PositivePower, PositiveShare, PositiveTorque
+from ptmcalc.spec.fragment import Conflict, Given, at_most_one, together
+
+
+class DutyMotor(drive.Motor):
+    """The motors of a crane's motion, one of several equal ones."""
+
+    coupling_inertia: Inertia | None = None
+    """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
+    rated_torque: PositiveTorque | None = None
+    """of one motor, or give `power` and `speed`; needed to check its heating"""
+    power: PositivePower | None = None
+    """rated power of one motor"""
+    rated_duty: PositiveShare = 1.0
+    """duty factor of the rating, e.g. `40 %`; continuous when left out"""
+    starts_per_hour: HourlyRate | None = None
+    """how often the maker lets it start; needed to check the starts"""
+    cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
+        "self_ventilated"
+    )
+    """how it is cooled at rest"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The rating is given in one way."""
+        yield from super().conflicts(given)
+        yield from at_most_one(given, "rated_torque", "power")
+        yield from together(given, "power", "speed", "the rated torque is power over speed")
+
+    @property
+    def rated(self) -> float | None:
+        """Rated torque of one motor [N*m]."""
+        if self.power is not None and self.speed is not None:
+            return self.power / self.speed
+        return self.rated_torque
