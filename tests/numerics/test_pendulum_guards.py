@@ -33,7 +33,32 @@ def test_is_met_to_the_noise_in_few_looks(name: str, size: float) -> None:
     assert len(looks) <= (3 if name == "a line" else 16)
 
 
-def test_what_jumps_over_zero_ends_right_of_the_jump() -> None:
-    for jump in (0.2, 0.77):
-        found = _bracketed(lambda x, jump=jump: 1.0 if x < jump else -1.0, 0.0, 1.0, 1e-12)
-        assert jump <= found <= jump + 1e-9
+@pytest.mark.parametrize("ratio", [1e-8, 1e-5, 0.1, 7.0, 1e3, 1e5, 1e8])
+@pytest.mark.parametrize("root", [0.1, 0.377, 0.9])
+def test_a_corner_at_the_root_is_met_however_sharp(ratio: float, root: float) -> None:
+    """To rounding of the place, where nothing is noise; 14 looks of false position at most, 52 halvings, both ends."""
+    looks = []
+
+    def value(x: float) -> float:
+        looks.append(x)
+        return (root - x) * (1 if x < root else ratio)
+
+    assert _bracketed(value, 0.0, 1.0, 0.0) == pytest.approx(root, abs=2.3e-16)
+    assert len(looks) <= 2 + 14 + 52
+
+
+@pytest.mark.parametrize("jump", [0.2, 0.77])
+def test_what_jumps_over_zero_ends_right_of_the_jump(jump: float) -> None:
+    """Steps of false position towards either end gain next to nothing first: then the bracket is halved to its end."""
+    looks = []
+
+    def value(x: float) -> float:
+        looks.append(x)
+        return 1.0 if x < jump else -1e-3
+
+    assert jump <= _bracketed(value, 0.0, 1.0, 1e-12) <= jump + 2.3e-16
+    halves = looks[16:]
+    assert looks[15] != pytest.approx(looks[13] / 2 + looks[14] / 2)
+    assert len(halves) <= 52
+    apart = [abs(after - before) for before, after in zip(halves, halves[1:], strict=False)]
+    assert [a / b for a, b in zip(apart, apart[1:], strict=False)][:30] == pytest.approx([2.0] * 30)
