@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 
 import pytest
 
@@ -60,5 +61,5 @@ def test_what_jumps_over_zero_ends_right_of_the_jump(jump: float) -> None:
     halves = looks[16:]
     assert looks[15] != pytest.approx(looks[13] / 2 + looks[14] / 2)
     assert len(halves) <= 52
-    apart = [abs(after - before) for before, after in zip(halves, halves[1:], strict=False)]
-    assert [a / b for a, b in zip(apart, apart[1:], strict=False)][:30] == pytest.approx([2.0] * 30)
+    apart = [abs(after - before) for before, after in pairwise(halves)]
+    assert [a / b for a, b in pairwise(apart)][:30] == pytest.approx([2.0] * 30)

@@ -9,7 +9,7 @@ import pytest
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.march import Hauled, March, Mode, Panel, Played, Rod, S, U, V, W, X, Z, ZD
+from ptmcalc.numerics.rope.march import ZD, Hauled, March, Mode, Panel, Played, Rod, S, U, V, W, X, Z
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Lines, Smooth, Stage, Structure, Tripped
 
 G = 9.81
@@ -240,6 +240,13 @@ def test_begins_the_way_it_turns(speed: float, way: int, pushing: int, power: in
     assert March(machine(speed=speed, way=way, stages=(steps,)), ROD).begin()[0].piece == np.sign(speed)
 
 
+def test_a_structure_of_a_gram_is_heavy_and_one_without_mass_a_spring() -> None:
+    light = March(machine(Structure(K, 1e-3, 0.0)), ROD)
+    assert (light.heavy is not None, light.soft) == (True, None)
+    spring = March(machine(SOFT), ROD)
+    assert (spring.heavy, spring.soft) == (None, SOFT)
+
+
 # -- what keeps a mode ----------------------------------------------------------------------------------------------
 
 
@@ -328,6 +335,24 @@ def test_guards_of_a_slack_rope() -> None:
     values, size = guards_of(hauled)["taut"]
     assert values == pytest.approx(-np.minimum(elastic, whole))
     assert size == Q
+
+
+def test_sizes_go_down_with_what_moves() -> None:
+    """To a billionth: a hook that creeps is no rest, a knot that is near is a knot."""
+    haul = machine(speed=0.0, lifts=True, stages=(Stage(Lines(np.array([-1e-7, 1e-7]), np.array([Q, 0.5 * Q]))),))
+    now = Instant(March(haul, HAULED), mode_of(piece=0))
+    now.y[:] *= 1e-7
+    found = guards_of(now)
+    assert found["rest"][1] == pytest.approx(float(np.abs(now.y[:, [W, V]]).max()))
+    assert found["land"][1] == pytest.approx(float(np.abs(now.y[:, U]).max()))
+    for piece, values in ((-1, now.y[:, W] + 1e-7), (1, 1e-7 - now.y[:, W])):
+        assert found[f"knot {piece}"][0] == pytest.approx(values)
+        assert found[f"knot {piece}"][1] == pytest.approx(float(np.abs(values).max()))
+    now.y[:] *= 1e-9
+    found = guards_of(now)
+    assert found["rest"][1] == found["land"][1] == 1e-9
+    slack = Instant(March(machine(slack=1e-7), ROD), mode_of(taut=False))
+    assert guards_of(slack)["taut"][1] == 1e-7
 
 
 # -- events ---------------------------------------------------------------------------------------------------------
@@ -443,8 +468,13 @@ LONGEST: dict[str, tuple[Haul, Rod | Hauled, float]] = {
     "damping of the rope": (machine(), Hauled(K * 10, 10.0, 3e5, 0.0), (MOTOR + DRUM) / 9e5),
     "a stiff structure": (machine(Structure(50 * K, M, 0.0)), LIGHT, math.sqrt(M / (51 * K))),
     "a stiff structure of a rod": (machine(Structure(50 * K, M, 0.0)), Rod(K, 1e-3 * M), math.sqrt(1e-3 * M / K)),
-    "a stiffer structure of a rod": (machine(Structure(5e6 * K, M, 0.0)), Rod(K, 1e-3 * M), math.sqrt(M / (5e6 * K))),
+    "a stiffer structure of a rod": (machine(Structure(5e4, 1.0, 0.0)), Rod(1e-3, 1e-6), math.sqrt(1 / 5e4)),
     "a damped structure": (machine(Structure(K, 1e3, 9e5)), LIGHT, 1e3 / 9e5),
+    "hardly anything": (
+        machine(motor_mass=1e-3, drum_mass=0.0, load_mass=1e-3, stages=()),
+        Hauled(1e-12, 1.0, 0.0, 0.0),
+        math.sqrt(1e-3 / 3e-12),
+    ),
     "a steep curve": (machine(stages=lines(2e6)), LIGHT, (MOTOR + DRUM) / 2e6),
     "a stiff control": (machine(stages=(Stage(Governed(NONE, 1e6, Q)),)), LIGHT, (MOTOR + DRUM) / 1e6),
 }
@@ -537,8 +567,8 @@ def test_the_first_of_two_guards_ends_a_panel() -> None:
     march = March(machine(motor_brake=Tripped(), drum_brake=Tripped()), HAULED)
     mode, y = march.begin()
     done = Played([], [], mode, 0.0, y, 0.0)
-    march.guards = lambda *_: [  # type: ignore[method-assign]
-        ("late", 0.7 - rule.NODES, 1.0), ("soon", 0.3 - rule.NODES, 1.0), ("between", 0.5 - rule.NODES, 1.0)]  # fmt: skip
+    roots = {"late": 0.7, "soon": 0.3, "between": 0.5}
+    march.guards = lambda *_: [(name, at - rule.NODES, 1.0) for name, at in roots.items()]  # type: ignore[method-assign]
     panel, fired = march._panel(done, march.longest)
     assert panel is not None
     assert fired == "soon"

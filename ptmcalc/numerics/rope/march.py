@@ -150,7 +150,7 @@ class March:
         self.heavy = bridge if bridge is not None and bridge.mass > 0 else None
         self.history: deque[tuple[float, float, FloatArray]] = deque()
         self.ends: deque[float] = deque()
-        self._before = (0.0, 0.0, np.zeros((rule.COUNT, 2)))
+        self._before: tuple[float, float, FloatArray]
         self.longest = self._longest()
         self.sizes = np.zeros(7)
 
