@@ -365,29 +365,56 @@ def settled(march: March, mode: Mode, fired: str, y: np.ndarray, time: float = 1
 
 
 @ROPES
-@pytest.mark.parametrize("motor", [0.2, 1.1])
+@pytest.mark.parametrize("masses", [(MOTOR, DRUM), (5.0, 3e3), (1e-9, 1e-6)])
+@pytest.mark.parametrize("motor", [-0.5, 0.2, 1.1])
+@pytest.mark.parametrize("before", [1, -1])
 @pytest.mark.parametrize(("fired", "turn"), [("up", 1), ("down", -1)])
 def test_what_breaks_away_goes_that_way_with_the_power_that_the_gear_shows(
-    rope: Rod | Hauled, fired: str, turn: int, motor: float
+    rope: Rod | Hauled, fired: str, turn: int, before: int, motor: float, masses: tuple[float, float]
 ) -> None:
-    haul = machine(stages=(Stage(Lines(np.zeros(1), np.array([motor * Q]))),), motor_brake=Tripped(), gate=Tripped(
-        Course(values=(1.0,))))  # fmt: skip
+    stage = Stage(Lines(np.zeros(1), np.array([motor * Q])))
+    haul = machine(stages=(stage,), gate=Tripped(Course(values=(1.0,))), motor_mass=masses[0], drum_mass=masses[1])
     march = March(haul, rope)
     march.begin()
     y = np.zeros(7)
     y[S] = 10 * 0.4 * Q / (K * 10)
     if march.rod is not None:
         march.history[0][2][:] = 0.2 * Q
-    after, state, done = settled(march, mode_of(0), fired, y)
+    after, state, done = settled(march, mode_of(0, before), fired, y)
     assert after.turn == turn
     assert done.events == [(1.25, fired)]
     assert np.array_equal(state, y)
     down, up = march._incoming_at(1.25)
     top = float(march.ends_of(y[None], down, up, after)[0][0])
-    drum = 0.2 * Q + 0.05 * Q * 1.25
-    behind = top / TACKLE[0] + drum if turn > 0 else top * TACKLE[1] - drum
-    _, through = np.linalg.solve([[DRUM, -1], [MOTOR, 1.0]], [-behind, motor * Q])
+    on_motor, on_drum = 0.3 * Q + 0.1 * Q * 1.25, 0.2 * Q + 0.05 * Q * 1.25
+    behind = top / TACKLE[0] + on_drum if turn > 0 else top * TACKLE[1] - on_drum
+    rows = [[masses[1], -1], [masses[0], 1.0]]
+    _, through = np.linalg.solve(rows, [-behind, motor * Q - turn * on_motor])
     assert after.power == np.sign(through * turn)
+
+
+def test_waves_just_after_a_time_are_those_of_the_panel_that_holds_it() -> None:
+    """Up to a ten millionth of a transit before the next one."""
+    march = March(machine(), ROD)
+    tau = ROD.transit
+    first, second = (np.tile(pair, (rule.COUNT, 1)) for pair in ([1.0, 2.0], [5.0, 6.0]))
+    for seam, expected in ((0.25 + 3e-5, [1.0, 2.0]), (0.25 - 3e-5, [5.0, 6.0]), (0.25, [5.0, 6.0])):
+        march.history.clear()
+        march.history.extend([(-tau, seam * tau, first), ((seam - 1) * tau, (1 - seam) * tau, second)])
+        assert [float(one[0]) for one in march._incoming_at(0.25 * tau)] == pytest.approx(expected)
+
+
+def test_a_march_starts_at_0(monkeypatch: pytest.MonkeyPatch) -> None:
+    times: list[tuple[float, str]] = []
+    whole = March._settled
+
+    def settle(self: March, done: Played, mode: Mode, y: np.ndarray, time: float, fired: str) -> Any:
+        times.append((time, fired))
+        return whole(self, done, mode, y, time, fired)
+
+    monkeypatch.setattr(March, "_settled", settle)
+    March(machine(), HAULED).play(1e-3)
+    assert times[0] == (0.0, "start")
 
 
 def test_each_event_changes_what_it_says() -> None:
@@ -426,10 +453,10 @@ def test_a_drive_at_its_set_speed_keeps_it_and_another_pushes_towards_it(start: 
         assert (after.follows, after.pushing, state[W]) == (False, 1 if start < 1 else -1, y[W])
 
 
-@pytest.mark.parametrize(("cap", "follows", "pushing"), [(1 + 1e-6, True, 0), (1 - 1e-6, False, 1)])
+@pytest.mark.parametrize(("cap", "follows", "pushing"), [(1 - 5e-10, True, 0), (1 - 3e-9, False, 1)])
 @pytest.mark.parametrize("way", [1, -1])
 def test_a_set_speed_is_kept_as_far_as_the_force_goes(cap: float, follows: bool, pushing: int, way: int) -> None:
-    """From rest at a set speed of 0 that rises, or falls: the force that takes is the capacity, or a millionth off."""
+    """From rest at a set speed of 0 that rises, or falls: the force that takes is the capacity, to a billionth."""
     load = 10 * Q if way < 0 else 0.0
     course = Course((0.0,), (0.0,), (way * RISE,))
     bare = {"motor_brake": Tripped(), "drum_brake": Tripped(), "gate": Tripped(Course(values=(1.0,)))}

@@ -18,7 +18,7 @@ from ptmcalc.numerics.pendulum.parts import Smooth as Curve
 from ptmcalc.numerics.pendulum.parts import Straight as Knotted
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import swing
-from ptmcalc.numerics.rope.march import Hauled, March, Played, Rod, S, U, V, W, X, Z, ZD, energy
+from ptmcalc.numerics.rope.march import ZD, Hauled, March, Rod, S, U, V, W, X, Z, energy
 from ptmcalc.numerics.rope.parts import Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train.parts import Body, Drive, Grip, Impulse, Mesh, Spring, Straight, Train
 from ptmcalc.numerics.train.signals import Signal, Sine, Trigger
@@ -196,7 +196,7 @@ BELTS = {
 }
 
 
-def fed(one: Belt, units: Units = Units(), steps: int = 150, end: float = 3.0) -> tuple[Station, list[Seen]]:  # noqa: B008
+def fed(one: Belt, units: Units = Units(), steps: int = 150, end: float = 3.0) -> tuple[Station, list[Seen]]:
     """Histories of a station, told in other units."""
     force, speed, time, damping = units.force, units.speed, units.time, units.damping
     p = one.place
