@@ -564,3 +564,41 @@ def test_a_ramp_that_ends_at_rest_does_not_jump_by_its_rounding() -> None:
         assert not Pieces.through(((0.0, speed), (speed / ramp, 0.0))).jumps
         assert not Pieces.through(((0.0, 0.0), (speed / ramp, speed))).jumps
         assert Pieces((0.0, speed / ramp), ((speed, -ramp), (1e-6 * speed,))).jumps
+
+
+@pytest.mark.parametrize("work", [-3e-12, -1e-3, 5.0, 5e4])
+def test_what_the_energy_balance_leaves_over_is_a_share_of_what_was_turned_over(work: float) -> None:
+    """A free swing with a work put into its ledger that nobody did: all of it, beside the largest of kinetic energy
+    and works, less 64 roundings of the energies at both ends."""
+    found = swing(Case(G, Rail(), Axis(900.0, speed=0.7), Load(300.0, Pieces.constant(5.0), 0.1)), 2.0)
+    clean = found.works()
+    assert clean.residual == 0
+    assert abs(clean.stored) < 1e-8
+    energies = []
+    for time in (0.0, 2.0):
+        v, angle, rate = (float(found.at(name, time)) for name in ("speed", "along", "along_rate"))
+        ahead, up = v + 5.0 * rate * math.cos(angle), 5.0 * rate * math.sin(angle)
+        energies += [900 * v**2 / 2 + 300 * (ahead**2 + up**2) / 2, 300 * G * 5 * math.cos(angle)]
+    moving, unseen = max(energies[::2]), 64 * 2**-52 * sum(energies)
+    for name in ("outer", "motor"):
+        found._fine.jerks[name] = work
+        told = found.works()
+        found._fine.jerks[name] = 0.0
+        assert told.works[name] == work
+        left = max(abs(work) - unseen, 0.0)
+        assert told.residual == pytest.approx(left / max(moving, abs(work)), rel=1e-3, abs=2e-14)
+    found._fine.jerks["motor"], found._fine.jerks["outer"] = 2 * work, -3 * work
+    expected = max(abs(work) - unseen, 0.0) / max(moving, 3 * abs(work))
+    assert found.works().residual == pytest.approx(expected, rel=1e-3, abs=2e-14)
+
+
+def test_rounding_of_the_energies_at_both_ends_is_not_left_over() -> None:
+    """A load on 500 m of rope that hardly moves: its height is 1e10 times its motion."""
+    found = swing(Case(G, Rail(), Axis(900.0, speed=1e-4), Load(300.0, Pieces.constant(500.0))), 2.0)
+    height = 2 * 300 * G * 500
+    for share in (0.5, 40.0):
+        work = share * 64 * 2**-52 * height
+        found._fine.jerks["outer"] = work
+        scale = 1200 * 1e-8 / 2
+        left = (share - 1) * 64 * 2**-52 * height if share > 1 else 0.0
+        assert found.works().residual == pytest.approx(left / scale, rel=0.1)

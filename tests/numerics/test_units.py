@@ -13,6 +13,13 @@ import pytest
 from support.trains import run
 
 from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp
+from ptmcalc.numerics.mast.base import Base, Guide, Obstacle
+from ptmcalc.numerics.mast.base import Grip as Slips
+from ptmcalc.numerics.mast.base import Signal as Force
+from ptmcalc.numerics.mast.modes import Mast
+from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
+from ptmcalc.numerics.mast.run import play
+from ptmcalc.numerics.mast.system import Case as Followed
 from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail
 from ptmcalc.numerics.pendulum.parts import Smooth as Curve
 from ptmcalc.numerics.pendulum.parts import Straight as Knotted
@@ -371,6 +378,66 @@ def test_of_a_swinging_load(name: str, units: Units) -> None:
     for work, value in works.works.items():
         assert theirs.works[work] == pytest.approx(value * units.energy, abs=1e-8 * largest * units.energy), work
     assert max(works.residual, theirs.residual) < 1e-9
+
+
+# -- a mast ---------------------------------------------------------------------------------------------------------
+
+COLUMN = Column((Segment(4.0, 3e7, 150.0), Segment(2.0, 2e7, 90.0)), (Lump(5.0, 900.0, 40.0),),
+                     root_rotation=9e7, root_mass=50.0, pull=-9.81, props=(Prop(3.0, 2e5),))  # fmt: skip
+GRIPS = (Slips("brake", Force.rising(9000.0, 0.1, 0.2)), Slips("drive", Force.constant(2000.0), 0.9))
+MASTS = {
+    "braked": Base(4000.0, 0.9, grips=GRIPS),
+    "pushed": Base(4000.0, 0.1, Force.rising(2000.0, 0.0, 0.3), GRIPS[:1]),
+    "moved": Base(4000.0, 0.0, path=Force((0.0, 0.4), (0.0, 0.0), (2.0, 0.0))),
+}
+
+
+def mast_in(column: Column, units: Units) -> Column:
+    bending, turns = units.force * units.length**2, units.energy
+    return Column(
+        tuple(Segment(s.length * units.length, s.bending * bending, s.mass * units.mass / units.length)
+              for s in column.segments),
+        tuple(Lump(o.place * units.length, o.mass * units.mass, o.inertia * units.mass * units.length**2)
+              for o in column.lumps),
+        column.root_rotation * turns, math.inf, column.root_mass * units.mass, 0.0,
+        column.pull * units.length / units.time**2,
+        tuple(Prop(o.place * units.length, o.stiffness * units.force / units.length) for o in column.props),
+    )  # fmt: skip
+
+
+def base_in(base: Base, units: Units) -> Base:
+    def told(one: Force, size: float) -> Force:
+        return Force(tuple(t * units.time for t in one.times), tuple(v * size for v in one.values),
+                           tuple(v * size / units.time for v in one.slopes))  # fmt: skip
+
+    return Base(
+        base.mass * units.mass, base.speed * units.speed, told(base.push, units.force),
+        tuple(Slips(g.name, told(g.capacity, units.force), g.speed * units.speed) for g in base.grips),
+        told(base.path, units.length / units.time**2) if base.path is not None else None,
+    )  # fmt: skip
+
+
+@OTHERS
+@pytest.mark.parametrize("contact", ["none", "obstacle", "guide"])
+@pytest.mark.parametrize("name", MASTS)
+def test_of_a_mast(name: str, contact: str, units: Units) -> None:
+    courses = []
+    for u in (Units(), units):
+        soft = u.force / u.length
+        obstacle = Obstacle(6.0 * u.length, 8e5 * soft, 0.2 * u.length, 4e3 * u.damping)
+        guide = Guide(5.0 * u.length, 6e5 * soft, 0.003 * u.length)
+        built = Mast.of(mast_in(COLUMN, u), 4)
+        one = Followed(built, np.full(3, 0.01), base_in(MASTS[name], u), (6.0 * u.length,),
+                        obstacle if contact == "obstacle" else None, guide if contact == "guide" else None)  # fmt: skip
+        courses.append(play(one, 0.8 * u.time))
+    ours, theirs = courses
+    assert [(e.element, e.after) for e in ours.record.events] == [(e.element, e.after) for e in theirs.record.events]
+    sizes = {"way": units.length, "speed": units.speed, "deflection": units.length, "moment": units.energy}
+    for what, size in sizes.items():
+        for one, other in ((ours.top(what)[0], theirs.top(what)[0]), (ours.bottom(what)[0], theirs.bottom(what)[0])):
+            peak = max(abs(ours.top(what)[0]), abs(ours.bottom(what)[0])) * size
+            assert other == pytest.approx(one * size, abs=1e-9 * peak), what
+    assert max(ours.residual, theirs.residual) < 1e-10
 
 
 # -- a train --------------------------------------------------------------------------------------------------------
