@@ -602,3 +602,15 @@ def test_rounding_of_the_energies_at_both_ends_is_not_left_over() -> None:
         scale = 1200 * 1e-8 / 2
         left = (share - 1) * 64 * 2**-52 * height if share > 1 else 0.0
         assert found.works().residual == pytest.approx(left / scale, rel=0.1)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(("excess", "moves"), [(-1e-9, False), (3e-12, False), (1e-9, True)])
+def test_from_rest_it_moves_for_what_exceeds_friction_by_more_than_rounding(
+    size: float, way: int, excess: float, moves: bool
+) -> None:
+    axis = Axis(900.0 * size, Push(way * 100.0 * size * (1 + excess)), friction=100.0 * size)
+    found = swing(Case(G, Rail(), axis, Load(300.0 * size, Pieces.constant(5.0))), 1.0)
+    assert found.farthest("speed").value * way == pytest.approx(100 * excess / 1200 if moves else 0.0, rel=0.4)
+    assert [e.after for e in found.events] == []

@@ -12,7 +12,11 @@ import numpy as np
 import pytest
 from support.trains import run
 
+from ptmcalc.numerics.belt.course import Reach, lay_out
+from ptmcalc.numerics.belt.give import Give, Rubber
+from ptmcalc.numerics.belt.march import Drawn, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Place, Seen, Station, TakeUp
+from ptmcalc.numerics.belt.travel import Travel
 from ptmcalc.numerics.mast.base import Base, Guide, Obstacle
 from ptmcalc.numerics.mast.base import Grip as Slips
 from ptmcalc.numerics.mast.base import Signal as Force
@@ -154,8 +158,8 @@ def test_of_a_hauled_load(name: str, units: Units) -> None:
     for what, size in sizes.items():
         ours, theirs = one.stack(what) * size, other.stack(what)
         assert theirs == pytest.approx(ours, rel=1e-9, abs=1e-9 * float(np.abs(ours).max())), what
-    for march, found, size in ((marches[0], one, 1.0), (marches[1], other, units.energy)):
-        left, scale = energy(march, found)
+    for whose, found, size in ((marches[0], one, 1.0), (marches[1], other, units.energy)):
+        left, scale = energy(whose, found)
         assert left <= 1e-11 * scale
         assert scale == pytest.approx(energy(marches[0], one)[1] * size)
         assert found.lost == pytest.approx(one.lost * size, abs=0.0)
@@ -290,6 +294,58 @@ def test_run_the_other_way_everything_is_a_mirror_image(name: str) -> None:
         assert (a.belt, *a.drums) == pytest.approx([-v for v in (b.belt, *reversed(b.drums))], rel=1e-9, abs=1e-12)
     assert here.work == pytest.approx(there.work, rel=1e-9)
     assert here.heat == pytest.approx(there.heat[::-1], rel=1e-9)
+
+
+@OTHERS
+@pytest.mark.parametrize("kind", ["elastic", "sags and yields", "runs"])
+def test_of_a_whole_belt(kind: str, units: Units) -> None:
+    """Both strands in cells, drums at head and tail, a heavy take-up; spans that sag, rubber, and what goes along."""
+    force, speed, time = units.force, units.speed, units.time
+
+    def drawn(u: Units) -> Drawn:
+        def reach(length: float, line_mass: float, friction: float, climb: float, span: float) -> Reach:
+            marks = np.array([0.0, length]) * u.length
+            along = np.array([0.0, length])
+            return Reach(line_mass * u.mass / u.length, 9e7 * u.force, marks, friction * along * u.force,
+                         20.0 * along * u.damping, climb * along * u.force, span * u.force, 0.8)  # fmt: skip
+
+        sags = kind == "sags and yields"
+        reaches = reach(300.0, 38.0, 9.0, -3.0, 500.0 * sags), reach(300.0, 200.0, 50.0, 30.0, 900.0 * sags)
+        cells = lay_out(reaches, 1, 16)
+
+        def drum(name: str, mass: float, most: float) -> Drum:
+            def pulls(t: float, v: float) -> tuple[float, float]:
+                return most * min(t / u.time, 1.0) * u.force - 2e3 * v * u.damping, -2e3 * u.damping
+
+            return Drum(name, mass * u.mass, pulls, exponent=0.9)
+
+        at = place_at(cells, 0, 20.0 * u.mass / u.length), place_at(cells, cells.tail, 20.0 * u.mass / u.length)
+        head = Station(at[0], [drum("head", 9e3, 9e4)], TakeUp(3e4 * u.force, 2e3 * u.mass))
+        tail = Station(at[1], [drum("tail", 3e3, 1e4)])
+        tension = np.linspace(3e4, 6e4, cells.cells) * u.force - cells.climb_within
+        rubber = Rubber(0.3, 0.2 * u.time) if sags else None
+        gives = Give(cells, rubber, 9e7 * u.force) if sags else None
+        runs = Travel(cells, 9e7 * u.force, 4.0 * u.speed) if kind == "runs" else None
+        return march(cells, head, tail, tension, 4.0 * u.speed if runs else 0.0, 3.0 * u.time, None, gives, runs)
+
+    one, other = drawn(Units()), drawn(units)
+    assert len(one.times) == len(other.times)
+    assert other.times == pytest.approx(one.times * time)
+    for what in ("head", "tail"):
+        for a, b in zip(getattr(one, what), getattr(other, what), strict=True):
+            assert a.slips == b.slips
+            assert b.tensions == pytest.approx([x * force for x in a.tensions], rel=1e-9, abs=1e-6 * force)
+            assert (b.belt, b.behind, *b.drums, b.creep) == pytest.approx(
+                [x * speed for x in (a.belt, a.behind, *a.drums, a.creep)], rel=1e-8, abs=1e-9 * speed
+            )
+    for name in ("back_max", "back_min", "carry_max", "carry_min"):
+        a, b = getattr(one, name), getattr(other, name)
+        assert (b.value, b.time, b.place) == pytest.approx((a.value * force, a.time * time, a.place * units.length))
+    assert other.friction_work == pytest.approx(one.friction_work * units.energy)
+    assert other.stretched == pytest.approx(one.stretched * units.length)
+    assert other.energy_residual == pytest.approx(one.energy_residual, rel=1e-3, abs=1e-12)
+    assert other.highest == pytest.approx(one.highest * force)
+    assert other.lows == pytest.approx(one.lows * force, abs=1e-6 * force)
 
 
 # -- a swinging load ------------------------------------------------------------------------------------------------
