@@ -10,7 +10,9 @@ from scipy.special import ellipkm1
 from support.swinging import Hanging, still
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.pendulum.linear import LinearCase, linear_swing
+from ptmcalc.numerics.pendulum.march import March
 from ptmcalc.numerics.pendulum.parts import (
     Axis,
     Buffer,
@@ -614,3 +616,13 @@ def test_from_rest_it_moves_for_what_exceeds_friction_by_more_than_rounding(
     found = swing(Case(G, Rail(), axis, Load(300.0 * size, Pieces.constant(5.0))), 1.0)
     assert found.farthest("speed").value * way == pytest.approx(100 * excess / 1200 if moves else 0.0, rel=0.4)
     assert [e.after for e in found.events] == []
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_what_nothing_gives_a_speed_is_measured_by_what_its_forces_give_it_in_a_swing(size: float) -> None:
+    """F/(m w), w^2 = g/L; where that is small, by the swing of its load."""
+    axis = Axis(700.0 * size, Push(1e5 * size), friction=100.0 * size, gear=Gear(200.0 * size))
+    case = Case(G, Rail(), axis, Load(300.0 * size, Pieces.constant(5.0)))
+    w = math.sqrt(G / 5.0)
+    scales = March(case, 1.0, 1e-11, radau(12), 10)._scales()
+    assert scales == pytest.approx([1e5 / (900 * w) / w, 1e5 / (900 * w), 1, 1, 1, w, w, w])
