@@ -110,6 +110,22 @@ class TestCurve:
         law = skew.skew_equilibrium(0.3, angle, d, coupled, weights, centre, span, rail_two)
         assert law == pytest.approx(wheels(*found.x), abs=1e-6 * np.sum(weights))
 
+    def test_newton_takes_few_rounds(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Its matrix is the exact one: digits double, down to where the work falls no more."""
+        rounds: list[int] = []
+        solve = np.linalg.lstsq
+
+        def counted(*given: object, **options: object) -> object:
+            rounds[-1] += 1
+            return solve(*given, **options)  # type: ignore[call-overload]
+
+        monkeypatch.setattr(np.linalg, "lstsq", counted)
+        for seed in range(60):
+            rounds.append(0)
+            skew.skew_equilibrium(0.3, [0.0008, 0.004, 0.012][seed % 3], *self.crane(seed))
+        assert max(rounds) <= 8
+        assert sum(rounds) <= 270
+
     def test_the_linear_forces_are_those_of_a_small_angle(self) -> None:
         d, coupled, weights, centre, span, rail_two = self.crane(4)
         linear = skew.skew_forces(float(skew.skew_friction(1e-8, 0.3)), d, coupled, weights, centre, span, rail_two)

@@ -37,7 +37,18 @@ from .warm import Session
 
 ROOT = Path(__file__).parents[2]
 EQUIVALENT = Path(__file__).parent / "equivalent.toml"
-PARTS = ("ptmcalc", "tests", "specs", ".ci", "pyproject.toml", "README.md", "CHANGELOG.md", "LICENSE", "uv.lock")
+PARTS = (
+    "ptmcalc",
+    "tests",
+    "specs",
+    "docs",
+    ".ci",
+    "pyproject.toml",
+    "README.md",
+    "CHANGELOG.md",
+    "LICENSE",
+    "uv.lock",
+)
 ROOMS = ("laws", "numerics", "reference", "order", "stability", "coverage", "machines", "engine")
 FIRST, MOST = 15.0, 240.0
 """Processor seconds of tests: in the first batch of a fault (each further one is twice as long), and for all of it."""

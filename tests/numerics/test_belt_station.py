@@ -536,3 +536,28 @@ def test_work_of_drives_is_kinetic_energy_heat_and_what_the_belt_gets() -> None:
         gaps.append(abs(station.work - stored - sum(station.heat) - into) / (sum(station.heat) + stored))
     assert gaps[1] < 1e-3
     assert gaps[1] < gaps[0] / 2
+
+
+@pytest.mark.parametrize(("exponents", "slips"), [((0.2, 3.0), (1, 0)), ((3.0, 0.2), (0, 1)), ((3.0, 2.0), (0, 0))])
+def test_of_drums_at_a_speed_those_that_stick_take_what_a_slipping_one_leaves(
+    exponents: tuple[float, float], slips: tuple[int, int]
+) -> None:
+    """Each asks for half of 120 kN: one that grips less passes on e^(mu alpha), whichever it is."""
+    drums = [Drum(f"{j}", 1e3, exponent=exponent) for j, exponent in enumerate(exponents)]
+    station = Station(place(), drums, TakeUp(60e3), lambda time: 0.5, (0.5, 0.5))
+    seen = fed(station, lambda t: 180e3 - ON * 0.5, lambda t: 60e3, 0.1, 50, 0.5)[-1]
+    assert seen.slips == slips
+    between = {(1, 0): 180e3 / math.exp(0.2), (0, 1): 60e3 * math.exp(0.2), (0, 0): 120e3}[slips]
+    assert seen.tensions == pytest.approx((180e3, between, 60e3))
+
+
+def test_at_a_speed_the_sticking_ones_of_three_share_by_what_they_were_asked_for() -> None:
+    """The middle one slips; the others share what is left 2 to 1, their own mass apart."""
+    drums = [Drum(f"{j}", 2e3 * (j + 1), exponent=exponent) for j, exponent in enumerate((4.0, 0.1, 4.0))]
+    station = Station(place(), drums, TakeUp(60e3), lambda time: 0.5 + 0.3 * time, (0.4, 0.4, 0.2))
+    seen = fed(station, lambda t: 200e3 - ON * (0.5 + 0.3 * t), lambda t: 60e3, 0.1, 50, 0.5)[-1]
+    first, second, third = (above - behind for above, behind in itertools.pairwise(seen.tensions))
+    assert seen.slips == (0, 1, 0)
+    assert seen.tensions[1] == pytest.approx(seen.tensions[2] * math.exp(0.1))
+    assert first + second + third == pytest.approx(140e3)
+    assert first + 2e3 * 0.3 == pytest.approx(2 * (third + 6e3 * 0.3))

@@ -43,6 +43,12 @@ class TestBalance:
         scale = expm.balance(matrix)
         assert np.abs(matrix * scale / scale[:, None]).max() <= 2 * 1.2e4
 
+    @pytest.mark.parametrize("power", [-400, -161, -7, 0, 6, 160, 300])
+    def test_two_that_feed_each_other_meet_in_the_middle(self, power: int) -> None:
+        """The root of their ratio to the last power of 2, however far apart they are."""
+        scale = expm.balance(np.array([[0.0, 2.0**power], [2.0**-power, 0.0]]))
+        assert scale.tolist() == [2.0**power, 1.0]
+
     def test_what_only_feeds_on_others_is_scaled_too(self) -> None:
         """No cycle, so Osborne's ratio has a zero in it."""
         matrix = np.array([[0.0, 1e8], [0.0, -1.0]])

@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.loop import MOST_STEPS, Grid, Loop, Strand, match, panelled, refined, steps_of
+from ptmcalc.numerics import sagging, strand
+from ptmcalc.numerics.loop import MOST_STEPS, Drive, Grid, Loop, Strand, match, panelled, refined, steps_of
 
 CARRY, BACK = Strand(700.0, 130.0, 3.1e7, 2.1e4, 9.3e4), Strand(640.0, 41.0, 2.2e7, 1.4e4, 2.1e4)
 
@@ -71,3 +72,17 @@ def test_the_mismatch_is_that_of_the_worse_strand() -> None:
             step = (first + second) / (carry + back)
             assert grid.mismatch <= max(abs(carry * step / first - 1), abs(back * step / second - 1)) + 1e-15
     assert match(1.0, 1e-9, 5, 1.0).back == 1
+
+
+@pytest.mark.parametrize(("share", "turned"), [(-1e-8, False), (-1e-4, True), (1e-4, False)])
+def test_a_belt_turns_back_where_it_goes_a_millionth_of_its_speed_that_way(share: float, turned: bool) -> None:
+    """Pulled back by a little first and forward then, by both marches: the motion is linear in the pull."""
+    carry, back = Strand(1000.0, 245.0, 138e6, 5e5, 5e5), Strand(1000.0, 39.2, 138e6, 5e5, 5e5)
+    belt = Loop(carry, back, 45_120.0, 0.0, fixed_length=False)
+    drive = Drive(force=lambda t: 6e4 * np.where(t < 1.0, share, np.minimum(t - 1.0, 1.0)))
+    straight = strand.march(belt, drive, 3.0, match(carry.transit, back.transit, 40, 2e-7, at_most=4000))
+    sags = sagging.march(belt, drive, 3.0, sagging.grid_of(belt, 40))
+    for motion in (straight, sags):
+        early = float(np.abs(motion.belt_speed[motion.times < 1]).max()) / float(motion.belt_speed.max())
+        assert 0.1 * abs(share) < early < 10 * abs(share)
+        assert motion.reversed is turned

@@ -218,6 +218,24 @@ class TestObstacle:
         assert abs(forces[1] - forces[2]) < abs(forces[0] - forces[2])
 
 
+class TestMoment:
+    @pytest.mark.parametrize(
+        "parts",
+        [
+            {},
+            {"obstacle": Obstacle(LENGTH, 4 * STIFFNESS, 0.05)},
+            {"obstacle": Obstacle(LENGTH, 4 * STIFFNESS, 0.05, 3e3)},
+            {"guide": Guide(LENGTH, 2 * STIFFNESS, 0.002)},
+        ],
+    )
+    def test_of_a_column_without_mass_is_its_bend(self, parts: dict[str, Obstacle | Guide]) -> None:
+        """Whatever acts at the tip bends it by F L^3/(3 E I) and turns its root by F L."""
+        course = play(case(braked(9000.0), column=0.0, **parts), 0.5)  # type: ignore[arg-type]
+        low, high = sorted(abs(one) for one in deflections(course))
+        found = sorted(abs(one) for one in (course.top("moment")[0], course.bottom("moment")[0]))
+        assert found == pytest.approx([STIFFNESS * LENGTH * low, STIFFNESS * LENGTH * high], rel=1e-9, abs=1e-9)
+
+
 class TestGuide:
     def test_a_gap_that_is_never_closed_changes_nothing(self) -> None:
         free = play(case(braked(9000.0)), 1.0)

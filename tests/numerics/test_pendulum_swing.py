@@ -10,7 +10,9 @@ from scipy.special import ellipkm1
 from support.swinging import Hanging, still
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.pendulum.linear import LinearCase, linear_swing
+from ptmcalc.numerics.pendulum.march import March
 from ptmcalc.numerics.pendulum.parts import (
     Axis,
     Buffer,
@@ -564,3 +566,63 @@ def test_a_ramp_that_ends_at_rest_does_not_jump_by_its_rounding() -> None:
         assert not Pieces.through(((0.0, speed), (speed / ramp, 0.0))).jumps
         assert not Pieces.through(((0.0, 0.0), (speed / ramp, speed))).jumps
         assert Pieces((0.0, speed / ramp), ((speed, -ramp), (1e-6 * speed,))).jumps
+
+
+@pytest.mark.parametrize("work", [-3e-12, -1e-3, 5.0, 5e4])
+def test_what_the_energy_balance_leaves_over_is_a_share_of_what_was_turned_over(work: float) -> None:
+    """A free swing with a work put into its ledger that nobody did: all of it, beside the largest of kinetic energy
+    and works, less 64 roundings of the energies at both ends."""
+    found = swing(Case(G, Rail(), Axis(900.0, speed=0.7), Load(300.0, Pieces.constant(5.0), 0.1)), 2.0)
+    clean = found.works()
+    assert clean.residual == 0
+    assert abs(clean.stored) < 1e-8
+    energies = []
+    for time in (0.0, 2.0):
+        v, angle, rate = (float(found.at(name, time)) for name in ("speed", "along", "along_rate"))
+        ahead, up = v + 5.0 * rate * math.cos(angle), 5.0 * rate * math.sin(angle)
+        energies += [900 * v**2 / 2 + 300 * (ahead**2 + up**2) / 2, 300 * G * 5 * math.cos(angle)]
+    moving, unseen = max(energies[::2]), 64 * 2**-52 * sum(energies)
+    for name in ("outer", "motor"):
+        found._fine.jerks[name] = work
+        told = found.works()
+        found._fine.jerks[name] = 0.0
+        assert told.works[name] == work
+        left = max(abs(work) - unseen, 0.0)
+        assert told.residual == pytest.approx(left / max(moving, abs(work)), rel=1e-3, abs=2e-14)
+    found._fine.jerks["motor"], found._fine.jerks["outer"] = 2 * work, -3 * work
+    expected = max(abs(work) - unseen, 0.0) / max(moving, 3 * abs(work))
+    assert found.works().residual == pytest.approx(expected, rel=1e-3, abs=2e-14)
+
+
+def test_rounding_of_the_energies_at_both_ends_is_not_left_over() -> None:
+    """A load on 500 m of rope that hardly moves: its height is 1e10 times its motion."""
+    found = swing(Case(G, Rail(), Axis(900.0, speed=1e-4), Load(300.0, Pieces.constant(500.0))), 2.0)
+    height = 2 * 300 * G * 500
+    for share in (0.5, 40.0):
+        work = share * 64 * 2**-52 * height
+        found._fine.jerks["outer"] = work
+        scale = 1200 * 1e-8 / 2
+        left = (share - 1) * 64 * 2**-52 * height if share > 1 else 0.0
+        assert found.works().residual == pytest.approx(left / scale, rel=0.1)
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(("excess", "moves"), [(-1e-9, False), (3e-12, False), (1e-9, True)])
+def test_from_rest_it_moves_for_what_exceeds_friction_by_more_than_rounding(
+    size: float, way: int, excess: float, moves: bool
+) -> None:
+    axis = Axis(900.0 * size, Push(way * 100.0 * size * (1 + excess)), friction=100.0 * size)
+    found = swing(Case(G, Rail(), axis, Load(300.0 * size, Pieces.constant(5.0))), 1.0)
+    assert found.farthest("speed").value * way == pytest.approx(100 * excess / 1200 if moves else 0.0, rel=0.4)
+    assert [e.after for e in found.events] == []
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_what_nothing_gives_a_speed_is_measured_by_what_its_forces_give_it_in_a_swing(size: float) -> None:
+    """F/(m w), w^2 = g/L; where that is small, by the swing of its load."""
+    axis = Axis(700.0 * size, Push(1e5 * size), friction=100.0 * size, gear=Gear(200.0 * size))
+    case = Case(G, Rail(), axis, Load(300.0 * size, Pieces.constant(5.0)))
+    w = math.sqrt(G / 5.0)
+    scales = March(case, 1.0, 1e-11, radau(12), 10)._scales()
+    assert scales == pytest.approx([1e5 / (900 * w) / w, 1e5 / (900 * w), 1, 1, 1, w, w, w])

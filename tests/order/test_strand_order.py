@@ -44,3 +44,14 @@ def test_the_staggered_grid_converges_through_corners_at_first_order_or_better()
     errors = _errors(sagging.march, grids)
     assert errors[-1] < 0.02 * FORCE
     assert min(_orders(errors)) > 0.9
+
+
+def test_the_waves_of_a_straight_belt_are_the_same_by_both() -> None:
+    """What leaves drum, tail, tail and run-off, on a loop of one length and on one with a take-up."""
+    drive = loop.Drive(force=lambda t: FORCE * np.minimum(t / 1.5, 1.0))
+    for belt in (BELT, loop.Loop(CARRY, RETURN, 45_120.0, 3000.0, fixed_length=True)):
+        grid = loop.match(CARRY.transit, RETURN.transit, 40, 2e-7, at_most=4000)
+        exact, rough = strand.march(belt, drive, 6.0, grid), sagging.march(belt, drive, 6.0, sagging.grid_of(belt, 60))
+        for one, other in zip(exact.waves, rough.waves, strict=True):
+            assert np.abs(np.interp(exact.times, rough.times, other) - one).max() < 0.03 * FORCE
+            assert np.abs(one).max() > 0.3 * FORCE

@@ -324,7 +324,7 @@ class Station:
         if len(self.drums) < 2:
             return on, found[0]
         lift = place.belt_line_mass * belt * belt
-        needed = on - found[0] + move.acceleration * sum(drum.mass for drum in self.drums)
+        needed = self._needed(on, found[0], lift, move.acceleration) if self.imposed is not None else 0.0
         stuck = [j for j, (drum, sense) in enumerate(zip(self.drums, self.slips, strict=True)) if not sense]
         holding = next((j for j in stuck if self.drums[j].one_way), None)
         for j in range(len(self.drums) - 1, 0, -1):
@@ -340,6 +340,17 @@ class Station:
             found.append(above)
         found.append(on)
         return tuple(reversed(found))
+
+    def _needed(self, on: float, off: float, lift: float, acceleration: float) -> float:
+        """Force that drives at an imposed speed share: what their drums' mass and those that slip leave of it."""
+        without, factor = off, 0.0
+        for drum, sense, grip, share in zip(reversed(self.drums), reversed(self.slips), reversed(self.grips),
+                                            reversed(self.shares), strict=True):  # fmt: skip
+            if sense:
+                without, factor = lift + grip**sense * (without - lift), grip**sense * factor
+            else:
+                without, factor = without - drum.mass * acceleration, factor + share
+        return (on - without) / factor if factor else 0.0
 
     def _breaks_loose(self, tensions: tuple[float, ...], belt: float) -> tuple[int, int] | None:
         """A drum that sticks though its tensions ask for more than its grip, and the sense in which it slips."""

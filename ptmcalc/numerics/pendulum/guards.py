@@ -18,7 +18,9 @@ NOISE = 1e-11
 """Share of its size below which a guard is not below 0."""
 _NEAR = 1e-5
 """Share of a step by which the panels may place a root wrongly."""
-_SECANTS, _HALVINGS = 4, 60
+_SECANTS, _FALSE = 4, 14
+_NEXT = 2.0**-52
+"""How near two places of a step are told apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,11 +136,16 @@ class Guards:
 
 
 def _bracketed(value: Callable[[float], float], left: float, right: float, noise: float) -> float:
-    """A root between a place where a function is above 0 and one where it is below (Illinois)."""
+    """A root between a place where a function is above 0 and one where it is below.
+
+    A smooth function takes a few steps of false position (Illinois). At a root on a corner they hardly move where the
+    slopes differ much: what is left after them is halved, down to two neighbouring places.
+    """
     above, below = value(left), value(right)
-    side = 0
-    for _ in range(_HALVINGS):
-        middle = right - below * (right - left) / (below - above)
+    side, looks = 0, 0
+    while right - left > _NEXT:
+        looks += 1
+        middle = right - below * (right - left) / (below - above) if looks <= _FALSE else (left + right) / 2
         found = value(middle)
         if abs(found) <= noise:
             return middle

@@ -150,7 +150,7 @@ class March:
         self.heavy = bridge if bridge is not None and bridge.mass > 0 else None
         self.history: deque[tuple[float, float, FloatArray]] = deque()
         self.ends: deque[float] = deque()
-        self._before = (0.0, 0.0, np.zeros((rule.COUNT, 2)))
+        self._before: tuple[float, float, FloatArray]
         self.longest = self._longest()
         self.sizes = np.zeros(7)
 
@@ -505,9 +505,7 @@ class March:
             at = rule.root(values, float(rule.PLACES[first - 1]), float(rule.PLACES[first])) if first else 0.0
             if at < place:
                 place, fired = at, name
-        if fired is None:
-            place = 1.0
-        elif place * h <= 1e-15 * max(begin, h):
+        if fired is not None and place * h <= 1e-15 * max(begin, h):
             return Panel(begin, 0.0, y[:1], *(np.zeros(1),) * 5, np.zeros((1, 2))), fired
         if place < 1:
             cut = rule.to(place * rule.NODES)
@@ -567,15 +565,15 @@ class March:
         """Kinetic and elastic energy in the end [J]."""
         haul, weights = self.haul, rule.INTEGRAL[-1]
         found = (haul.motor_mass + haul.drum_mass) * y[W] ** 2 / 2 + haul.load_mass * y[V] ** 2 / 2
-        force = 0.0
+        sag = y[Z]
         if self.hauled is not None:
             strain = float(self._pulling(y[None], mode)[0])
             force = self.hauled.extensional * strain
             found += force * strain * (self.hauled.length - y[S]) / 2
+            sag = force / self.soft.stiffness if self.soft is not None else sag
         if self.heavy is not None:
-            found += self.heavy.mass * y[ZD] ** 2 / 2 + self.heavy.stiffness * y[Z] ** 2 / 2
+            found += self.heavy.mass * y[ZD] ** 2 / 2 + self.heavy.stiffness * sag**2 / 2
         elif self.soft is not None:
-            sag = y[Z] if self.rod is not None else force / self.soft.stiffness
             found += self.soft.stiffness * sag**2 / 2
         if self.rod is None:
             return float(found)
