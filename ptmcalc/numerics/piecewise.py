@@ -35,7 +35,9 @@ _EARLY = 0.01
 _GLIDES = 64
 """Panels that one long panel has to be worth, and that go by before another is tried."""
 _STEADY = 8
-"""Long panels after which a length that was too long is tried again."""
+"""Long panels tried at once after which a length that was too long is tried again."""
+_FEW = 2
+"""Long panels that are tried at once after some were too long."""
 _IDLE = 4
 """Crossings of one guard in a row that change nothing, from which on only more than the error of a curve counts."""
 _SHOWN = 1e-3
@@ -222,6 +224,7 @@ class _March:
         """On by panels far longer than this one, as long as no guard can be reached; the state from which to go on."""
         glide = self.glides.setdefault(flow, Glide(flow))
         length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
+        wary = False  # some were too long
         while length >= _GLIDES * panel:
             self._pay(record, LONG * tries)
             if length > min(stop - record.time, longest):
@@ -232,13 +235,14 @@ class _March:
             if passed:
                 record.time += passed * length
                 state = starts[passed]
-            longest = flow.longest(state, record.sizes)
+                longest = flow.longest(state, record.sizes)
             if passed < len(starts) - 1:
-                length, tries = length / 2, _STEADY
-            elif tries == 1 and 2 * length <= longest:
-                length *= 2
+                length, tries, wary = length / 2, _FEW, True
+            elif not wary and 2 * length <= longest:
+                length, tries = 2 * length, 1
             else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
-                tries = _STEADY if 2 * length > longest else 1
+                wary = wary and tries < _STEADY
+                tries = min(2 * tries, _STEADY)
         return state
 
     @staticmethod
