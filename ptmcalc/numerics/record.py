@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.extremes import Extremes
+from ptmcalc.numerics.extremes import Extremes, reach_of
 from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 
 if TYPE_CHECKING:
@@ -153,8 +153,9 @@ class Record:
         starts = np.concatenate([one.start + one.panel * np.arange(len(one.states)) for one in self._waiting])
         by_nodes = self._watched(lengths)
         watch = by_nodes.transpose(1, 0, 2)
-        self.top.see(starts, lengths, watch)
-        self.bottom.see(starts, lengths, watch)
+        reach = reach_of(watch)
+        self.top.see(starts, lengths, watch, reach=reach)
+        self.bottom.see(starts, lengths, watch, reach=reach)
         self._sizes = np.maximum(self._sizes, np.maximum(self.top.best, self.bottom.best))
         if len(self.products):
             power = by_nodes[:, :, self.products[:, 0]] * by_nodes[:, :, self.products[:, 1]]
@@ -208,8 +209,9 @@ class Record:
         starts, lengths = np.array([one.start for one in passed]), np.array([one.panel for one in passed])
         nodes, low, high, envelope = (np.array(parts) for parts in zip(*(one.band for one in passed), strict=True))
         smooth: NDArray[np.bool_] = np.less_equal(envelope, self._least(passed))
-        self.top.see(starts, lengths, nodes, smooth)
-        self.bottom.see(starts, lengths, nodes, smooth)
+        reach = reach_of(nodes)
+        self.top.see(starts, lengths, nodes, smooth, reach)
+        self.bottom.see(starts, lengths, nodes, smooth, reach)
         low[smooth], high[smooth] = np.inf, -np.inf
         low[:, self.unsought], high[:, self.unsought] = np.inf, -np.inf
         read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
