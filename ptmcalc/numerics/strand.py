@@ -82,7 +82,8 @@ def between(history: FloatArray, grid: Grid, when: FloatArray) -> FloatArray:
 @cache
 def _to_chebyshev(many: int) -> FloatArray:
     """Chebyshev coefficients of the polynomial through the samples of a panel of so many steps."""
-    found = np.linalg.inv(np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, many + 1), many))
+    at_samples = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, many + 1), many)
+    found: FloatArray = np.asarray(np.linalg.inv(at_samples), float)
     found.setflags(write=False)
     return found
 
