@@ -32,9 +32,9 @@ from ptmcalc.laws.loop_bounds import LoopMasses
 
 FloatArray = NDArray[np.float64]
 
-_PARTS, _ROUNDS = 32, 12
-"""Parts an interval is divided into at a time, and how often: 60 bisections, in a fifth of the calls."""
-_SHARES = np.arange(1, _PARTS)[:, None] / _PARTS
+_BISECTIONS, _MOST_AT_ONCE, _AT_ONCE = 60, 5, 512
+"""Halvings of every interval, how many of them at most are made in one call, and places that cost little more than
+one."""
 
 
 def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
@@ -63,9 +63,11 @@ def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> Flo
     while (above := _below(loop, waves, quarter, low) >= wanted).any():
         high = np.where(above, low, high)
         low = np.where(above, low / 2, low)
-    for _ in range(_ROUNDS):
-        step = (high - low) / _PARTS
-        below = (_below(loop, waves, quarter, low + (high - low) * _SHARES) < wanted).sum(axis=0)
+    together = min(max(int(math.log2(_AT_ONCE / max(count, 1))), 1), _MOST_AT_ONCE)
+    shares = np.arange(1, 1 << together)[:, None] / (1 << together)
+    for _ in range(math.ceil(_BISECTIONS / together)):
+        step = (high - low) / (1 << together)
+        below = (_below(loop, waves, quarter, low + (high - low) * shares) < wanted).sum(axis=0)
         low, high = low + below * step, low + (below + 1) * step
     return np.asarray((low + high) / 2)
 

@@ -88,12 +88,14 @@ class Powers:
 
     def at(self, times: FloatArray) -> FloatArray:
         """exp(A t) at several times, shape (times, n, n)."""
+        return whole(self.changes(times))
+
+    def changes(self, times: FloatArray) -> FloatArray:
+        """exp(A t) - I at several times, shape (times, n, n)."""
         n, squarings = self._n, self._squarings(float(np.abs(times).max(initial=0.0)))
         terms = (times * (self._unit / 2.0**squarings))[:, None] ** _ORDERS
         change: FloatArray = (terms @ self._stack).reshape(len(times), n, n)
-        change = _squared(change, squarings)
-        change.reshape(len(times), n * n)[:, :: n + 1] += 1.0
-        return change
+        return _squared(change, squarings)
 
     def change(self, time: float) -> FloatArray:
         """exp(A t) - I at one time, shape (n, n)."""
@@ -105,6 +107,17 @@ class Powers:
     def _squarings(self, longest: float) -> int:
         size = self.norm * longest
         return math.ceil(math.log2(size)) if size > 1 else 0
+
+
+def whole(change: FloatArray) -> FloatArray:
+    """exp(A t) of what it differs from I by, in place, shape (times, n, n)."""
+    change.reshape(len(change), -1)[:, :: change.shape[1] + 1] += 1.0
+    return change
+
+
+def twice(change: FloatArray) -> FloatArray:
+    """What exp(2 A t) differs from I by, of the same of exp(A t), shape (times, n, n)."""
+    return _squared(change.copy(), 1)
 
 
 def _squared(change: FloatArray, times: int) -> FloatArray:

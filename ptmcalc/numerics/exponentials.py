@@ -173,7 +173,7 @@ def _series(node: _Node, t: FloatArray) -> Values:
     """exp(c t) sum h_k t^k/(k + n)!, h_k the complete symmetric sums of the points about their mean c."""
     if len(node.chosen) == 1:
         return np.asarray(np.exp(node.centre.real * t) if node.real else np.exp(node.centre * t))
-    powers = np.multiply.accumulate([node.radius * t] * _TERMS, axis=0)
+    powers = np.multiply.accumulate(np.broadcast_to(node.radius * t, (_TERMS, len(t))), axis=0)
     factors = node.factors
     total: Values = factors[0].real + factors[1:].real @ powers
     if node.real:

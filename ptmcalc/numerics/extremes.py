@@ -12,6 +12,11 @@ _OVERSHOOT = 0.5
 """Most a summit between nodes can lie above the highest node, over the larger step beside it; 1/4 for a parabola."""
 
 
+def reach_of(watch: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Largest and smallest value at the nodes of panels, of signals of shape (panels, nodes, signals)."""
+    return watch.max(axis=1), watch.min(axis=1)
+
+
 @dataclass(slots=True)
 class Extremes:
     """The largest value of each signal and its time; `sign` -1 looks for the smallest."""
@@ -30,11 +35,16 @@ class Extremes:
         return cls(sign, np.full(signals, -np.inf), np.zeros(signals))
 
     def see(
-        self, starts: FloatArray, lengths: FloatArray, watch: FloatArray, smooth: NDArray[np.bool_] | None = None
+        self,
+        starts: FloatArray,
+        lengths: FloatArray,
+        watch: FloatArray,
+        smooth: NDArray[np.bool_] | None = None,
+        reach: tuple[FloatArray, FloatArray] | None = None,
     ) -> None:
         """Take in signals at the nodes of panels, shape (panels, nodes, signals); between the nodes only where they
-        are smooth, shape (panels, signals), if that is given."""
-        heights, depths = watch.max(axis=1), watch.min(axis=1)
+        are smooth, shape (panels, signals), if that is given. `reach` is `reach_of` the same, where it is known."""
+        heights, depths = reach_of(watch) if reach is None else reach
         if self.sign < 0:
             heights, depths = -depths, -heights
         peak = heights.max(axis=0)

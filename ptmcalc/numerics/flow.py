@@ -94,19 +94,24 @@ class Flow:
         result: FloatArray = state + self._powers.change(time) @ state
         return result
 
+    def changes(self, panels: FloatArray) -> FloatArray:
+        """exp(A t) - I at the nodes of panels of some lengths, shape (panels * nodes, n, n)."""
+        return self._powers.changes((panels[:, None] * NODES).ravel())
+
     def at_nodes(self, panels: FloatArray) -> FloatArray:
         """exp(A t) at the nodes of panels of some lengths, shape (panels, nodes, n, n)."""
         n = len(self.rate)
-        times = (panels[:, None] * NODES).ravel()
-        return self._powers.at(times).reshape(len(panels), COUNT, n, n)
+        return expm.whole(self.changes(panels)).reshape(len(panels), COUNT, n, n)
 
     def chunk(self, panel: float) -> "Chunk":
-        """What panels of one length need; kept where the length can come again."""
+        """What panels of one length need; kept where the length can come again, and doubled where half of it did."""
         chunk = self._chunks.get(panel)
         if chunk is None:
-            chunk = Chunk(self.at_nodes(np.array([panel]))[0], self.guards)
-            if math.frexp(panel / self.unit)[0] == _POWER_OF_TWO:
-                self._chunks[panel] = chunk
+            if math.frexp(panel / self.unit)[0] != _POWER_OF_TWO:
+                return Chunk(self.changes(np.array([panel])), self.guards)
+            half = self._chunks.get(panel / 2)
+            changes = self.changes(np.array([panel])) if half is None else expm.twice(half.changes)
+            chunk = self._chunks[panel] = Chunk(changes, self.guards)
         return chunk
 
     def keeps(self, panel: float) -> bool:
@@ -170,14 +175,18 @@ class Flow:
 
 
 class Chunk:
-    """What panels of one length need: the exponentials at the nodes, and powers of the last one."""
+    """What panels of one length need: the exponentials at the nodes, and powers of the last one.
 
-    def __init__(self, at_nodes: FloatArray, guards: FloatArray) -> None:
-        self.at_nodes, self.guards = at_nodes, guards
+    `changes` is what these differ from I by, shape (nodes, n, n).
+    """
+
+    def __init__(self, changes: FloatArray, guards: FloatArray) -> None:
+        self.changes, self.guards = changes, guards
+        self.at_nodes = at_nodes = expm.whole(changes.copy())
         n = at_nodes.shape[1]
         controls = panels.TO_BERNSTEIN @ np.matmul(guards, at_nodes).reshape(COUNT, -1)
         self._controls = controls.reshape(-1, n).T
-        self._powers: FloatArray | None = None
+        self._powers = np.stack([np.eye(n), at_nodes[-1]])
 
     def controls(self, starts: FloatArray) -> FloatArray:
         """Bernstein coefficients of the guards in panels from these states on, shape (panels, nodes, guards)."""
@@ -198,13 +207,6 @@ class Chunk:
             for k in range(count):
                 found[k + 1] = whole @ found[k]
             return found
-        if self._powers is None:
-            powers = np.empty((MOST_PANELS + 1, n, n))
-            powers[0], powers[1] = np.eye(n), whole
-            filled = 2
-            while filled <= MOST_PANELS:  # doubling keeps rounding to a few units
-                more = min(filled - 1, MOST_PANELS + 1 - filled)
-                powers[filled : filled + more] = powers[1 : 1 + more] @ powers[filled - 1]
-                filled += more
-            self._powers = powers
+        while len(self._powers) <= count:  # doubling keeps rounding to a few units
+            self._powers = np.concatenate([self._powers, self._powers[1:] @ self._powers[-1]])
         return (self._powers[: count + 1].reshape(-1, n) @ state).reshape(count + 1, n)

@@ -34,7 +34,6 @@ class Glide:
         self.flow = flow
         self._rows = np.concatenate([flow.guards, flow.watch])
         self._lengths: dict[float, _Length | None] = {}
-        self._works: dict[float, FloatArray] = {}
 
     def bands(self, panel: float, states: FloatArray) -> list[Band] | None:
         """Where all rows lie in panels of one length from these states on; None where the length is too long for a
@@ -86,31 +85,27 @@ class Glide:
         growth = np.maximum(1.0, np.abs(turned[-1]))
         return _Length(fast, seen, turned, growth, components.shapes[fast], components.sights[fast])
 
-    def works(self, panel: float, products: NDArray[np.intp], states: FloatArray) -> FloatArray:
-        """Integrals of products of signals over panels of one length from these states on, shape (products,).
+    def works(self, squares: dict[float, FloatArray], products: NDArray[np.intp]) -> FloatArray:
+        """Integrals of products of signals over panels that were passed, shape (products,); of the panels of each
+        length the sum of z z^T over the states they start from.
 
-            W(h) = h sum_i w_i (r_a E_i)^T (r_b E_i),   W(2 h) = W(h) + E^T W(h) E
+            sum z^T W(2 h) z = tr(W(h) (Q + E Q E^T)),   Q = sum z z^T,   W(h) = h sum_i w_i (r_a E_i)^T (r_b E_i)
 
-        from the quadrature of a panel that resolves everything, doubled.
+        handed down to panels that resolve everything, whose quadrature is the same for all products.
         """
-        found: FloatArray = (np.matmul(states, self._doubled(panel, products)) * states).sum(axis=(1, 2))
-        return found
-
-    def _doubled(self, panel: float, products: NDArray[np.intp]) -> FloatArray:
-        length, waiting = panel, []
-        finest = min(self.flow.finest, panel)
-        while length not in self._works and length > finest:
-            waiting.append(length)
-            length /= 2
-        if length not in self._works:
+        waiting, found = dict(squares), np.zeros(len(products))
+        first, second = products.T
+        while waiting:
+            length = max(waiting)
+            square = waiting.pop(length)
+            if length > self.flow.finest:
+                change = self.flow.chunk(length / 2).at_nodes[-1]
+                waiting[length / 2] = waiting.get(length / 2, 0.0) + square + change @ square @ change.T
+                continue
             seen = np.matmul(self.flow.watch, self.flow.chunk(length).at_nodes)
-            first, second = seen[:, products[:, 0]], seen[:, products[:, 1]]
-            weights = length * WEIGHTS
-            self._works[length] = np.einsum("i,ipn,ipm->pnm", weights, first, second, optimize=True)
-        for longer in reversed(waiting):
-            works, change = self._works[longer / 2], self.flow.chunk(longer / 2).at_nodes[-1]
-            self._works[longer] = works + np.matmul(change.T, np.matmul(works, change))
-        return self._works[panel]
+            at_nodes = np.matmul(np.matmul(seen, square), seen.transpose(0, 2, 1))
+            found += length * (WEIGHTS @ at_nodes[:, first, second])
+        return found
 
 
 @dataclass(frozen=True, slots=True)

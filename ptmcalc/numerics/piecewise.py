@@ -35,7 +35,11 @@ _EARLY = 0.01
 _GLIDES = 64
 """Panels that one long panel has to be worth, and that go by before another is tried."""
 _STEADY = 8
-"""Long panels after which a length that was too long is tried again."""
+"""Long panels tried at once after which a length that was too long is tried again."""
+_SURE = 64
+"""Panels after which it is asked whether longer ones will do: what moves by itself only fades."""
+_FEW = 2
+"""Long panels that are tried at once after some were too long."""
 _IDLE = 4
 """Crossings of one guard in a row that change nothing, from which on only more than the error of a curve counts."""
 _SHOWN = 1e-3
@@ -187,13 +191,16 @@ class _March:
         """Along a linear flow to the first crossing of a guard, or to `stop`; `blur` is how far below 0 they may be."""
         unheard, self.unheard = self.unheard, None
         count, soon = _FIRST_PANELS if unheard is None else 1, flow.soonest(state)
-        before = 0
+        before, fine, sure = 0, 0.0, 0
         while (left := stop - record.time) > 4 * _EPS * abs(stop):
-            panel = flow.panel(state, min(left, soon), record.sizes)
+            if sure <= 0 or soon < math.inf:
+                fine = flow.panel(state, min(left, soon), record.sizes)
+                sure = _SURE if soon == math.inf else 0
+            panel = min(fine, left)
             if before >= _GLIDES and left >= _GLIDES * panel:
                 before, passed = 0, self._glide(record, flow, state, panel, stop)
                 if passed is not state:
-                    state = passed
+                    state, sure = passed, 0
                     continue
             soon = math.inf
             wanted = max(1, min(count, int(left / panel)))
@@ -205,7 +212,7 @@ class _March:
             if hit is not None:
                 index, place, guard = hit
                 if index == 0 and 0 < place < _EARLY:  # so long a panel places it badly: look again from near by
-                    soon = flow.lattice(2 * place * panel)
+                    soon, sure = flow.lattice(2 * place * panel), 0
                     continue
                 if index:
                     record.see(flow, record.time, panel, starts[:index])
@@ -214,6 +221,7 @@ class _March:
             record.see(flow, record.time, panel, starts[:-1])
             record.time += wanted * panel
             before += wanted
+            sure -= wanted
             state = starts[-1]
             count = min(2 * count, MOST_PANELS)
         return state, None
@@ -222,6 +230,7 @@ class _March:
         """On by panels far longer than this one, as long as no guard can be reached; the state from which to go on."""
         glide = self.glides.setdefault(flow, Glide(flow))
         length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
+        wary = False  # some were too long
         while length >= _GLIDES * panel:
             self._pay(record, LONG * tries)
             if length > min(stop - record.time, longest):
@@ -232,13 +241,14 @@ class _March:
             if passed:
                 record.time += passed * length
                 state = starts[passed]
-            longest = flow.longest(state, record.sizes)
+                longest = flow.longest(state, record.sizes)
             if passed < len(starts) - 1:
-                length, tries = length / 2, _STEADY
-            elif tries == 1 and 2 * length <= longest:
-                length *= 2
+                length, tries, wary = length / 2, _FEW, True
+            elif not wary and 2 * length <= longest:
+                length, tries = 2 * length, 1
             else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
-                tries = _STEADY if 2 * length > longest else 1
+                wary = wary and tries < _STEADY
+                tries = min(2 * tries, _STEADY)
         return state
 
     @staticmethod

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.extremes import Extremes
+from ptmcalc.numerics.extremes import Extremes, reach_of
 from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 
 if TYPE_CHECKING:
@@ -87,6 +87,8 @@ class Record:
     began: Any = None
     """mode that holds from the start on"""
     last: FloatArray = field(default_factory=lambda: np.empty(0))
+    """signals at the end"""
+    _until: float = 0.0
     time: float = 0.0
     state: FloatArray = field(default_factory=lambda: np.empty(0))
     mode: Any = None
@@ -111,6 +113,8 @@ class Record:
     _passed: list["_Long"] = field(default_factory=list)
     _kept: list["_Long"] = field(default_factory=list)
     """long panels in which some signal could still have an extreme"""
+    _squares: dict["Glide", dict[float, FloatArray]] = field(default_factory=dict)
+    """sums of z z^T over the states that long panels of each length start from"""
 
     @classmethod
     def starting(cls, first: FloatArray, products: NDArray[np.intp], keep: bool) -> "Record":
@@ -149,19 +153,25 @@ class Record:
         starts = np.concatenate([one.start + one.panel * np.arange(len(one.states)) for one in self._waiting])
         by_nodes = self._watched(lengths)
         watch = by_nodes.transpose(1, 0, 2)
-        self.top.see(starts, lengths, watch)
-        self.bottom.see(starts, lengths, watch)
-        self._sizes = np.maximum(self.top.best, self.bottom.best)
+        reach = reach_of(watch)
+        self.top.see(starts, lengths, watch, reach=reach)
+        self.bottom.see(starts, lengths, watch, reach=reach)
+        self._sizes = np.maximum(self._sizes, np.maximum(self.top.best, self.bottom.best))
         if len(self.products):
             power = by_nodes[:, :, self.products[:, 0]] * by_nodes[:, :, self.products[:, 1]]
             self.integrals += lengths @ (WEIGHTS @ power.reshape(COUNT, -1)).reshape(len(lengths), -1)
-        self.last = watch[-1, -1]
+        self._ends(starts[-1] + lengths[-1], watch[-1, -1])
         self.steps += len(watch)
         if self.samples is not None:
             self.samples.times.append((starts[:, None] + lengths[:, None] * NODES).ravel())
             self.samples.values.append(watch.reshape(-1, watch.shape[2]))
         self._waiting.clear()
         self._count = self._sized = 0
+
+    def _ends(self, time: float, signals: FloatArray) -> None:
+        """Signals at the end of something that was seen, which need not come in the order of time."""
+        if time >= self._until:
+            self.last, self._until = signals, time
 
     @property
     def work(self) -> float:
@@ -172,7 +182,8 @@ class Record:
 
     def see_long(self, glide: "Glide", panel: float, states: FloatArray, bands: list["Band"]) -> None:
         """Take in long panels from now and from these states on, with the bands signals lie in; they are read later."""
-        self.settle()
+        if self.samples is not None:
+            self.settle()  # in the order of time
         for k, (state, band) in enumerate(zip(states, bands, strict=True)):
             start = self.time + k * panel
             self._passed.append(_Long(glide, start, panel, state, band))
@@ -181,8 +192,9 @@ class Record:
                 self.samples.times.append(start + panel * NODES)
                 self.samples.values.append(band.nodes)
         if len(self.products):
-            self.integrals += glide.works(panel, self.products, states)
-        self.last = bands[-1].nodes[-1]
+            squares = self._squares.setdefault(glide, {})
+            squares[panel] = squares.get(panel, 0.0) + states.T @ states
+        self._ends(self.time + len(bands) * panel, bands[-1].nodes[-1])
         self.steps += len(bands)
         self.long += len(bands)
         if len(self._passed) >= _BATCH:
@@ -197,8 +209,9 @@ class Record:
         starts, lengths = np.array([one.start for one in passed]), np.array([one.panel for one in passed])
         nodes, low, high, envelope = (np.array(parts) for parts in zip(*(one.band for one in passed), strict=True))
         smooth: NDArray[np.bool_] = np.less_equal(envelope, self._least(passed))
-        self.top.see(starts, lengths, nodes, smooth)
-        self.bottom.see(starts, lengths, nodes, smooth)
+        reach = reach_of(nodes)
+        self.top.see(starts, lengths, nodes, smooth, reach)
+        self.bottom.see(starts, lengths, nodes, smooth, reach)
         low[smooth], high[smooth] = np.inf, -np.inf
         low[:, self.unsought], high[:, self.unsought] = np.inf, -np.inf
         read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
@@ -256,6 +269,8 @@ class Record:
     def close(self) -> None:
         """Nothing more comes."""
         self.settle()
+        for glide, squares in self._squares.items():
+            self.integrals += glide.works(squares, self.products)
         self._look_again()
         self.top.settle()
         self.bottom.settle()

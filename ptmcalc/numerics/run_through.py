@@ -76,7 +76,7 @@ def run_through(
     acceleration: Callable[[FloatArray], FloatArray],
     frequencies: ArrayLike,
     damping_ratios: ArrayLike,
-    places: ArrayLike,
+    stretches: int,
     start: FloatArray | None = None,
     orders: tuple[int, int] = (_ORDER, _LOWER),
 ) -> Run:
@@ -88,8 +88,9 @@ def run_through(
             (passes, any, modes) where every mode has a base of its own; smooth within a pass.
         frequencies: w, above 0, shape (modes,) [rad/s].
         damping_ratios: zeta, also above 1, shape (modes,) [1].
-        places: where in a pass the motion is wanted, rising from 0 to 1; close enough for the fastest to turn or fade
-            by a few units from one to the next: w max(1, 2 zeta) (b - a) T < 8 or so.
+        stretches: into how many of one length each pass is cut, so that one map does for all of them; the motion is
+            wanted at their ends. Enough for the fastest mode to turn or fade by a few units in each:
+            w max(1, 2 zeta) T/stretches < 8 or so.
         start: (q, q') before the first pass, shape (modes, 2); at rest without it.
         orders: of the quadrature, and of the one it is compared with.
 
@@ -101,13 +102,21 @@ def run_through(
     """
     w = np.atleast_1d(np.asarray(frequencies, float))
     zeta = np.broadcast_to(np.asarray(damping_ratios, float), w.shape)
-    at = np.asarray(places, float)
-    lengths = np.diff(np.asarray(edges, float))
-    steps = lengths[:, None] * np.diff(at)
-    maps = free_motion(w, zeta, steps[:, :, None])
+    edges = np.asarray(edges, float)
+    lengths, at = np.diff(edges), np.linspace(0.0, 1.0, stretches + 1)
     kicks, error = _kicks(acceleration, lengths, at, w, zeta, orders)
-    begin = np.zeros((len(w), 2)) if start is None else start
-    return _played(np.asarray(edges, float), at, lengths, acceleration, w, zeta, maps, kicks, error, begin)
+    short, whole = (free_motion(w, zeta, times[:, None]) for times in (lengths / stretches, lengths))
+    states = _played(short, whole, kicks, np.zeros((len(w), 2)) if start is None else start)
+    inside = lengths[:, None] * at
+    return Run(
+        times=edges[:-1, None] + inside,
+        displacement=states[..., 0],
+        speed=states[..., 1],
+        base=acceleration(inside),
+        frequencies=w,
+        damping_ratios=zeta,
+        error=error,
+    )
 
 
 def _kicks(
@@ -119,55 +128,32 @@ def _kicks(
     orders: tuple[int, int],
 ) -> tuple[FloatArray, FloatArray]:
     """What the base adds to (q, q') in every stretch, (passes, stretches, modes, 2), and the bound of its error."""
-    found = []
+    found, steps = [], lengths / (len(at) - 1)
     for order in orders:
         nodes, weights = gauss(order)
-        inside = (at[:-1, None] + np.diff(at)[:, None] * nodes).ravel()
-        times = lengths[:, None] * inside
-        found_base = acceleration(times)
-        modes = found_base.shape[2] if found_base.ndim == 3 else 1
-        base = found_base.reshape(len(lengths), len(at) - 1, order, modes)
-        steps = lengths[:, None] * np.diff(at)
-        left = steps[:, :, None] * (1 - nodes)
+        inside = (at[:-1, None] + nodes / (len(at) - 1)).ravel()
+        base = acceleration(lengths[:, None] * inside)
+        modes = base.shape[2] if base.ndim == 3 else 1
+        base = base.reshape(len(lengths), len(at) - 1, order, modes).transpose(0, 3, 1, 2)
+        left = steps[:, None] * (1 - nodes)
         response = free_motion(w, zeta, left[..., None])[..., 1]  # of a kick of 1, at the end of the stretch
-        found.append(
-            -np.einsum("psnm,n,psnmi->psmi", np.broadcast_to(base, response.shape[:4]), weights, response)
-            * steps[:, :, None, None]
-        )
+        response *= -(weights * steps[:, None])[..., None, None]
+        found.append((base @ response.transpose(0, 2, 1, 3)).transpose(0, 2, 1, 3))
     stray = found[0] - found[1]
     return found[0], np.hypot(w * stray[..., 0], stray[..., 1]).sum(axis=(0, 1))
 
 
-def _played(
-    edges: FloatArray,
-    at: FloatArray,
-    lengths: FloatArray,
-    acceleration: Callable[[FloatArray], FloatArray],
-    w: FloatArray,
-    zeta: FloatArray,
-    maps: FloatArray,
-    kicks: FloatArray,
-    error: FloatArray,
-    state: FloatArray,
-) -> Run:
-    passes, stretches = maps.shape[:2]
-    whole, offset = maps[:, 0], kicks[:, 0]
-    for k in range(1, stretches):
-        whole = maps[:, k] @ whole
-        offset = (maps[:, k] @ offset[..., None])[..., 0] + kicks[:, k]
-    states = np.zeros((passes, stretches + 1, len(w), 2))
+def _played(short: FloatArray, whole: FloatArray, kicks: FloatArray, state: FloatArray) -> FloatArray:
+    """(q, q') at both ends of every stretch, (passes, stretches + 1, modes, 2): maps of a stretch and of a pass of each
+    length, shape (passes, modes, 2, 2), and what the base adds."""
+    passes, stretches, modes = kicks.shape[:3]
+    states = np.zeros((passes, stretches + 1, modes, 2))
+    for k in range(stretches):  # each pass from rest
+        states[:, k + 1] = np.einsum("pmij,pmj->pmi", short, states[:, k]) + kicks[:, k]
+    offset = states[:, -1].copy()
     for p in range(passes):
         states[p, 0] = state
         state = np.einsum("mij,mj->mi", whole[p], state) + offset[p]
     for k in range(stretches):
-        states[:, k + 1] = (maps[:, k] @ states[:, k, :, :, None])[..., 0] + kicks[:, k]
-    inside = lengths[:, None] * at
-    return Run(
-        times=edges[:-1, None] + inside,
-        displacement=states[..., 0],
-        speed=states[..., 1],
-        base=acceleration(inside),
-        frequencies=w,
-        damping_ratios=zeta,
-        error=error,
-    )
+        states[:, k + 1] = np.einsum("pmij,pmj->pmi", short, states[:, k]) + kicks[:, k]
+    return states

@@ -14,7 +14,7 @@ Each is a first-order equation advanced by the exponential step for a forcing th
 step or several, which is exact for m -> 0 (a trapezoidal step would ring); for one step it is of second order. Echoes
 arrive on the grid, so the corners of the solution are samples of it, and ends of panels where the drive has none.
 
-What arrives within the travel time of the shorter strand is known before: over such a block each equation is
+What arrives within twice the travel time of the shorter strand is known before: over such a block each equation is
 y_k = d y_(k-1) + u_k with given u, advanced as a whole (`Fading`). Only where the belt slips it goes step by step.
 
 **Grip.** With a friction exponent mu alpha given, the belt sticks to the drum while the tight side is below
@@ -66,11 +66,25 @@ def run_on(loop: Loop, drive: Drive, window: float, grid: Grid, when: FloatArray
 def between(history: FloatArray, grid: Grid, when: FloatArray) -> FloatArray:
     """A history of samples at the times `when`, by the polynomials through the samples of every panel."""
     many = grid.panel
-    which = np.minimum(when / (grid.step * many), (len(history) - 1) // many - 1).astype(int)
-    place = when / grid.step - many * which
-    found = np.zeros(len(place))
-    for k, factor in enumerate(_lagrange(many, place)):
-        found += factor * history[k : len(history) - many + k : many][which]
+    which = np.minimum(when / (grid.step * many), (len(history) - 1) // many - 1).astype(np.intp)
+    place = when / (grid.step * many) - which
+    panels = np.lib.stride_tricks.sliding_window_view(history, many + 1)[::many]
+    coefficients = _to_chebyshev(many) @ panels.T
+    twice, newer, older = 4 * place - 2, np.zeros(len(place)), np.zeros(len(place))
+    for one in coefficients[:0:-1]:  # the recurrence of Clenshaw
+        np.subtract(one[which], older, out=older)
+        older += twice * newer
+        newer, older = older, newer
+    twice *= newer / 2
+    return np.asarray(coefficients[0][which] - older + twice)
+
+
+@cache
+def _to_chebyshev(many: int) -> FloatArray:
+    """Chebyshev coefficients of the polynomial through the samples of a panel of so many steps."""
+    at_samples = np.polynomial.chebyshev.chebvander(np.linspace(-1.0, 1.0, many + 1), many)
+    found: FloatArray = np.asarray(np.linalg.inv(at_samples), float)
+    found.setflags(write=False)
     return found
 
 
@@ -453,23 +467,32 @@ class _Delays:
         self.tail_speed = np.zeros(n)
 
     def run(self, drum: _Drum, tail: _Node) -> None:
-        """Blocks no longer than the shorter strand: what arrives in one has left before it began."""
+        """The drum's waves come back no sooner than after twice the shorter strand, by way of the tail: over so long a
+        block all that arrives at it is known, once the tail has been carried to the middle of that block."""
         z_carry, z_back = self.loop.impedances
         fixed, carry, back = self.loop.fixed_length, self.grid.carry, self.grid.back
         from_drum, into_carry = self.carry
         into_back, from_off = self.back
-        last = len(self.tail_speed)
-        for first in range(1, last, min(carry, back)):
-            end = min(first + min(carry, back), last)
-            n_on, p_off = into_carry[first:end], into_back[first:end]
+        last, shorter = len(self.tail_speed), min(carry, back)
+
+        def at_tail(first: int, end: int) -> None:
             p_tail, n_tail = from_drum[first:end], from_off[first:end]
+            v_tail = self.tail_speed[first:end] = tail.block(p_tail - n_tail)
+            into_carry[carry + first : carry + end] = p_tail - 2 * z_carry * v_tail
+            into_back[back + first : back + end] = n_tail + 2 * z_back * v_tail
+
+        def at_drum(first: int, end: int) -> None:
+            n_on, p_off = into_carry[first:end], into_back[first:end]
             belt = drum.block(first, n_on, p_off)
             from_drum[carry + first : carry + end] = n_on + 2 * z_carry * belt
             from_off[back + first : back + end] = p_off - 2 * z_back * belt if fixed else -p_off
-            v_tail = tail.block(p_tail - n_tail)
-            self.tail_speed[first:end] = v_tail
-            into_carry[carry + first : carry + end] = p_tail - 2 * z_carry * v_tail
-            into_back[back + first : back + end] = n_tail + 2 * z_back * v_tail
+
+        at_tail(1, min(1 + shorter, last))
+        for first in range(1, last, 2 * shorter):
+            middle, end = first + shorter, min(first + 2 * shorter, last)
+            at_drum(first, end)
+            if middle < last:
+                at_tail(middle, min(middle + 2 * shorter, last))
         drum.tensions(into_carry[:last], into_back[:last])
 
     def waves(self) -> FloatArray:

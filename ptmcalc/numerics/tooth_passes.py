@@ -106,8 +106,7 @@ def tooth_passes(
         last, stretches = _group(lengths, first, fastest, count)
         part = edges[first : last + 1]
         middles = (part[1:] + part[:-1]) / 2
-        cut = np.linspace(0, 1, stretches + 1)
-        run = run_through(part, _since(part, middles, inputs), frequencies, damping_ratios, cut, state, _ORDERS)
+        run = run_through(part, _since(part, middles, inputs), frequencies, damping_ratios, stretches, state, _ORDERS)
         state, error, work = run.end, error + run.error, work + run.times.size * count
         pulls = run.force(np.eye(count))  # x_k, (passes, places in time, k)
         followed = np.maximum(followed, np.abs(pulls).max(axis=(0, 1)))

@@ -343,7 +343,7 @@ class TestTwoWaysToOneForce:
         def acceleration(inside: np.ndarray) -> np.ndarray:
             return polygon.polygon_acceleration(inside * speed / self.PITCH - 0.5, speed, self.PITCH, self.TEETH)
 
-        run = run_through(edges, acceleration, w, retardation * w / 2, np.linspace(0.0, 1.0, 321))
+        run = run_through(edges, acceleration, w, retardation * w / 2, 320)
         rest = self.LOOP.belt_mass - masses.sum()
         lines = (Line(40.0, 200.0, self.STIFFNESS), Line(40.0, 80.0, self.STIFFNESS))
         chain = Chain(lines, Damping("kelvin_voigt", time=retardation), joint_mass=900.0)

@@ -304,7 +304,7 @@ def _passes(k: dict[str, Any]) -> Values:
         lambda inside: np.broadcast_to(-force * np.sin(k["ws"] * inside - half), (k["passes"], np.shape(inside)[-1])),
         np.array([k["w"]]),
         np.array([k["zeta"]]),
-        np.linspace(0, 1, 33),
+        32,
         np.zeros((1, 2)),
     )
     return [float(run.end[0, 0])]

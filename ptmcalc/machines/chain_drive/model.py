@@ -396,7 +396,7 @@ def natural_frequencies(spec: ChainDrive, scene: ChainScene, drive: float = math
     line = chain_line(spec, scene)
     if isinstance(spec.layout, ConveyorLayout) and spec.layout.tail.driven == "on":
         return _held_frequencies(line.working, drive, count)
-    return np.array(_of_loop(loop_masses(spec, scene, drive), line.takeup_mass, count))
+    return np.array(of_loop(loop_masses(spec, scene, drive), line.takeup_mass, count))
 
 
 def loop_masses(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) -> LoopMasses:
@@ -412,7 +412,8 @@ def loop_masses(spec: ChainDrive, scene: ChainScene, drive: float = math.inf) ->
 
 
 @remembered(64)
-def _of_loop(loop: LoopMasses, takeup_mass: float, count: int) -> tuple[float, ...]:
+def of_loop(loop: LoopMasses, takeup_mass: float, count: int) -> tuple[float, ...]:
+    """`belt_modes.natural_frequencies`, which the prices of all settings ask for again and again."""
     return tuple(belt_modes.natural_frequencies(loop, takeup_mass, count).tolist())
 
 

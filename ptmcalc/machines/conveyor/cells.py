@@ -92,14 +92,14 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
         at_head,
         _drums(case, carried, "head", times, pulled["head"]),
         takeup,
-        _imposed(case, "head"),
+        _imposed(case, "head", times),
         _shares(spec, "head"),
     )
     tail = Station(
         at_tail,
         _drums(case, carried, "tail", times, pulled["tail"]),
         None,
-        _imposed(case, "tail"),
+        _imposed(case, "tail", times),
         _shares(spec, "tail"),
     )
     give = Give(course, rubber, line.stiffness) if rubber or course.sag.any() else None
@@ -117,12 +117,16 @@ def rubber_of(case: Moving, cells: int) -> Rubber | None:
     return Rubber(damping.stiffening, damping.time)
 
 
-def _imposed(case: Moving, at: str) -> Callable[[float], float] | None:
-    """Speed at which drums are held: by a jam, or by drives that control it."""
+def _imposed(case: Moving, at: str, times: FloatArray) -> Callable[[float], float] | None:
+    """Speed at which drums are held, looked up on the grid of time: by a jam, or by drives that control it."""
     if isinstance(case.scene, Jam):
-        return _blocked(case.speed, case.scene.time) if case.scene.at == at else None
-    driven = any(drive.at == at for drive in case.spec.all_drives.values())
-    return case.imposed if driven else None
+        imposed = _blocked(case.speed, case.scene.time) if case.scene.at == at else None
+    else:
+        imposed = case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
+    if imposed is None:
+        return None
+    table, step = [imposed(time) for time in times.tolist()], float(times[1])
+    return lambda time: table[round(time / step)]
 
 
 def _blocked(speed: float, time: float) -> Callable[[float], float]:

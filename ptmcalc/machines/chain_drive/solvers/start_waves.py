@@ -11,9 +11,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.laws import belt_modes, chain_resonance, loop_bounds
+from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.model import FloatArray, tension_key
+from ptmcalc.machines.chain_drive.model import FloatArray, of_loop, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
 from ptmcalc.machines.chain_drive.starting import StartCase, Swinging, ratios, start_case
@@ -35,7 +35,7 @@ _SECONDS = 6e-8
 
 def natural_frequencies(case: Swinging, count: int) -> FloatArray:
     """Of the loop that swings, drive and all, or with its sprocket held [rad/s]."""
-    return np.asarray(belt_modes.natural_frequencies(case.masses, 0.0, count))
+    return np.array(of_loop(case.masses, 0.0, count))
 
 
 def felt(spec: ChainDrive, scene: ChainScene, case: Swinging, count: int) -> int:
