@@ -109,7 +109,7 @@ def test_no_number_of_a_check_is_parted_from_its_unit(report: FileReport, width:
     assert limits
     assert all(re.fullmatch(r"[≤≥] \S.*", limit) for limit in limits), limits
     margins = [cell for line in table[2:] if (cell := line[end:].split("   ")[0].strip())]
-    assert all(re.match(r"[+-]\d\S* \S+|[+-]\d\S*$|unlimited", margin) for margin in margins if margin), margins
+    assert all(re.match(r"[+-]\d\S* \S+|[+-]\d\S*$|unlimited|none", margin) for margin in margins if margin), margins
 
 
 def test_an_interval_is_not_shown_where_its_ends_are_the_number(report: FileReport) -> None:

@@ -1,5 +1,6 @@
 """The short table: one screen of what governs. It may leave out what passes, never what does not, and it counts."""
 
+import math
 import random
 import re
 from collections import Counter
@@ -19,7 +20,7 @@ from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement, LoadReport, Place, SceneReport
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.report import Format, pick, render
+from ptmcalc.report import Format, pick, render, words
 
 SPECS = ("specs/short_conveyor.yaml", "specs/drivetrain.yaml", "specs/shaft.yaml", "tests/cli/specs/slipping.yaml")
 WIDE = 250
@@ -127,6 +128,11 @@ def test_of_what_passes_the_closest_of_each_code_is_shown_and_the_rest_is_counte
         assert row.judgement.margin == min(j.margin for j in passed if j.code == code and j.margin is not None)
     shown = sum(len(row.scenes) + row.more for row in pick.checks(report))
     assert shown == len(list(report.judgements))
+
+
+@pytest.mark.parametrize(("margin", "told"), [(math.inf, "unlimited"), (-math.inf, "none"), (-1.0, "-10.0 %")])
+def test_a_fault_without_end_leaves_no_margin(margin: float, told: str) -> None:
+    assert words.margin(judged("TOY101", Verdict.FAIL, margin)) == told
 
 
 def test_a_verdict_that_reads_the_same_in_several_scenes_is_told_once() -> None:
