@@ -2,7 +2,6 @@
 
 import math
 import re
-import textwrap
 from dataclasses import asdict
 from pathlib import Path
 from shutil import get_terminal_size
@@ -15,6 +14,7 @@ from ptmcalc.contract.report import FileReport, exit_status
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.scale import ModelLoad, ModelReport, PhysicalModel, physical_model, report_on
 from ptmcalc.report import Format, json, render, words
+from ptmcalc.report.drawing import paragraph
 from ptmcalc.report.table import listing
 
 _SMALLEST, _LARGEST = 1e-6, 1e6
@@ -107,8 +107,8 @@ def _tables(loaded: Loaded, found: ModelReport) -> str:
     wide = get_terminal_size((120, 40)).columns
     scales = [[name, digits(value)] for name, value in asdict(found.model.scales).items()]
     loads = [_cells(load) for load in found.loads if load.info.headline]
-    said = [_wrapped(text, "  - ", wide) for text in found.distortions]
-    remarks = [_wrapped(f"{finding.code} {finding.message}", "", wide) for finding in found.findings]
+    said = [line for text in words.printable(found.distortions) for line in paragraph(text, wide, "  - ", "    ")]
+    remarks = [line for one in words.printable(found.findings) for line in paragraph(f"{one.code} {one.message}", wide)]
     return "\n".join(
         [
             str(words.printable(title)),
@@ -143,13 +143,3 @@ def _cells(load: ModelLoad) -> list[str]:
         "distorted" if load.scale is None else digits(load.scale),
         words.amount(load.model, quantity) if load.model else "unknown",
     ]
-
-
-def _wrapped(text: str, mark: str, wide: int) -> str:
-    return textwrap.fill(
-        words.printable(text),
-        wide,
-        initial_indent=mark,
-        subsequent_indent=" " * len(mark),
-        break_on_hyphens=False,
-    )

@@ -20,7 +20,9 @@ from ptmcalc.spec.machine import MachineSpec
 _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 """How far from the present value others are tried, in decades on either side."""
 _MOST_STEPS = 60
-REPAIR_SECONDS = 6.0
+_CLOSE_ENOUGH = 5e-3
+"""Of the value: a bracket so narrow is an answer where there are no seconds left to narrow it."""
+REPAIR_SECONDS = 15.0
 """Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
 
 Clearance = Callable[[float], float]
@@ -139,27 +141,51 @@ class _Grid:
     counts: bool
 
     def close(self, bad: float, good: float) -> bool:
-        """Whether a bracket needs no narrowing."""
-        return abs(good - bad) <= (1 if self.counts else 3 * 10.0**-self.digits * abs(good))
+        """Whether a bracket needs no narrowing: neighbours in the last digit, or as close."""
+        near = 0.0 if self.counts else 3 * 10.0**-self.digits * abs(good)
+        return abs(good - bad) <= max(1.001 * self._step(good), near)
 
     def on(self, value: float) -> float:
-        """The nearest value that can be tried."""
-        return float(round(value)) if self.counts else value
+        """The nearest value that can be tried: one of few digits, so that the last one tried is the answer."""
+        return float(round(value)) if self.counts else self._cut(value, round)
+
+    def between(self, bad: float, good: float, share: float) -> float:
+        """A value inside a bracket, so far from its bad end."""
+        wanted = bad + share * (good - bad)
+        middle = self.on(wanted)
+        if middle in (bad, good):
+            step = math.copysign(self._step(good), good - bad)
+            middle = self.on(good - step if middle == good else bad + step)
+        return middle if min(bad, good) < middle < max(bad, good) else wanted
+
+    def _step(self, value: float) -> float:
+        """One in the last digit."""
+        factor, places = self._places(value)
+        return 1.0 if self.counts else factor * 10.0**-places
 
     def rounded(self, clearance: Clearance, bad: float, good: float) -> float:
         """The passing value with few digits, in the unit it is shown in, if that still passes."""
         if self.counts:
             return good
-        factor = unit_of(display_unit(good, self.quantity))[0]
-        shown = good / factor
-        places = self.digits - 1 - math.floor(math.log10(abs(shown)))
         towards = math.ceil if good >= bad else math.floor
         for extra in range(3):
-            scale = 10.0 ** (places + extra)
-            candidate = towards(shown * scale) / scale * factor
+            candidate = self._cut(good, towards, extra)
             if clearance(candidate) >= 0:
                 return candidate
         return good
+
+    def _cut(self, value: float, whole: Callable[[float], int], extra: int = 0) -> float:
+        """A value with few digits in the unit it is shown in; one that has no more is left as it is."""
+        factor, places = self._places(value)
+        shown = value / factor * 10.0 ** (places + extra)
+        if math.isclose(shown, round(shown), rel_tol=1e-12):
+            return value
+        return whole(shown) / 10.0 ** (places + extra) * factor
+
+    def _places(self, value: float) -> tuple[float, int]:
+        """The unit a value is shown in, and behind how many decimals its last digit stands there."""
+        factor = unit_of(display_unit(value, self.quantity))[0]
+        return factor, self.digits - 1 - math.floor(math.log10(abs(value / factor)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -276,10 +302,14 @@ def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Brac
         share = 0.5
         if math.isfinite(below) and math.isfinite(above):
             share = min(max(below / (below - above), 0.02), 0.98)
-        middle = grid.on(bad + share * (good - bad))
-        if middle in (bad, good):
-            middle = good + math.copysign(1, bad - good) if middle == good else bad + math.copysign(1, good - bad)
-        if clearance(middle) >= 0:
+        middle = grid.between(bad, good, share)
+        try:
+            passes = clearance(middle) >= 0
+        except _SpentError:
+            if abs(good - bad) <= _CLOSE_ENOUGH * abs(good):
+                break
+            raise
+        if passes:
             good, weight = middle, weight / 2  # the failing end stays: give it less weight (Illinois)
         else:
             bad, weight = middle, 1.0

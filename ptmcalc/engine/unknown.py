@@ -19,15 +19,17 @@ def why_open(kind: AnyKind, spec: MachineSpec, settled: Settled, names: Iterable
     Nothing where all of them are bounded.
     """
     said: dict[str, list[str]] = {}
+    shared: dict[str, None] = {}
     for name in names:
         known = settled.loads.get(name)
         if known is not None and known.estimate.bounded:
             continue
-        reason = "; ".join(
+        reason, *others = (
             _of_nothing(kind, spec, settled, name) if known is None else _of_best(kind, spec, settled, known, name)
         )
         said.setdefault(reason, []).append(name)
-    return "; ".join(f"{_list(names)} {reason}" for reason, names in said.items())
+        shared |= dict.fromkeys(others)
+    return "; ".join([*(f"{_list(names)} {reason}" for reason, names in said.items()), *shared])
 
 
 def _of_nothing(kind: AnyKind, spec: MachineSpec, settled: Settled, name: str) -> Iterator[str]:

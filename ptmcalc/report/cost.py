@@ -2,7 +2,6 @@
 
 import math
 import os
-import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from os.path import commonpath, relpath
 from typing import Any
@@ -10,13 +9,12 @@ from typing import Any
 from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.cost import Choice, CostReport, Held, LoadCost, Outcome, Role, Setting, total
 from ptmcalc.report import json, words
+from ptmcalc.report.drawing import wrapped
 from ptmcalc.report.markdown import code
 from ptmcalc.report.table import listing
 
 MARGINS = "margins"
-_NUMBER = 12
 _COLUMNS = ("", "setting", "time", "plan", "true error", "bar", "held", "by")
-_GLUE = "\u2800"  # no column is broken at it
 _LEGEND = (
     "* no setting proves as much for less; o none comes as close for less. The error is that of the worst governing"
     " load, relative, against the setting `by`, which is of another method (-: there is none); `≤` where that one knows"
@@ -30,26 +28,16 @@ def table(report: CostReport, width: int) -> str:
     parts = [f"{words.printable(report.path)}  {report.kind}\n"]
     for scene in report.scenes:
         settings = report.of_scene(scene)
-        parts += [f"\n{words.printable(scene)}\n", _listing(_COLUMNS, _rows(settings), width)]
+        parts += [f"\n{words.printable(scene)}\n", listing(_COLUMNS, _rows(settings), width=width)]
         parts += [f"{_flowed(note, width)}\n" for note in _notes(settings)]
     parts += [f"\n{_flowed(_LEGEND, width)}\n\nThe cheapest settings whose bars prove it\n"]
-    parts += [_listing(("scene", "for", "settings", "time"), list(_chosen(report)), width)]
+    parts += [listing(("scene", "for", "settings", "time"), _chosen(report), width=width)]
     parts += [f"\n{_flowed(conclusion(report), width)}\n"]
     return "".join(parts)
 
 
 def _flowed(text: str, width: int) -> str:
-    return textwrap.fill(words.printable(text), width, break_on_hyphens=False, break_long_words=False)
-
-
-def _listing(columns: Sequence[str], rows: Iterable[Sequence[str]], width: int) -> str:
-    """A table in which a number and its unit stay in one line."""
-    glued = [[_glued(cell) for cell in row] for row in rows]
-    return listing(columns, glued, width=width).replace(_GLUE, " ")
-
-
-def _glued(cell: str) -> str:
-    return cell.replace(" ", _GLUE) if len(cell) < _NUMBER and any(map(str.isdigit, cell)) else cell
+    return wrapped(words.printable(text), width)
 
 
 def _rows(settings: Sequence[Setting]) -> Iterator[tuple[str, ...]]:
@@ -107,7 +95,7 @@ def _chosen(report: CostReport) -> Iterator[tuple[str, ...]]:
     for choice in report.choices:
         answers.setdefault((choice.scene, *_answer(choice)), []).append(choice.target)
     for (scene, settings, price), targets in answers.items():
-        named = ["this file's margins" if one == MARGINS else one.replace(" ", _GLUE) for one in targets]
+        named = ["this file's margins" if one == MARGINS else one for one in targets]
         yield scene, ", ".join(named), settings, price
 
 
@@ -316,4 +304,4 @@ def overview(reports: Sequence[CostReport], width: int) -> str:
     columns, rows = summary(reports)
     shared = commonpath([os.path.dirname(one.path) for one in reports])
     short = [(relpath(row[0], shared) if shared else row[0], *row[1:]) for row in rows]
-    return (f"in {words.printable(shared)}\n" if shared else "") + _listing(columns, short, width)
+    return (f"in {words.printable(shared)}\n" if shared else "") + listing(columns, short, width=width)

@@ -8,7 +8,7 @@ from ptmcalc.base.span import dotted
 from ptmcalc.base.units import digits
 from ptmcalc.contract.report import EffectReport, FileReport, SceneReport
 from ptmcalc.report import words
-from ptmcalc.report.drawing import new_table
+from ptmcalc.report.drawing import fill, glued, new_table
 from ptmcalc.report.pick import MOST_EVENTS
 
 _GRID = ("steps", "cells")
@@ -20,17 +20,19 @@ def effects(console: Console, scenes: Iterable[SceneReport]) -> None:
     if not rows:
         return
     table = new_table("Effects", "scene", "effect", "state", "number", "what it says", "without it")
-    for scene, effect in rows:
-        number = effect.criterion
-        table.add_row(
-            scene,
-            effect.name,
-            f"{effect.state.value}{' (forced)' if effect.forced else ''}",
-            words.compared(number) if number else "",
-            "; ".join(filter(None, (number.meaning if number else "", effect.note))),
-            _change(effect),
-        )
-    console.print(table)
+    console.print(fill(table, [_ledger_row(scene, effect) for scene, effect in rows], console.width))
+
+
+def _ledger_row(scene: str, effect: EffectReport) -> list[str]:
+    number = effect.criterion
+    return [
+        scene,
+        effect.name,
+        f"{effect.state.value}{' (forced)' if effect.forced else ''}",
+        glued(words.compared(number)) if number else "",
+        "; ".join(filter(None, (number.meaning if number else "", effect.note))),
+        _change(effect),
+    ]
 
 
 def _change(effect: EffectReport) -> str:
@@ -49,28 +51,33 @@ def events(console: Console, scenes: tuple[SceneReport, ...]) -> None:
     if not any(scene.events for scene in scenes):
         return
     table = new_table("Events", "scene", "time", "element", "from", "to")
+    rows = []
     for scene in scenes:
-        for event in scene.events[:MOST_EVENTS]:
-            table.add_row(scene.name, f"{digits(event.time, 5)} s", event.element, event.before, event.after)
+        rows += [
+            [scene.name, f"{digits(event.time, 5)} s", event.element, event.before, event.after]
+            for event in scene.events[:MOST_EVENTS]
+        ]
         left = len(scene.events) - MOST_EVENTS
         if left > 0:
-            table.add_row(scene.name, f"... and {left} more")
-    console.print(table)
+            rows.append([scene.name, f"... and {left} more", "", "", ""])
+    console.print(fill(table, rows, console.width))
 
 
 def solvers(console: Console, scenes: Iterable[SceneReport]) -> None:
     """The runs that were made, and the price of the next one."""
     table = new_table("Solvers", "scene", "solver", "effects carried", "work", "next would take")
-    for scene in scenes:
-        for solver in scene.solvers:
-            table.add_row(
-                scene.name,
-                solver.name if solver.decides else f"{solver.name} (shown only)",
-                ", ".join(solver.effects) if solver.decides else "",
-                str(solver.work),
-                words.priced(solver.next) if solver.next else "",
-            )
-    console.print(table)
+    rows = [
+        [
+            scene.name,
+            solver.name if solver.decides else f"{solver.name} (shown only)",
+            ", ".join(solver.effects) if solver.decides else "",
+            str(solver.work),
+            words.priced(solver.next) if solver.next else "",
+        ]
+        for scene in scenes
+        for solver in scene.solvers
+    ]
+    console.print(fill(table, rows, console.width))
 
 
 def notes(console: Console, scenes: Iterable[SceneReport]) -> None:
@@ -79,9 +86,8 @@ def notes(console: Console, scenes: Iterable[SceneReport]) -> None:
     if not rows:
         return
     table = new_table("Remarks", "scene", "load", "")
-    for scene, load in rows:
-        table.add_row(scene, load.info.title, load.note)
-    console.print(table)
+    cells = [[scene, load.info.title, load.note] for scene, load in rows]
+    console.print(fill(table, cells, console.width))
 
 
 def assumed(console: Console, report: FileReport) -> None:
@@ -89,10 +95,11 @@ def assumed(console: Console, report: FileReport) -> None:
     if not report.assumed:
         return
     table = new_table("Assumed: the file does not say", "key", "value", "may be", "source")
-    for value in report.assumed:
-        shown = words.number(value.value, value.quantity)
-        table.add_row(dotted(value.path), shown, words.interval(value), value.source)
-    console.print(table)
+    rows = [
+        [dotted(value.path), words.number(value.value, value.quantity), words.interval(value), value.source]
+        for value in report.assumed
+    ]
+    console.print(fill(table, rows, console.width))
 
 
 def health(console: Console, scenes: Iterable[SceneReport]) -> None:

@@ -13,7 +13,7 @@ from ptmcalc.base.span import dotted
 from ptmcalc.base.units import Quantity, digits
 from ptmcalc.report import json, words
 from ptmcalc.report.compare import CheckChange, Entry, FileChange, KeyChange, LoadChange, Move, Number, Turn
-from ptmcalc.report.drawing import STYLE, new_table, printed, put
+from ptmcalc.report.drawing import STYLE, fill, new_table, printed, put, tell
 from ptmcalc.report.markdown import code, escape
 
 _QUANTITIES: Mapping[tuple[str, str], Quantity] = {
@@ -178,22 +178,23 @@ def _draw(console: Console, change: FileChange) -> None:
     for key in _keys(change):
         console.print(Text(f" {key}"))
     for turn, said in change.said:
-        console.print(Text(f" {turn.value}: {said['severity']} {said['code']} {said['message']}"))
+        tell(console, Text(f" {turn.value}: {said['severity']} {said['code']} {said['message']}"))
     console.print()
     if change.checks:
-        drawn = new_table("Checks", "check", "scene", "before", "after", "limit", "margin before", "after")
+        headings = ("verdict", "check", "scene", "before", "after", "limit", "margin before", "after")
+        drawn = new_table("Checks", *headings)
+        rows, styles = [], []
         for one in change.checks:
             old, new = one.old, one.new
             verdict = " → ".join(dict.fromkeys(each["verdict"] for each in (old, new) if each is not None))
             cells = [_subject(one.either), one.scene, *(_value(each) if each else "" for each in (old, new))]
             cells += [_limit(one.either), *(_margin(each) if each else "" for each in (old, new))]
-            drawn.add_row(Text(verdict, style=STYLE[one.either["verdict"]]), *map(Text, cells))
-        put(console, drawn)
+            rows.append([verdict, *cells])
+            styles.append(STYLE[one.either["verdict"]])
+        put(console, fill(drawn, rows, console.width, styles))
     if change.told_loads:
         drawn = new_table("Loads", "load", "scene", "before", "after", "change", "against the error bars")
-        for load in change.told_loads:
-            drawn.add_row(*map(Text, _load_cells(load)))
-        put(console, drawn)
+        put(console, fill(drawn, [list(_load_cells(load)) for load in change.told_loads], console.width))
 
 
 # -- Markdown -------------------------------------------------------------------------------------------------------

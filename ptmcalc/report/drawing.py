@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ptmcalc.base.diagnostic import Severity, Verdict
+from ptmcalc.base.units import UNITS
 
 STYLE = {
     Verdict.FAIL.value: "bold red",
@@ -72,10 +73,34 @@ def glued(amount: str) -> str:
     return re.sub(r" (?![\[(×])", GLUE, amount)
 
 
+_FACTOR = rf"(?:{'|'.join(sorted(map(re.escape, UNITS), key=len, reverse=True))})(?:\^\d)?"
+_BEFORE_UNIT = re.compile(rf"(?<=\d) (?=(?!1)(?:±|{_FACTOR}(?:[*/]{_FACTOR})*(?![\w^])))|(?<=[≤≥±]) (?=[-\d])")
+
+
+def together(text: str) -> str:
+    """A text in which numbers keep their units, their bars and their `≤` in their line."""
+    return _BEFORE_UNIT.sub(GLUE, text)
+
+
 def wrapped(text: str, width: int) -> str:
     """A text in lines of this width, broken at blanks as far as the words allow."""
-    lines = textwrap.wrap(text, max(width, 1), break_on_hyphens=False)
-    return "\n".join(lines).replace(GLUE, " ")
+    return "\n".join(paragraph(text, width))
+
+
+def paragraph(text: str, width: int, first: str = "", others: str = "") -> list[str]:
+    """The lines of a text, with what the first and the others begin with."""
+    lines = textwrap.wrap(
+        together(text), max(width, 1), initial_indent=first, subsequent_indent=others, break_on_hyphens=False
+    )
+    return [line.replace(GLUE, " ") for line in lines]
+
+
+def tell(console: Console, text: Text, others: str = "   ") -> None:
+    """A text in lines that part no number from its unit; what it has in styles of their own stands in the first."""
+    first, *rest = paragraph(text.plain, console.width, others=others)
+    console.print(Text(first, style=text.style, spans=text.spans))
+    for line in rest:
+        console.print(Text(line, style=text.style))
 
 
 def widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
@@ -96,6 +121,7 @@ def widths(cells: Sequence[Sequence[str]], width: int) -> list[int]:
 def fill(table: Table, rows: Sequence[Sequence[str]], width: int, styles: Sequence[str] = ()) -> Table:
     """Rows put into a table of so wide a screen, numbers whole; `styles` are those of the first cells."""
     headings = [str(column.header) for column in table.columns]
+    rows = [list(map(together, row)) for row in rows]
     wide = widths([headings, *rows], width + GAP - _EDGES * table.show_edge)
     for column, own in zip(table.columns, wide, strict=True):
         column.width = own

@@ -1,7 +1,6 @@
 """The short ledger: what was computed, left out and assumed, and by what number, in a few lines."""
 
 import math
-import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -11,7 +10,7 @@ from ptmcalc.base.units import TIME, digits, show
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import EffectReport, FileReport, SceneReport
 from ptmcalc.report import words
-from ptmcalc.report.drawing import GLUE
+from ptmcalc.report.drawing import GLUE, paragraph
 
 
 def sections(report: FileReport, width: int) -> Iterator[tuple[str, list[str]]]:
@@ -30,9 +29,7 @@ def sections(report: FileReport, width: int) -> Iterator[tuple[str, list[str]]]:
 
 def flowed(parts: Sequence[str], width: int) -> list[str]:
     """A paragraph that keeps each part in one line as far as the screen allows."""
-    text = " ".join(part.replace(" ", GLUE) for part in parts)
-    lines = textwrap.wrap(text, width, initial_indent=" ", subsequent_indent="   ", break_on_hyphens=False)
-    return [line.replace(GLUE, " ") for line in lines]
+    return paragraph(" ".join(part.replace(" ", GLUE) for part in parts), width, " ", "   ")
 
 
 def _listed(parts: Iterable[str], mark: str = ",") -> list[str]:

@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import FileReport, Judgement, SceneReport
@@ -16,29 +16,52 @@ MOST_EVENTS = 30
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A verdict that is shown, and how many passed ones of its code it stands for besides itself."""
+    """A verdict that is shown, in one scene or in all that say the same, and how many passed ones of its code it stands
+    for besides itself."""
 
-    scene: str
+    scenes: tuple[str, ...]
     judgement: Judgement
     more: int = 0
+
+    @property
+    def scene(self) -> str:
+        """As it is written."""
+        return ", ".join(self.scenes)
 
 
 def all_checks(report: FileReport) -> list[Row]:
     """Every verdict, the worst first."""
-    return [Row(scene, judgement) for scene, judgement in words.worst_first(report)]
+    return [Row((scene,), judgement) for scene, judgement in words.worst_first(report)]
 
 
 def checks(report: FileReport) -> list[Row]:
-    """Every verdict that is not a pass, and of those that are the closest one of each code, the worst first."""
-    rows = all_checks(report)
+    """Every verdict that is not a pass, once for all scenes it is the same in, and of those that are the closest one of
+    each code, the worst first."""
+    rows = _folded(all_checks(report))
     passed = Counter(row.judgement.code for row in rows if row.judgement.verdict is Verdict.PASS)
     shown = []
     for row in rows:
         if row.judgement.verdict is not Verdict.PASS:
             shown.append(row)
         elif more := passed.pop(row.judgement.code, 0):
-            shown.append(Row(row.scene, row.judgement, more - 1))
+            shown.append(replace(row, more=more - 1))
     return shown
+
+
+def _folded(rows: Sequence[Row]) -> list[Row]:
+    """Verdicts that are no pass and read the same in several scenes as one, at the place of the first."""
+    found: dict[object, list[Row]] = {}
+    for index, row in enumerate(rows):
+        bad = row.judgement.verdict is not Verdict.PASS
+        found.setdefault(as_read(row.judgement) if bad else index, []).append(row)
+    return [Row(tuple(row.scene for row in same), same[0].judgement) for same in found.values()]
+
+
+def as_read(judgement: Judgement) -> tuple[object, ...]:
+    """All that a reader is told of a verdict but its scene."""
+    numbers = [words.amount(one, judgement.quantity) if one else "" for one in (judgement.value, judgement.limit)]
+    about = (judgement.verdict, judgement.code, judgement.element, judgement.blame, words.remark(judgement))
+    return (*about, *numbers, words.margin(judgement))
 
 
 def all_loads(report: FileReport) -> frozenset[str]:

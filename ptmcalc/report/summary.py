@@ -3,13 +3,12 @@
 from collections.abc import Iterator
 
 from rich.console import Console
-from rich.text import Text
 
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, count
 from ptmcalc.report import words
-from ptmcalc.report.drawing import STYLE, new_table, printed, put
+from ptmcalc.report.drawing import STYLE, fill, new_table, printed, put
 
 _SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 _COLUMNS = ("verdict", "file", "kind", "governs", "scene", "value", "limit", "margin")
@@ -19,12 +18,9 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose:
     """The table, and the summary line."""
 
     def write(console: Console) -> None:
-        drawn = new_table("", *_COLUMNS)
-        for report in words.printable(reports):
-            verdict, *cells = _cells(report)
-            drawn.add_row(Text(verdict, style=STYLE[verdict]), *map(Text, cells))
-        if reports:
-            put(console, drawn)
+        rows = [list(_cells(report)) for report in words.printable(reports)]
+        if rows:
+            put(console, fill(new_table("", *_COLUMNS), rows, console.width, [STYLE[verdict] for verdict, *_ in rows]))
         console.print(words.summary(count(reports)))
 
     return printed(write, width, color)

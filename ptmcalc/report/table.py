@@ -14,7 +14,7 @@ from ptmcalc.base.span import dotted
 from ptmcalc.contract.report import FileReport, Judgement, LoadReport, SceneReport, count
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.report import details, ledger, pick, tables, words
-from ptmcalc.report.drawing import GAP, STYLE, fill, glued, new_table, printed, put, widths
+from ptmcalc.report.drawing import GAP, STYLE, fill, glued, new_table, printed, put, tell, widths
 from ptmcalc.report.pick import Row
 
 
@@ -29,7 +29,7 @@ def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose:
             console.print()
         console.print(words.summary(count(reports)))
         if not verbose and (more := pick.left_out(reports)):
-            console.print(Text(more, style="dim"))
+            tell(console, Text(more, style="dim"))
 
     return printed(write, width, color)
 
@@ -124,6 +124,9 @@ def _whole(console: Console, report: FileReport) -> None:
     details.health(console, report.scenes)
 
 
+_INDENT = " " * 8
+
+
 def _diagnostics(console: Console, found: Iterable[Diagnostic], *, notes: bool) -> None:
     """What was found in the file: the notes, which come last, or everything else, which comes first."""
     shown = [diagnostic for diagnostic in found if (diagnostic.severity is Severity.NOTE) is notes]
@@ -134,9 +137,9 @@ def _diagnostics(console: Console, found: Iterable[Diagnostic], *, notes: bool) 
         line.append(f"{words.place(diagnostic.span)}  " if diagnostic.span else "")
         line.append(f"{diagnostic.severity.value} {diagnostic.code}", style=STYLE[diagnostic.severity.value])
         line.append(f"  {diagnostic.message}")
-        console.print(line)
+        tell(console, line, _INDENT)
         if diagnostic.hint:
-            console.print(Text(f"        {diagnostic.hint}", style="italic"))
+            tell(console, Text(f"{_INDENT}{diagnostic.hint}", style="italic"), _INDENT)
     if shown and not notes:
         console.print()
 
@@ -259,7 +262,7 @@ def _checks(console: Console, report: FileReport, rows: Sequence[Row], *, edge: 
             continue
         lines.append(Text.assemble((_verdict(judgement), styles[index]), told))
     for line in lines:
-        console.print(line)
+        tell(console, line)
     if lines:
         console.print()
 

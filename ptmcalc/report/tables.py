@@ -4,7 +4,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ptmcalc.contract.report import Amount, Cell, FileReport
-from ptmcalc.report.drawing import fill, glued, new_table, put
+from ptmcalc.report.drawing import fill, glued, new_table, put, tell
 from ptmcalc.report.rows import cell
 
 
@@ -17,7 +17,7 @@ def draw(console: Console, report: FileReport, *, whole: bool) -> None:
         console.print(Text(table.title, style="bold"))
         put(console, fill(drawn, cells, console.width))
         for note in table.notes:
-            console.print(Text(f" note: {note}"))
+            tell(console, Text(f" note: {note}"))
         if table.notes:
             console.print()
 

@@ -84,7 +84,7 @@ def margin(judgement: Judgement) -> str:
     if judgement.margin is None or judgement.limit is None:
         return ""
     if math.isinf(judgement.margin):
-        return "unlimited"
+        return "unlimited" if judgement.margin > 0 else "none"
     if judgement.limit.value == 0:
         return f"{'+' if judgement.margin >= 0 else ''}{number(judgement.margin, judgement.quantity)}"
     return f"{100 * judgement.margin / abs(judgement.limit.value) + 0.0:+.1f} %"  # a limit just kept has no minus

@@ -41,3 +41,5 @@ def test_each_open_check_names_a_load_it_reads(seed: int) -> None:
     assert found
     for one in found:
         assert any(f"`{load}`" in one.reason for load in one.loads), one.reason
+        told = one.reason.split("; ")
+        assert len(told) == len(set(told)), "what keeps a solver out is said once for all loads"

@@ -1,5 +1,6 @@
 """The short table: one screen of what governs. It may leave out what passes, never what does not, and it counts."""
 
+import math
 import random
 import re
 from collections import Counter
@@ -19,7 +20,7 @@ from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement, LoadReport, Place, SceneReport
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.report import Format, pick, render
+from ptmcalc.report import Format, pick, render, words
 
 SPECS = ("specs/short_conveyor.yaml", "specs/drivetrain.yaml", "specs/shaft.yaml", "tests/cli/specs/slipping.yaml")
 WIDE = 250
@@ -97,17 +98,19 @@ def crowd(seed: int) -> FileReport:
 def test_nothing_that_is_not_passed_is_left_out(seed: int) -> None:
     report = crowd(seed)
     bad = [(s.name, j) for s, j in report.judgements if j.verdict is not Verdict.PASS]
-    shown = [(row.scene, row.judgement) for row in pick.checks(report)]
-    assert all(one in shown for one in bad)
+    shown = pick.checks(report)
+    told = {(where, *pick.as_read(row.judgement)): row for row in shown for where in row.scenes}
+    assert all((where, *pick.as_read(judgement)) in told for where, judgement in bad)
     assert {name for _, judgement in bad for name in judgement.loads} <= pick.loads(report)
     text = short(report)
     for where, judgement in bad:
         title = rf"{judgement.code} a fault of {judgement.code}" + (f": {judgement.element}" * bool(judgement.element))
         verdict = judgement.verdict.value.replace("_", " ")
-        name = " ".join(filter(None, (judgement.code, judgement.element, where)))
-        assert re.search(rf"^{verdict} +{re.escape(title)} +{where} ", text, re.MULTILINE)
-        if (where, judgement) == shown[0]:
-            assert re.match(rf"toy.*\n {verdict} {title}, {where}: .*governed by key \(toy.yaml:7:3\)", text), (
+        row = told[(where, *pick.as_read(judgement))]
+        name = " ".join(filter(None, (judgement.code, judgement.element, row.scene)))
+        assert re.search(rf"^{verdict} +{re.escape(title)} +{row.scene} ", text, re.MULTILINE)
+        if row is shown[0]:
+            assert re.match(rf"toy.*\n {verdict} {title}, {row.scenes[0]}: .*governed by key \(toy.yaml:7:3\)", text), (
                 "the worst stands above everything"
             )
         else:
@@ -123,7 +126,21 @@ def test_of_what_passes_the_closest_of_each_code_is_shown_and_the_rest_is_counte
     assert Counter({code: row.more + 1 for code, row in rows.items()}) == Counter(j.code for j in passed)
     for code, row in rows.items():
         assert row.judgement.margin == min(j.margin for j in passed if j.code == code and j.margin is not None)
-    assert len(pick.checks(report)) + sum(row.more for row in rows.values()) == len(list(report.judgements))
+    shown = sum(len(row.scenes) + row.more for row in pick.checks(report))
+    assert shown == len(list(report.judgements))
+
+
+@pytest.mark.parametrize(("margin", "told"), [(math.inf, "unlimited"), (-math.inf, "none"), (-1.0, "-10.0 %")])
+def test_a_fault_without_end_leaves_no_margin(margin: float, told: str) -> None:
+    assert words.margin(judged("TOY101", Verdict.FAIL, margin)) == told
+
+
+def test_a_verdict_that_reads_the_same_in_several_scenes_is_told_once() -> None:
+    weak, weaker = (judged("TOY101", Verdict.FAIL, margin) for margin in (-1.0, -2.0))
+    report = file(scene("rest", checks=[weak]), scene("start", checks=[weaker]), scene("stop", checks=[weak]))
+    assert [(row.scene, row.judgement.margin) for row in pick.checks(report)] == [("start", -2.0), ("rest, stop", -1.0)]
+    assert short(report).count("fail TOY101 rest, stop: governed by") == 1
+    assert [row.scene for row in pick.all_checks(report)] == ["start", "rest", "stop"]
 
 
 def test_the_closest_margin_to_a_limit_of_nothing_is_the_smallest() -> None:

@@ -35,9 +35,9 @@ def cells(line: str) -> list[str]:
     return re.split(r"\s{2,}", line.strip())
 
 
-def rows(report: FileReport, heading: str) -> list[list[str]]:
+def rows(report: FileReport, heading: str, width: int = 120) -> list[list[str]]:
     """The rows of one table; the first is its head."""
-    return [cells(line) for line in parts(table(report))[heading] if not set(line) <= set(" ─")]
+    return [cells(line) for line in parts(table(report, width))[heading] if not set(line) <= set(" ─")]
 
 
 def with_a_ledger(report: FileReport) -> FileReport:
@@ -104,7 +104,7 @@ def test_value_limit_and_margin_of_a_check() -> None:
 
 
 def test_the_ledger_shows_every_effect_with_the_number_that_decided() -> None:
-    _, *found = rows(SAMPLES["passing"], "Effects")
+    _, *found = rows(SAMPLES["passing"], "Effects", width=160)
     ledger = {row[1]: row[2:] for row in found if row[0] == "hang"}
     assert ledger["waves"] == ["simulated", "x = 3 ≥ 0.1", "a number"]
     assert ledger["sag"] == ["simulated", "x = 0.15 ≥ 0.1", "a number", "pull -2.2 %, within the bars"]

@@ -77,9 +77,11 @@ def _of_scene(kind: AnyKind, scene: Mapping[str, Any], lines: Iterable[str]) -> 
     infos = {info.name: info for info in kind.loads}
     for load in scene["loads"]:
         info = infos[family(load["name"])]
-        if load["value"] is not None and None not in (load["low"], load["high"]):
-            shown = words.amount(Estimate(load["value"], load["low"], load["high"]), info.quantity)
-            yield info.name, 0, "check", f"{load['name']} {shown}, by {load['solver']}"
+        if load["value"] is not None:
+            known = None not in (load["low"], load["high"])
+            one = Estimate(load["value"], load["low"], load["high"]) if known else Estimate.unknown(load["value"])
+            shown = words.amount(one, info.quantity)
+            yield info.name, int(not known), "check", f"{load['name']} {shown}, by {load['solver']}"
 
 
 def _by_cost(kind: AnyKind, paths: list[str], found: Mapping[str, Any]) -> Iterator[tuple[str, Kept]]:
