@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from datetime import date
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import UsageError
@@ -42,6 +43,7 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
 
+T = TypeVar("T")
 _PARTS = 12
 """Numbers that the shape of a history has."""
 
@@ -74,8 +76,8 @@ def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ..
     return tuple(guarded(path.as_posix(), partial(check_file, path, options)) for path in paths)
 
 
-def guarded(name: str, make: Callable[[], FileReport]) -> FileReport:
-    """The report that is made of a file, or one that says our own program broke down on it.
+def guarded(name: str, make: Callable[[], T]) -> T | FileReport:
+    """What is made of a file, mostly its report, or one that says our own program broke down on it.
 
     Raises:
         UsageError: the options are wrong for this file.
@@ -101,15 +103,26 @@ def check_file(path: Path, options: Options) -> FileReport:
     return check(load_file(path, path.as_posix(), options.effects, options.accuracy), options)
 
 
-def check(loaded: Loaded, options: Options) -> FileReport:
-    """Everything there is to say about a loaded file."""
+def planned_for(loaded: Loaded, options: Options) -> Plan | None:
+    """The plan of what is asked about a loaded file; None where nothing is to be computed.
+
+    Raises:
+        UsageError: the file has not the scenes that are asked for.
+    """
+    if loaded.kind is None or loaded.spec is None or not options.run:
+        return None
+    return plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
+
+
+def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> FileReport:
+    """Everything there is to say about a loaded file, by its plan where somebody has made it before."""
     name = loaded.document.name
     if loaded.kind is None or loaded.spec is None:
         return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
     kind, spec = loaded.kind, loaded.spec
-    if not options.run:
+    made = planned or planned_for(loaded, options)
+    if made is None:
         return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed)
-    made = plan(kind, spec, chosen_scenes(spec, options.scenes))
     settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)
     diagnostics = loaded.diagnostics + tuple(
