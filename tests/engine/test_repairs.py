@@ -20,7 +20,7 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.report import Judgement
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import Loaded, load_text, measure_at
-from ptmcalc.engine.solve import solve
+from ptmcalc.engine.solve import SearchPurse, solve
 
 SPECS = sorted(
     path.relative_to(ROOT).as_posix() for path in (ROOT / "specs").rglob("*.yaml") if "winding_paper" not in path.parts
@@ -109,7 +109,7 @@ def holds(case: Case, seconds: float) -> bool:
     assert case.loaded.spec is not None
     present = float(case.loaded.spec.value_at(case.path))
     try:
-        edge = solve(case.loaded, case.check, case.path, case.scene, seconds=seconds)
+        edge = solve(case.loaded, case.check, case.path, case.scene, purse=SearchPurse(seconds))
     except UsageError:
         return False
     if edge is None:
