@@ -10,8 +10,11 @@ class UsageError(Exception):
 
 
 class NumericsError(Exception):
-    """A computation that cannot be trusted; the engine turns it into a NUM finding and an undecided verdict."""
+    """A computation that cannot be trusted; the engine turns it into a NUM finding and an undecided verdict.
 
-    def __init__(self, code: str, message: str) -> None:
+    `spent` is the seconds that it came to by what was counted, where that can be more than what was predicted.
+    """
+
+    def __init__(self, code: str, message: str, spent: float = 0.0) -> None:
         super().__init__(message)
-        self.code, self.message = code, message
+        self.code, self.message, self.spent = code, message, spent

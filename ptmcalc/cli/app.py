@@ -267,6 +267,10 @@ def check(
 
     Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a bug of ours.
     """
+    if jobs.isdecimal() and int(jobs) > 1 and executor == "local" and not os.path.exists(store):
+        from ptmcalc.cli import processes
+
+        processes.begin(paths)
     from ptmcalc.cli.batch import Run, rendered, tallies_of, write
     from ptmcalc.contract.report import status_of
     from ptmcalc.engine.check import Options

@@ -81,7 +81,8 @@ class Run:
 
     def batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
         """The reports of files, as far as the run gets."""
-        from ptmcalc.cli.worker import only_text, pool, with_text, without_text
+        from ptmcalc.cli.processes import pool
+        from ptmcalc.cli.worker import only_text, with_text, without_text
         from ptmcalc.engine.batch import ALONE, Batch, GoneError
         from ptmcalc.engine.store import Store
 
@@ -91,12 +92,13 @@ class Run:
         executor: Callable[[], Executor] | None
         if self.executor != LOCAL:
             executor, jobs = self._cluster()
+            alone = 0.0
         else:
-            jobs = self.jobs or (_cores() if sum(batch.seconds) >= ALONE else 1)
-            jobs = min(jobs, len(batch.missing))
+            jobs = min(self.jobs or _cores(), batch.missing)
             executor = pool(jobs, batch.kinds) if jobs > 1 else None
+            alone = ALONE if self.jobs is None else 0.0
         try:
-            follow(batch, batch.run(executor, jobs))
+            follow(batch, batch.run(executor, jobs, alone))
         except KeyboardInterrupt:
             self.interrupted = True
         except GoneError as error:
@@ -121,20 +123,28 @@ class Run:
 
 def follow(batch: "Batch", steps: Iterable[tuple[int, float]], console: "Console | None" = None) -> None:
     """Go through the steps of a batch; on a terminal with what is done, in predicted seconds, where that is long."""
-    expected = sum(batch.seconds)
-    if console is None and not (sys.stderr.isatty() and expected > _WORTH_SHOWING):
-        for _ in steps:
-            pass
+    visible = sys.stderr.isatty()
+    done, seconds = batch.reused, 0.0
+    for files, more in steps:
+        done, seconds = done + files, seconds + more
+        if console is not None or (visible and batch.expected > _WORTH_SHOWING):
+            break
+    else:
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.fields[files]} files"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console or Console(stderr=True), transient=True) as progress:
-        done, task = batch.reused, progress.add_task("", total=expected, files="")
-        for files, seconds in steps:
+        task = progress.add_task("", total=batch.expected, files=_of(done, batch))
+        progress.update(task, completed=seconds)
+        for files, more in steps:
             done += files
-            progress.update(task, advance=seconds, files=f"{done} of {len(batch.files)}")
+            progress.update(task, advance=more, total=batch.expected, files=_of(done, batch))
+
+
+def _of(done: int, batch: "Batch") -> str:
+    return f"{done} of {len(batch.files)}"
 
 
 def rendered(form: Format, reports: Sequence[FileReport], verbose: bool, *, to_terminal: bool) -> Iterator[str]:

@@ -15,9 +15,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from ptmcalc.base.errors import UsageError
-from ptmcalc.engine.batch import GoneError, LostError, Work, edition
+from ptmcalc.engine.batch import Answer, GoneError, LostError, Work, edition
 from ptmcalc.engine.check import Options
-from ptmcalc.engine.store import Record
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -155,7 +154,7 @@ def _pass_on(inner: "Future[Any]", outer: "Future[Any]") -> None:
         _end(outer, error)
 
 
-def _alone(program: bytes, work: Work, texts: Sequence[bytes], options: Options) -> list[Record]:
+def _alone(program: bytes, work: Work, texts: Sequence[bytes], options: Options, patience: float) -> list[Answer]:
     """On a worker: the work, by the program that asks for it and no other.
 
     Raises:
@@ -164,4 +163,4 @@ def _alone(program: bytes, work: Work, texts: Sequence[bytes], options: Options)
     if edition() != program:
         raise UsageError("the cluster has another version of ptmcalc, or of numpy", _SAME)
     with _AT_WORK:
-        return work(texts, options)
+        return work(texts, options, patience)

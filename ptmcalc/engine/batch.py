@@ -5,7 +5,7 @@ store at once; which worker finishes first changes no result and no order.
 """
 
 import hashlib
-import re
+import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
@@ -22,34 +22,81 @@ from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import UsageError
 from ptmcalc.contract.report import FileReport, Tally, tally
-from ptmcalc.engine.check import Options, broken, check, check_file, chosen_scenes, guarded
+from ptmcalc.engine.agenda import Agenda
+from ptmcalc.engine.check import Options, broken, check, check_file, guarded, planned_for
+from ptmcalc.engine.files import machine_in
 from ptmcalc.engine.load import load_text
-from ptmcalc.engine.plan import plan
+from ptmcalc.engine.plan import Plan
 from ptmcalc.engine.run import foresee
 from ptmcalc.engine.store import Record, Store, packed
 from ptmcalc.text.document import MAX_BYTES
 from ptmcalc.text.source import beginning_of
 
-CHUNK = 0.5
-"""Predicted seconds of work that go out together: enough to make the way worth while, little enough to share evenly."""
 ALONE = 3.0
 """Predicted seconds below which one process is as quick as several, which must start first."""
-_MOST_IN_CHUNK = 500
-_WAITING = 2
-"""Chunks a worker has before it: one at work, one ready."""
-_TRIED = 3
-"""Files of a kind that are planned to see what one of its kind may take."""
 _AROUND = 0.003
 """Seconds of reading, judging and reporting a file, beside its runs."""
-_KIND = re.compile(rb"^kind:[ \t]*[\"']?([a-z_]+)", re.MULTILINE)
 
-Work = Callable[[Sequence[bytes], Options], list[Record]]
-"""What is done to some texts; it must be to be found by its name in another process."""
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What became of a text: its record, and the predicted seconds of what was run for it; without a record those that
+    it would take, which are more than it was given."""
+
+    seconds: float
+    record: Record | None = None
+
+
+Work = Callable[[Sequence[bytes], Options, float], list[Answer]]
+"""What is done to some texts, each within so many predicted seconds or not at all; it must be to be found by its name
+in another process."""
 
 
 def fresh(raw: bytes, options: Options) -> FileReport:
     """The report of one text."""
-    return guarded("", lambda: check(load_text(raw, "", options.effects, options.accuracy), options))
+    report = fresh_within(raw, options, math.inf)
+    assert not isinstance(report, float)
+    return report
+
+
+def fresh_within(raw: bytes, options: Options, patience: float) -> FileReport | float:
+    """The report of one text; or its predicted seconds, where those are more than `patience`."""
+
+    def made() -> FileReport | float:
+        loaded = load_text(raw, "", options.effects, options.accuracy)
+        planned = planned_for(loaded, options)
+        if planned is not None and _most(planned, options) > patience:
+            seconds = _foreseen(planned, options)
+            if seconds > patience:
+                return seconds
+        return check(loaded, options, planned)
+
+    return guarded("", made)
+
+
+def _most(planned: Plan, options: Options) -> float:
+    """Seconds of all that may be run for a plan, which costs nothing to know."""
+    return sum(min(sum(rung.seconds for rung in scene.rungs), options.budget) for scene in planned.scenes)
+
+
+def _foreseen(planned: Plan, options: Options) -> float:
+    """Seconds that a plan may take: none where our own program breaks down on it, which is told when it is done."""
+    try:
+        return _AROUND + sum(coming.seconds for coming in foresee(planned, budget=options.budget))
+    except Exception:
+        return _AROUND
+
+
+def predicted(raw: bytes, options: Options) -> float:
+    """Seconds that a text may take, by its plan; only what surrounds the runs where there is none."""
+    loaded = load_text(raw, "", options.effects, options.accuracy)
+    planned = planned_for(loaded, options)
+    return _foreseen(planned, options) if planned is not None else _AROUND
+
+
+def spent(report: FileReport) -> float:
+    """Predicted seconds of all that was run for a report."""
+    return _AROUND + sum(one.predicted_seconds for scene in report.scenes for one in scene.solvers)
 
 
 def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"", *, whole: bool = True) -> Record:
@@ -161,42 +208,39 @@ class Results(Sequence[FileReport]):
 
 @dataclass(slots=True)
 class Batch:
-    """A run over many files: `entries` are those whose state is known, `missing` the indices of those to do."""
+    """A run over many files: `entries` are those whose state is known, `missing` the number of those to do."""
 
     files: Sequence[Path]
     options: Options
     store: Store
     work: Work
     entries: list[Entry] = field(default_factory=list)
-    missing: list[int] = field(default_factory=list)
-    seconds: list[float] = field(default_factory=list)
-    """predicted for each missing file"""
+    missing: int = 0
     told: Sequence[FileReport] = ()
     """of what is no file"""
     broken: dict[bytes, FileReport] = field(default_factory=dict)
     """reports of texts that our own program broke down on, which are told and not kept"""
+    _agenda: Agenda = field(init=False)
+    _keys: Keys = field(init=False)
 
     def __post_init__(self) -> None:
-        keys = Keys(self.options)
+        self._keys = Keys(self.options)
         kind_of: dict[bytes, tuple[int, bytes]] = {}
+        names: dict[bytes, bytes] = {}
         for index, path in enumerate(self.files):
             name = path.as_posix()
             raw = _read(path)
             if raw is None:
                 self.entries.append(Entry(name, b"", check_file(path, self.options)))
                 continue
-            key = keys.of(raw)
+            key = self._keys.of(raw)
             self.entries.append(Entry(name, key))
             if key not in kind_of:  # of equal texts the first one is worked on
-                found = _KIND.search(raw)
-                kind_of[key] = index, found[1] if found else b""
+                kind = machine_in(raw)
+                kind_of[key] = index, names.setdefault(kind, kind)
         known = self.store.tallies(list(kind_of), self.today.isoformat())
-        kinds: dict[bytes, list[int]] = {}
-        for key, (index, kind) in kind_of.items():
-            if key not in known:
-                self.missing.append(index)
-                kinds.setdefault(kind, []).append(index)
-        self._predict(kinds)
+        self._agenda = Agenda(dict(found for key, found in kind_of.items() if key not in known))
+        self.missing = len(kind_of) - len(known)
 
     @property
     def today(self) -> date:
@@ -205,24 +249,18 @@ class Batch:
 
     @property
     def kinds(self) -> Iterator[str]:
-        """The kinds of machines there is work for, as far as the first lines say."""
-        found = (_KIND.search(_read(self.files[index]) or b"") for index in self.missing[:_MOST_IN_CHUNK])
-        return iter(dict.fromkeys(match[1].decode() for match in found if match))
+        """The kinds and types of machines there is work for, as far as their first keys say."""
+        return (name.decode() for name in self._agenda.kinds if name)
+
+    @property
+    def expected(self) -> float:
+        """Predicted seconds of all that is to do, as far as they can be told by what is done."""
+        return self._agenda.expected
 
     @property
     def reused(self) -> int:
         """How many files are known from before."""
-        return len(self.entries) - len(self.missing)
-
-    def _predict(self, kinds: dict[bytes, list[int]]) -> None:
-        """The seconds of every missing file, from the plans of some of its kind spread over the list."""
-        expected: dict[int, float] = {}
-        for indices in kinds.values():
-            step = max(len(indices) // _TRIED, 1)
-            tried = [predicted(_read(self.files[index]) or b"", self.options) for index in indices[::step][:_TRIED]]
-            mean = sum(tried) / len(tried)
-            expected |= dict.fromkeys(indices, mean)
-        self.seconds = [expected[index] for index in self.missing]
+        return len(self.entries) - self.missing
 
     def results(self, *, whole: bool = True) -> Results:
         """What there is; of an interrupted batch, which is not whole, of the files whose results are there."""
@@ -235,42 +273,44 @@ class Batch:
         found += [Entry(report.path, b"", report) for report in self.told]
         return Results(found, self.store, self.options, day)
 
-    def run(self, executor: Callable[[], Executor] | None, jobs: int = 1) -> Iterator[tuple[int, float]]:
-        """Do what is missing; tells after each chunk how many files and predicted seconds it was.
+    def run(
+        self, executor: Callable[[], Executor] | None, jobs: int = 1, alone: float = 0.0
+    ) -> Iterator[tuple[int, float]]:
+        """Do what is missing; tells after each chunk how many files and predicted seconds were done.
 
-        `executor` makes an executor of `jobs` workers, and another one where one breaks; without it the work is done
-        here. A chunk that breaks an executor is tried again file by file, each on its own, so that a file that kills
-        its worker is found and told, and stops no other.
+        `executor` makes an executor of `jobs` workers, and another one where one breaks; without it, and as long as
+        all of it is not expected to take more than `alone` seconds, the work is done here. A chunk that breaks an
+        executor is tried again file by file, each on its own, so that a file that kills its worker is found and told,
+        and stops no other.
         """
         self.options = replace(self.options, today=self.today)  # one day for all, whatever the clock of a worker says
-        if executor is None:
-            for chunk in self._chunks(CHUNK):
-                yield self._keep(chunk, self.work([raw for _, _, raw in chunk.items], self.options))
-            return
-        chunks = self._chunks(CHUNK)
+        while executor is None or self.expected < alone:
+            chunk = self._next(jobs)
+            if chunk is None:
+                return
+            patience = chunk.patience if executor is not None else math.inf
+            yield self._keep(chunk, self.work(chunk.texts, self.options, patience))
         while True:
             lost: list[_Chunk] = []
             with executor() as pool:
-                yield from self._shared(pool, chunks, lost, jobs * _WAITING)
+                yield from self._shared(pool, lost, jobs)
             if not lost:
                 return
             yield from self._one_by_one(lost, executor)
 
-    def _shared(
-        self, pool: Executor, chunks: "Iterator[_Chunk]", lost: "list[_Chunk]", most: int
-    ) -> Iterator[tuple[int, float]]:
+    def _shared(self, pool: Executor, lost: "list[_Chunk]", jobs: int) -> Iterator[tuple[int, float]]:
         """Chunks through an executor until there are none or it breaks; those that were under way then are `lost`."""
-        running: dict[Future[list[Record]], _Chunk] = {}
-        ready: deque[_Chunk] = deque()
+        running: dict[Future[list[Answer]], _Chunk] = {}
+        most = jobs + max(jobs // 2, 1)  # those at work, and some ready
         sound = True
         try:
-            while sound or running:
+            while True:
                 while sound and len(running) < most:
-                    chunk = ready.popleft() if ready else next(chunks, None)
+                    chunk = self._next(jobs, looking=any(one.is_new for one in running.values()))
                     if chunk is None:
                         break
                     try:
-                        running[pool.submit(self.work, [raw for _, _, raw in chunk.items], self.options)] = chunk
+                        running[pool.submit(self.work, chunk.texts, self.options, chunk.patience)] = chunk
                     except BrokenExecutor:
                         lost.append(chunk)
                         sound = False
@@ -291,70 +331,87 @@ class Batch:
     def _one_by_one(self, lost: "Sequence[_Chunk]", executor: Callable[[], Executor]) -> Iterator[tuple[int, float]]:
         """Files one after the other: the one at work where an executor breaks is the one that breaks it. Where no
         executor can work at all, they are done here."""
-        waiting = deque(_Chunk([i], [s]) for chunk in lost for i, s in zip(chunk.items, chunk.seconds, strict=True))
+        waiting = deque(_Chunk([item], math.inf) for chunk in lost for item in chunk.items)
         while waiting:
             with executor() as pool:
                 able = _works(pool, self.work, self.options)
                 while waiting:
                     chunk = waiting.popleft()
                     if not able:
-                        yield self._keep(chunk, self.work([chunk.items[0][2]], self.options))
+                        yield self._keep(chunk, self.work(chunk.texts, self.options, math.inf))
                         continue
-                    ((index, key, raw),) = chunk.items
                     try:
-                        records = pool.submit(self.work, [raw], self.options).result()
+                        answers = pool.submit(self.work, chunk.texts, self.options, math.inf).result()
                     except LostError:
                         waiting.appendleft(chunk)
                         break
                     except BrokenExecutor:
-                        name = self.entries[index].name
-                        self.broken[key] = broken(name, "the process that worked on it was ended")
-                        yield 1, sum(chunk.seconds)
+                        ((index, key, _),) = chunk.items
+                        self.broken[key] = broken(self.entries[index].name, "the process that worked on it was ended")
+                        self._agenda.is_done(index, 0.0)
+                        yield 1, 0.0
                         break
-                    yield self._keep(chunk, records)
+                    yield self._keep(chunk, answers)
 
-    def _keep(self, chunk: "_Chunk", records: Iterable[Record]) -> tuple[int, float]:
+    def _keep(self, chunk: "_Chunk", answers: Iterable[Answer]) -> tuple[int, float]:
         """Results to the store; not what our own program broke down on."""
-        sound = []
-        for (index, key, _), record in zip(chunk.items, records, strict=True):
+        sound, files, before = [], 0, self._agenda.done
+        for (index, key, _), answer in zip(chunk.items, answers, strict=True):
+            record = answer.record
+            if record is None:
+                self._agenda.came_back(index, answer.seconds)
+                continue
+            files += 1
+            self._agenda.is_done(index, answer.seconds)
             self.entries[index] = Entry(self.entries[index].name, key)
             if record.tally.broken:
                 self.broken[key] = record.report
             else:
                 sound.append((key, record))
-        self.store.add(sound)
-        return len(chunk.items), sum(chunk.seconds)
+        if sound:
+            self.store.add(sound)
+        return files, self._agenda.done - before
 
-    def _chunks(self, most: float) -> Iterator["_Chunk"]:
-        """The missing files with their texts as they are now, in portions of so many predicted seconds."""
-        keys, chunk = Keys(self.options), _Chunk([], [])
-        for index, seconds in zip(self.missing, self.seconds, strict=True):
-            raw = _read(self.files[index])
-            if raw is None:  # gone meanwhile
-                report = check_file(self.files[index], self.options)
+    def _next(self, jobs: int, *, looking: bool = False) -> "_Chunk | None":
+        """Files that go out next, with their texts as they are now."""
+        while (portion := self._agenda.next(jobs, looking=looking)) is not None:
+            chunk = _Chunk([], portion.patience)
+            for index in portion.files:
+                raw = _read(self.files[index])
+                if raw is not None:
+                    chunk.items.append((index, self._keys.of(raw), raw))
+                    continue
+                report = check_file(self.files[index], self.options)  # gone meanwhile
                 self.entries[index] = replace(self.entries[index], report=report)
-                continue
-            chunk.items.append((index, keys.of(raw), raw))
-            chunk.seconds.append(seconds)
-            if sum(chunk.seconds) >= most or len(chunk.items) >= _MOST_IN_CHUNK:
-                yield chunk
-                chunk = _Chunk([], [])
-        if chunk.items:
-            yield chunk
+                self._agenda.is_done(index, 0.0)
+            if chunk.items:
+                return chunk
+        return None
 
 
 @dataclass(slots=True)
 class _Chunk:
-    """Files that go out together: index, key and text of each, and its predicted seconds."""
+    """Files that go out together, index, key and text of each; those that would take longer than `patience` come
+    back."""
 
     items: list[tuple[int, bytes, bytes]]
-    seconds: list[float]
+    patience: float
+
+    @property
+    def is_new(self) -> bool:
+        """Whether nobody has looked at them."""
+        return math.isfinite(self.patience)
+
+    @property
+    def texts(self) -> list[bytes]:
+        """The texts."""
+        return [raw for _, _, raw in self.items]
 
 
 def _works(pool: Executor, work: Work, options: Options) -> bool:
     """Whether an executor begins at all."""
     try:
-        pool.submit(work, [], options).result()
+        pool.submit(work, [], options, math.inf).result()
     except LostError:
         return True  # it did; another one is asked for
     except BrokenExecutor:
@@ -362,22 +419,8 @@ def _works(pool: Executor, work: Work, options: Options) -> bool:
     return True
 
 
-def _failed(future: Future[list[Record]]) -> bool:
+def _failed(future: Future[list[Answer]]) -> bool:
     return future.cancelled() or future.exception() is not None
-
-
-def predicted(raw: bytes, options: Options) -> float:
-    """Seconds that a text may take, by its plans; only what surrounds the runs where there are none."""
-    try:
-        loaded = load_text(raw, "", options.effects, options.accuracy)
-        if loaded.kind is None or loaded.spec is None or not options.run:
-            return _AROUND
-        made = plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
-        return _AROUND + sum(coming.seconds for coming in foresee(made, budget=options.budget))
-    except UsageError:
-        raise
-    except Exception:  # it will be told when the file is done
-        return _AROUND
 
 
 def _read(path: Path) -> bytes | None:

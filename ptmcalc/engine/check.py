@@ -3,13 +3,15 @@
 import math
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import date
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
-from ptmcalc.base.errors import UsageError
+from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.base.span import KeyPath, Span, dotted
 from ptmcalc.base.units import show
 from ptmcalc.contract.check import AnyCheck
@@ -33,8 +35,9 @@ from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, changed, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
-from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, settle, without
-from ptmcalc.engine.solve import REPAIR_SECONDS, solve, variants
+from ptmcalc.engine.purse import FilePurse
+from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, without
+from ptmcalc.engine.solve import REPAIR_SECONDS, SearchPurse, solve, variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.unknown import why_open
 from ptmcalc.engine.waive import about_waivers, waived
@@ -42,6 +45,7 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
 
+T = TypeVar("T")
 _PARTS = 12
 """Numbers that the shape of a history has."""
 
@@ -74,8 +78,8 @@ def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ..
     return tuple(guarded(path.as_posix(), partial(check_file, path, options)) for path in paths)
 
 
-def guarded(name: str, make: Callable[[], FileReport]) -> FileReport:
-    """The report that is made of a file, or one that says our own program broke down on it.
+def guarded(name: str, make: Callable[[], T]) -> T | FileReport:
+    """What is made of a file, mostly its report, or one that says our own program broke down on it.
 
     Raises:
         UsageError: the options are wrong for this file.
@@ -101,22 +105,38 @@ def check_file(path: Path, options: Options) -> FileReport:
     return check(load_file(path, path.as_posix(), options.effects, options.accuracy), options)
 
 
-def check(loaded: Loaded, options: Options) -> FileReport:
-    """Everything there is to say about a loaded file."""
+def planned_for(loaded: Loaded, options: Options) -> Plan | None:
+    """The plan of what is asked about a loaded file; None where nothing is to be computed.
+
+    Raises:
+        UsageError: the file has not the scenes that are asked for.
+    """
+    if loaded.kind is None or loaded.spec is None or not options.run:
+        return None
+    return plan(loaded.kind, loaded.spec, chosen_scenes(loaded.spec, options.scenes))
+
+
+def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> FileReport:
+    """Everything there is to say about a loaded file, by its plan where somebody has made it before."""
     name = loaded.document.name
     if loaded.kind is None or loaded.spec is None:
         return FileReport(name, _text(loaded, "kind"), _text(loaded, "name"), loaded.diagnostics)
     kind, spec = loaded.kind, loaded.spec
-    if not options.run:
+    made = planned or planned_for(loaded, options)
+    if made is None:
         return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed)
-    made = plan(kind, spec, chosen_scenes(spec, options.scenes))
-    settled = [settle(kind, spec, scene, budget=options.budget) for scene in made.scenes]
-    flips = _flips(kind, spec, made, settled, loaded.assumed, options.budget)
-    diagnostics = loaded.diagnostics + tuple(
-        Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, _severity(f))
-        for f, message in _said(settled)
+    purse = FilePurse(options.budget)
+    settled = [purse.settle(kind, spec, scene) for scene in made.scenes]
+    flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
+    diagnostics = (
+        loaded.diagnostics
+        + tuple(purse.said(loaded.document))
+        + tuple(
+            Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, _severity(f))
+            for f, message in _said(settled)
+        )
     )
-    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options).scene() for scene in settled)
+    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options, purse).scene() for scene in settled)
     today = options.today or date.today()
     diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
@@ -177,7 +197,7 @@ def _flips(
     made: Plan,
     settled: list[Settled],
     assumed: Iterable[AssumedReport],
-    budget: float,
+    purse: FilePurse,
 ) -> Flips:
     """Verdicts that change when an assumed value goes to an end of its interval.
 
@@ -194,7 +214,7 @@ def _flips(
         if not left:
             break
         again = plan(kind, other, [scene for scene in other.all_scenes if scene.label in left])
-        ends = [settle(kind, other, one, budget=budget, verdicts=left[one.scene.label]) for one in again.scenes]
+        ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
         found |= {
             key: (value, end, ruling.verdict) for key, ruling in _by_key(again, ends) if ruling.verdict is not base[key]
         }
@@ -217,6 +237,7 @@ class _Assembly:
     settled: Settled
     flips: Flips
     options: Options
+    purse: FilePurse
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
@@ -309,7 +330,8 @@ class _Assembly:
         found: dict[str, History] = {}
         asked = self.options.histories or self.options.courses or self.options.figures
         for run in self.settled.runs if asked else ():
-            found |= run.result.histories()
+            with suppress(NumericsError):  # given up, as the run itself was not
+                found |= run.result.histories()
         return found
 
     def _textbooks(self) -> Mapping[str, Mapping[str, History]]:
@@ -359,11 +381,14 @@ class _Assembly:
         """The value of the repair's key at which the check was seen to pass, in a check of the changed file."""
         scene = self.settled.plan.scene
         path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
-        seconds = min(REPAIR_SECONDS, self.options.budget)
+        if not path or not self.purse.most:
+            return None
+        search = SearchPurse(min(REPAIR_SECONDS, self.purse.most))
         try:
-            found = solve(self.loaded, ruling.check, path, scene.label, seconds=seconds) if path else None
+            found = solve(self.loaded, ruling.check, path, scene.label, purse=search)
         except UsageError:
             return None
+        self.purse.left -= search.spent
         edges = (found.value, found.other) if found else ()
         passing = [value for value in edges if value is not None and self._passes_with(path, value, ruling.check)]
         return Repair(path, passing[0], found.quantity, *passing[1:]) if found and passing else None
@@ -371,9 +396,11 @@ class _Assembly:
     def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck) -> bool:
         """Whether the file with another value at a key passes a check in this scene."""
         label = self.settled.plan.scene.label
-        options = replace(self.options, scenes=(label,), histories=False, courses=False, figures=False, repairs=False)
+        plain = replace(self.options, histories=False, courses=False, figures=False, repairs=False)
+        options = replace(plain, scenes=(label,), budget=self.purse.most)
         again = check(changed(self.loaded, path, value), options)
         name = (wanted.code, wanted.element)
+        self.purse.left -= sum(one.predicted_seconds for scene in again.scenes for one in scene.solvers)
         verdicts = [one.verdict for _, one in again.judgements if (one.code, one.element) == name]
         return bool(verdicts) and all(verdict is Verdict.PASS for verdict in verdicts)
 

@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from glob import glob, has_magic
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".yaml", ".yml")
 _IGNORED = ".gitignore"
+_KIND, _TYPE = (re.compile(b"^%s:[ \\t]*[\"']?([a-z_]+)" % key, re.MULTILINE) for key in (b"kind", b"type"))
 _MOST_STARS = 4
 """Inside one part of a pattern: a name of 255 letters that does not match is tried at each `*` in as many ways."""
 
@@ -130,6 +132,17 @@ def chosen_files(paths: Sequence[str], excludes: Excludes, listed: Iterable[str]
             empty.append(word)
         found |= dict.fromkeys(sorted(some, key=by_path))
     return Chosen(tuple(found), tuple(empty), left_out, tuple(outside))
+
+
+def files_below(path: Path) -> Iterator[Path]:
+    """The design files in a folder and below it, in any order, hidden ones left out; a file itself."""
+    return _all_in(path) if path.is_dir() else iter([path])
+
+
+def machine_in(raw: bytes) -> bytes:
+    """The kind, and behind a dot the type, that a text seems to name, without reading it; empty where it does not."""
+    kind, type_ = _KIND.search(raw), _TYPE.search(raw)
+    return (kind[1] if kind else b"") + (b"." + type_[1] if kind and type_ else b"")
 
 
 def by_path(path: PurePath | str) -> tuple[str, ...]:

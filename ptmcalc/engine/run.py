@@ -59,6 +59,13 @@ class Settled:
     rulings: tuple[Ruling, ...] = ()
     findings: list[Finding] = field(default_factory=list)
     next_rung: Rung | None = None
+    beside: float = 0.0
+    """seconds of what is only shown, and of runs that were given up"""
+
+    @property
+    def spent(self) -> float:
+        """Seconds of all that was run, predicted or, where that is more, by what was counted."""
+        return self.beside + sum(max(run.rung.seconds, run.result.spent) for run in self.runs)
 
     @property
     def estimates(self) -> dict[str, Estimate]:
@@ -116,8 +123,10 @@ def settle(
     if verdicts is not None:
         spec = spec.model_copy(update={"accuracy": None})
     for solver in scene.formulas if whole else ():
-        if solver.cost(spec, scene.scene, solver.represents, 0) > budget:
+        price = solver.cost(spec, scene.scene, solver.represents, 0)
+        if price > budget:
             continue  # what is only shown is worth no more than what decides
+        settled.beside += price
         rung = Rung(solver, solver.represents, 0, 0.0)
         shown = _made(settled, spec, rung)
         if shown is not None:
@@ -125,7 +134,7 @@ def settle(
             for name, found in shown.loads.items():
                 settled.formulas.setdefault(name, {})[solver.name] = found.estimate.value
     waiting = list(scene.rungs)
-    spent = 0.0
+    shown_for = settled.beside
     while True:
         if settled.runs or not waiting:
             settled.rulings = _rulings(kind, spec, settled, only, verdicts)
@@ -133,10 +142,9 @@ def settle(
         else:
             following = waiting[0]  # nothing is known yet: whatever is wanted, the cheapest run comes first
         settled.next_rung = following
-        if following is not None and until(following) and spent + following.seconds <= budget:
+        if following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget:
             waiting.remove(following)
-            result = _climb(settled, spec, following)
-            spent += max(following.seconds, result.spent if result is not None else 0.0)
+            _climb(settled, spec, following)
             continue
         if not settled.runs:
             settled.rulings = _rulings(kind, spec, settled, only, verdicts)
@@ -242,20 +250,20 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
         return rung.solver.run(spec, scene, rung.carried, rung.level)
     except NumericsError as error:
         settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
+        settled.beside += max(rung.seconds, error.spent)
         return None
 
 
-def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
-    """Run a rung and keep every load it knows better; its result, if there is one."""
+def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
+    """Run a rung and keep every load it knows better."""
     scene, result = settled.plan.scene, _made(settled, spec, rung)
     if result is None:
-        return None
+        return
     estimates = widen(settled.plan, spec, rung, result)
     for name in _learnt(settled, rung, result, estimates):
         settled.findings.append(
             Finding("NUM101", f"scene `{scene.label}`, {rung.solver.name}: `{name}` is not a number")
         )
-    return result
 
 
 def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str, Estimate]) -> list[str]:

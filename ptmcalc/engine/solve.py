@@ -63,7 +63,7 @@ def solve(
     *,
     digits: int = 4,
     finest: int = 1,
-    seconds: float = math.inf,
+    purse: "SearchPurse | None" = None,
     spare: Spare = lambda limit: 0.0,
 ) -> Solution | None:
     """The value nearest to the present one at which the check just passes, or None when there is none within 3 decades.
@@ -73,7 +73,7 @@ def solve(
     passing side. It is a value at which the check was seen to pass by `spare`, error bar included, with every assumed
     value at both ends of its interval, and which the file may have. Near the limit every refinement would run, which
     no digit of the value is worth: `finest` is the most a run has. None too when the search is predicted to take more
-    than `seconds`.
+    than the `purse` has.
 
     Raises:
         UsageError: the key is not a number of this file.
@@ -88,7 +88,7 @@ def solve(
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    search = _Search(loaded, check, path, scene_name, spare, finest, _Purse(seconds))
+    search = _Search(loaded, check, path, scene_name, spare, finest, purse or SearchPurse(math.inf))
     grid = _Grid(measure.quantity if measure else RATIO, digits, counts)
     try:
         edges = _edges(search, float(present), grid)
@@ -121,14 +121,20 @@ class _SpentError(Exception):
 
 
 @dataclass
-class _Purse:
-    """Predicted seconds that a search may still spend."""
+class SearchPurse:
+    """Predicted seconds that a search may spend, and those that it has."""
 
-    left: float
+    most: float
+    spent: float = 0.0
 
     def pay(self, seconds: float) -> None:
-        self.left -= seconds
-        if self.left < 0:
+        """Take what a run cost.
+
+        Raises:
+            _SpentError: there is no more.
+        """
+        self.spent += seconds
+        if self.spent > self.most:
             raise _SpentError
 
 
@@ -198,7 +204,7 @@ class _Search:
     scene: str
     spare: Spare
     finest: int
-    purse: _Purse
+    purse: SearchPurse
 
     def clearances(self) -> list[Clearance]:
         """The machine as it is first."""
@@ -242,7 +248,7 @@ class _Search:
         assert kind is not None
         scene = plan_scene(kind, spec, spec.all_scenes[index])
         settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= self.finest)
-        self.purse.pay(sum(max(run.rung.seconds, run.result.spent) for run in settled.runs))
+        self.purse.pay(settled.spent)
         return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
     def _of_ruling(self, ruling: Ruling) -> float:

@@ -22,7 +22,7 @@ from ptmcalc.numerics.flow import MOST_PANELS, RESOLVED, Chunk, Flow
 from ptmcalc.numerics.glide import Glide
 from ptmcalc.numerics.motion import Mode, System
 from ptmcalc.numerics.panels import FloatArray
-from ptmcalc.numerics.record import CROSSING, LONG, Record
+from ptmcalc.numerics.record import CROSSING, LONG, PANEL, Record
 from ptmcalc.numerics.stretch import Piece
 
 JAMMED = "jammed"
@@ -122,7 +122,8 @@ class _March:
                 record.close()
                 return record
             if len(record.events) > self.most_events:
-                raise NumericsError("NUM101", f"more than {self.most_events} events by {record.time:.6g} s: chattering")
+                reason = f"more than {self.most_events} events by {record.time:.6g} s: chattering"
+                raise NumericsError("NUM101", reason, PANEL * self.work)
             stop, before = min(end, system.next_break(record.mode, record.time)), record.time
             fired = self._advance(record, stop)
             if fired is None:
@@ -145,7 +146,8 @@ class _March:
         """Take account of work before it is done, and give up where it is too much."""
         self.work += work
         if self.work > self.most_work:
-            raise NumericsError("NUM101", f"more than {self.most_work:.2g} steps by {record.time:.3g} s: given up")
+            reason = f"more than {self.most_work:.2g} steps by {record.time:.3g} s: given up"
+            raise NumericsError("NUM101", reason, PANEL * self.work)
 
     def _piece(self, mode: Mode) -> "Piece":
         piece = self.pieces.get(mode)

@@ -26,12 +26,12 @@ from support.command import ROOT, ptmcalc
 
 from ptmcalc.cli import worker
 from ptmcalc.cli.batch import rendered
-from ptmcalc.engine.batch import Batch, Keys, fresh
+from ptmcalc.engine.batch import Answer, Batch, Keys, fresh
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.run import settle
-from ptmcalc.engine.store import Record, Store, packed
+from ptmcalc.engine.store import Store, packed
 from ptmcalc.report import Format
 from ptmcalc.report.json import part_of
 from ptmcalc.text.document import MAX_BYTES, parse
@@ -165,7 +165,8 @@ def test_many_files_leave_nothing_behind() -> None:
 
     def left() -> Counter[str]:
         gc.collect()
-        return Counter(type(one).__name__ for one in gc.get_objects() if type(one).__module__.startswith("ptmcalc"))
+        types = (type(one) for one in gc.get_objects())
+        return Counter(one.__name__ for one in types if str(one.__module__).startswith("ptmcalc"))
 
     texts = variants(140)
     worker.with_text(texts[:70], OPTIONS)
@@ -185,11 +186,13 @@ def files_of(texts: Sequence[bytes], folder: Path) -> list[Path]:
 def test_memory_grows_with_names_and_keys_only(tmp_path: Path) -> None:
     """Of a thousand files more a batch holds no report, from the reading to the JSON written."""
     (raw,) = variants(1)
-    (one,) = worker.with_text([raw], OPTIONS)
+    (answer,) = worker.with_text([raw], OPTIONS)
+    one = answer.record
+    assert one is not None
     numbers = itertools.count()
 
-    def work(texts: Sequence[bytes], options: Options) -> list[Record]:
-        return [one for _ in texts]
+    def work(texts: Sequence[bytes], options: Options, patience: float) -> list[Answer]:
+        return [Answer(0.0, one) for _ in texts]
 
     def peak(number: int) -> int:
         texts = [b"kind: conveyor\n# %d\n" % next(numbers) for _ in range(number)]
@@ -216,7 +219,7 @@ def test_a_file_that_did_not_change_is_not_even_parsed(tmp_path: Path) -> None:
     files_of(variants(number), tmp_path / "specs")
     command = ("check", tmp_path / "specs", "--format", "json", "--store", tmp_path / "store")
     first = ptmcalc(*command)
-    forbidden = ("engine.batch.load_text", "cli.worker.fresh", "report.json.part_of", "engine.store._adapter")
+    forbidden = ("engine.batch.load_text", "cli.worker.fresh_within", "report.json.part_of", "engine.store._adapter")
     for name in forbidden:
         mock.patch(f"ptmcalc.{name}", side_effect=AssertionError(name)).start()
     try:

@@ -20,7 +20,7 @@ from support.command import Done, ptmcalc
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli import cluster as ours
 from ptmcalc.cli import worker
-from ptmcalc.engine.batch import Batch, GoneError, LostError
+from ptmcalc.engine.batch import Answer, Batch, GoneError, LostError
 from ptmcalc.engine.check import Options
 from ptmcalc.engine.store import Record, Store
 
@@ -168,7 +168,7 @@ def test_what_is_lost_with_a_connection_is_done_again(specs: Callable[[int], Non
     """By another one, as often as it takes; no file is told to have killed anybody."""
     specs(20)
     connections = chain([Losing(1), Losing(0), Losing(3)], map(Losing, repeat(1000)))
-    with Store() as store, mock.patch("ptmcalc.engine.batch.CHUNK", 0.0):
+    with Store() as store, mock.patch("ptmcalc.engine.agenda.MOST_IN_CHUNK", 1):
         batch = Batch(sorted(Path("specs").iterdir()), Options(("run_loaded",)), store, worker.with_text)
         steps = list(batch.run(lambda: next(connections), 2))
         assert sum(count for count, _ in steps) == 20
@@ -186,7 +186,7 @@ def test_what_came_back_is_kept_where_the_rest_is_gone(specs: Callable[[int], No
             return one
         raise GoneError("nobody answers")
 
-    with Store() as store, mock.patch("ptmcalc.engine.batch.CHUNK", 0.0):
+    with Store() as store, mock.patch("ptmcalc.engine.agenda.MOST_IN_CHUNK", 1):
         batch = Batch(sorted(Path("specs").iterdir()), Options(("run_loaded",)), store, worker.with_text)
         with pytest.raises(GoneError):
             list(batch.run(executor, 2))
@@ -218,11 +218,11 @@ def test_a_task_that_fails_says_why_in_the_words_of_a_batch(error: Exception, be
 def test_processes_of_a_cluster_do_one_chunk_at_a_time() -> None:
     """What is remembered of a machine between two runs is not made for threads."""
 
-    def work(texts: Any, options: Any) -> list[Record]:
+    def work(texts: Any, options: Any, patience: float) -> list[Answer]:
         assert ours._AT_WORK.locked()
         return []
 
-    assert ours._alone(ours.edition(), work, [], Options()) == []
+    assert ours._alone(ours.edition(), work, [], Options(), 1.0) == []
     assert not ours._AT_WORK.locked()
 
 

@@ -222,15 +222,16 @@ def test_an_interrupt_prints_what_is_done(file: Path, monkeypatch: pytest.Monkey
     """Two of four points that need a run of their own, then Ctrl-C."""
     done_so_far, work = [], worker.without_text
 
-    def interrupted(texts: Any, options: Any) -> Any:
+    def interrupted(texts: Any, options: Any, patience: Any) -> Any:
         if len(done_so_far) == 2:
             raise KeyboardInterrupt
         done_so_far.append(texts)
-        return work(texts, options)
+        return work(texts, options, patience)
 
     monkeypatch.setattr(worker, "without_text", interrupted)
-    monkeypatch.setattr("ptmcalc.engine.batch.CHUNK", 0.0)
+    monkeypatch.setattr("ptmcalc.engine.agenda.MOST_IN_CHUNK", 1)
     done = swept("--vary", "takeup.tension=25 kN:35 kN:4", "--jobs", "1", scene=())
     assert done.status == 130
     assert "interrupted after 2 of 4 files" in done.err
-    assert [row["verdict"] for row in document(done)["rows"]] == ["pass", "pass", "not_computed", "not_computed"]
+    verdicts = [row["verdict"] for row in document(done)["rows"]]
+    assert sorted(verdicts) == ["not_computed", "not_computed", "pass", "pass"], "in no particular order"

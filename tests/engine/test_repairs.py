@@ -20,7 +20,7 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.report import Judgement
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import Loaded, load_text, measure_at
-from ptmcalc.engine.solve import solve
+from ptmcalc.engine.solve import SearchPurse, solve
 
 SPECS = sorted(
     path.relative_to(ROOT).as_posix() for path in (ROOT / "specs").rglob("*.yaml") if "winding_paper" not in path.parts
@@ -134,7 +134,7 @@ def broken(case: Case, seconds: float) -> tuple[float, Judgement] | None:
     """A value that fails and has a repair, and what is said of it: beyond the boundary, which is looked for so many
     predicted seconds, or else beyond the present value."""
     try:
-        edge = solve(case.loaded, case.check, case.path, case.scene, seconds=seconds)
+        edge = solve(case.loaded, case.check, case.path, case.scene, purse=SearchPurse(seconds))
     except UsageError:
         return None
     starts = [(case.present, 2 * case.present), (case.present, 0.0)]

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as Xml
 
 import pytest
 import yaml
-from jsonschema import Draft202012Validator
+from jsonschema import Draft4Validator, Draft202012Validator
 from support.command import ROOT, report_of_file
 from support.samples import SAMPLES
 from support.xsd import Schema
@@ -26,6 +26,9 @@ from ptmcalc.text.document import parse, resolve
 JUNIT = Schema(Path(__file__).with_name("junit-10.xsd").read_text("utf-8"))
 """The schema of Jenkins (MIT, see its head)."""
 SARIF = Draft202012Validator(json.loads(Path(__file__).with_name("sarif.schema.json").read_text("utf-8")))
+"""What of SARIF we write, with the rules that no schema of its authors holds."""
+OFFICIAL = Draft4Validator(json.loads(Path(__file__).with_name("sarif-2.1.0-rtm.5.json").read_text("utf-8")))
+"""The schema of its authors (MIT, see the text beside it)."""
 FILES = ("specs/conveyor.yaml", "tests/cli/specs/slipping.yaml", "tests/cli/specs/faulty.yaml")
 HOSTILE = "a\n::error::b\r%0A,x:y|`c`\x1b[31m<script>&\"'*_[l](http://h)_@me #1 www.x ]]> \ufffe\x00"
 
@@ -135,11 +138,29 @@ def test_a_failure_of_junit_names_file_line_and_numbers() -> None:
 @pytest.mark.parametrize("reports", REPORTS)
 def test_sarif_keeps_its_schema(reports: tuple[FileReport, ...]) -> None:
     found = json.loads(render(Format.SARIF, reports))
-    assert [error.message for error in SARIF.iter_errors(found)] == []
+    assert [error.message for schema in (OFFICIAL, SARIF) for error in schema.iter_errors(found)] == []
     (run,) = found["runs"]
     rules = [rule["id"] for rule in run["tool"]["driver"]["rules"]]
     assert all(rules[one["ruleIndex"]] == one["ruleId"] for one in run["results"])
     assert run["properties"]["summary"] == count(reports)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"level": "severe"},
+        {"message": {}},
+        {"locations": [{"physicalLocation": {"region": {"startLine": 0}}}]},
+        {"suppressions": [{"kind": "nowhere"}]},
+        {"ruleindex": 1},
+    ],
+    ids=str,
+)
+def test_the_schema_of_sarif_refuses(wrong: dict[str, Any]) -> None:
+    result = {"message": {"text": "x"}}
+    for one, sound in ((result, True), (result | wrong, False)):
+        log = {"version": "2.1.0", "runs": [{"tool": {"driver": {"name": "x"}}, "results": [one]}]}
+        assert OFFICIAL.is_valid(log) is sound
 
 
 def test_a_result_that_passes_has_no_level() -> None:

@@ -17,7 +17,7 @@ from support.zoo import checked, contradictions, expected, faulty, hard_machines
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.engine import check as engine_check
+from ptmcalc.engine import purse as engine_purse
 from ptmcalc.engine.run import Run, Settled
 
 SPECS = Path(__file__).parent / "specs"
@@ -108,7 +108,7 @@ class TestTheCollectorItself:
 
     def _wrong_with(self, health: dict[str, float]) -> list[str]:
         """What is wrong with the sound machine, were this the health of its runs."""
-        before = engine_check.settle
+        before = engine_purse.settle
 
         def planted(*given: Any, **options: Any) -> Settled:
             settled = before(*given, **options)

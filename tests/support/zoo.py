@@ -36,6 +36,7 @@ from ptmcalc.contract.report import FileReport, Judgement, exit_status
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity
 from ptmcalc.engine import check as engine_check
+from ptmcalc.engine import purse as engine_purse
 from ptmcalc.engine.check import Options
 from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.engine.plan import Rung, ScenePlan
@@ -164,7 +165,7 @@ def checked(text: str, name: str = "case.yaml", budget: float = BUDGET) -> Check
         return settled
 
     loaded = load_text(text.encode(), name)
-    with mock.patch.object(engine_check, "settle", watched):
+    with mock.patch.object(engine_purse, "settle", watched):
         report = engine_check.check(loaded, Options(budget=budget, repairs=False))
     return Checked(loaded, report, tuple(seen))
 

@@ -274,7 +274,7 @@ def events(course: Course) -> tuple[Event, ...]:
 
 def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Mapping[str, History]:
     """Torques, speeds and angles over time, from a run that keeps them."""
-    course = run(case, end, tolerance, keep=True)
+    course = run(case, end, tolerance, keep=True, most_work=most_work(case, end))
     samples = course.record.samples
     assert samples is not None
     times = np.maximum.accumulate(np.concatenate(samples.times)).tolist()  # an event may move by a rounding
