@@ -86,7 +86,7 @@ class _Walk:
                 self.left_out += sum(1 for _ in _all_in(path)) if is_folder else 1
             elif is_folder:
                 self._walk(path, asked, rules)
-            elif entry.is_symlink() and not path.resolve().is_relative_to(self.top):
+            elif entry.is_symlink() and not _leads_to(path).is_relative_to(self.top):
                 self.outside.append(path)
             else:
                 self.found.append(path)
@@ -123,7 +123,7 @@ def chosen_files(paths: Sequence[str], excludes: Excludes, listed: Iterable[str]
         elif not os.path.lexists(path) and has_magic(word):
             matching = [one for one in map(Path, glob(word, recursive=True)) if _is_design_file(one)]
             top = _top(_without_magic(path))
-            out = [one for one in matching if not one.resolve().is_relative_to(top)]
+            out = [one for one in matching if not _leads_to(one).is_relative_to(top)]
             some = [one for one in matching if one not in out]
         else:
             some, out = [path], []
@@ -176,6 +176,11 @@ def _is_called_so(name: str) -> bool:
 
 def _is_design_file(path: Path) -> bool:
     return _is_called_so(path.name) and (path.is_file() or (path.is_symlink() and not path.exists()))
+
+
+def _leads_to(path: Path) -> Path:
+    """Where a link leads in the end; one that leads in a circle, to itself, which cannot be read."""
+    return Path(os.path.realpath(path))
 
 
 def _above(folder: Path) -> list[Path]:

@@ -258,6 +258,18 @@ def test_a_file_that_kills_its_worker_is_told_and_stops_no_other(folder: Path) -
     assert all(found[path.as_posix()].verdict == "pass" for path in sorted(folder.glob("[013-5].yaml")))
 
 
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_file_that_vanishes_before_its_turn_is_told_and_stops_no_other(folder: Path, jobs: int) -> None:
+    files = sorted(folder.glob("*.yaml"))
+    with Store() as store:
+        batch = Batch(files, Options(repairs=False), store, worker.with_text)
+        (folder / "3.yaml").unlink()
+        steps = list(batch.run(Here if jobs > 1 else None, jobs))
+        verdicts = [report.verdict for report in batch.results()]
+    assert sum(count for count, _ in steps) == 5
+    assert verdicts == ["pass"] * 3 + ["invalid"] + ["pass"] * 2
+
+
 def test_where_no_process_can_be_started_the_work_is_done_here(folder: Path) -> None:
     files = sorted(folder.glob("*.yaml"))
     with Store() as store:
@@ -276,7 +288,7 @@ def test_a_bug_on_one_file_stops_no_other_and_is_not_kept(
     def settled(*arguments: Any, **more: Any) -> Any:
         raise ZeroDivisionError("division by zero")
 
-    with mock.patch("ptmcalc.engine.check.settle", settled), mock.patch("ptmcalc.cli.batch.FEW", 100):
+    with mock.patch("ptmcalc.engine.purse.settle", settled), mock.patch("ptmcalc.cli.batch.FEW", 100):
         done = checked(*options, "--budget", "50 s")
         assert done.status == 4
         said = [(entry["verdict"], [one["code"] for one in entry["diagnostics"]]) for entry in document(done)["files"]]

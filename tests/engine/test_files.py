@@ -124,6 +124,14 @@ def test_links_are_followed_to_files_and_not_to_folders(place: Path) -> None:
     assert names(chosen_files(["specs/b"], Excludes())) == found
 
 
+def test_a_link_that_leads_in_a_circle_is_there_to_be_told_as_unreadable(place: Path) -> None:
+    os.symlink("circle.yaml", place / "b" / "circle.yaml")
+    for word in ("specs/b", "specs/b/c*.yaml"):
+        chosen = chosen_files([word], Excludes())
+        assert Path("specs/b/circle.yaml") in chosen.files
+        assert chosen.outside == ()
+
+
 @pytest.mark.parametrize("number", [1, 2, 3, 7])
 def test_every_file_is_in_exactly_one_shard(number: int) -> None:
     files = [Path(f"{index}.yaml") for index in range(5)]
