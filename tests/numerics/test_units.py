@@ -139,7 +139,7 @@ HAULS: dict[str, tuple[Haul, Rod | Hauled]] = {
     "lowered and caught": (
         lossy(lifts=False, speed=-0.4, way=-1, motor_brake=Tripped(Course((0.0,), (8 * Q,), (0.0,)))), HAULED),
 }  # fmt: skip
-END = 0.6
+END = 0.4
 
 
 @OTHERS

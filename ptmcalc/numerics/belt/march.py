@@ -138,7 +138,7 @@ def march(
     swings = float(((against - along) ** 2 / (8 * impedance)).sum()) * step
     lost = rubbed = flow = exchanged = carried = 0.0
     np.add(against, along, out=block[0])
-    filled, k, time = 1, 0, 0.0
+    filled, k = 1, 0
     within, backward = np.empty(cells - 1), -friction
     for k in range(1, steps + 1):
         time = k * step
