@@ -24,8 +24,7 @@ from support.peers import Played, Problem
 
 # -- P1, P2: waves along a belt ----------------------------------------------------------------------------------------
 
-CELLS = {"P1": (5, 10, 20, 40), "P2": (35, 70, 175, 350)}
-"""Of P2 the samples lie on the grid from 175 cells on: between two nodes no reading shows where a front stands."""
+CELLS = {"P1": (5, 10, 20, 50), "P2": (26, 52, 105, 210)}
 ELEMENTS = {"P1": 1600, "P2": 300}
 EXPLICIT = ("RK45", "DOP853")
 
