@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -30,21 +30,13 @@ from ptmcalc.contract.result import History
 SCHEMA_VERSION = "1"
 
 
-def _encoder() -> Callable[[Any], str]:
-    """JSON of a value in one line, in which no CI server that reads the log finds a command of its own: `##[...]`.
-
-    What `json` builds anew for each value is built once, where it is there.
-    """
-    build, text = (getattr(json.encoder, name, None) for name in ("c_make_encoder", "encode_basestring"))
-    plain = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
-    if build is None or text is None:
-        return lambda value: plain.encode(value).replace("##", _SIGNS)
-    pieces = build(None, plain.default, text, None, plain.key_separator, plain.item_separator, False, False, False)
-    return lambda value: "".join(pieces(value, 0)).replace("##", _SIGNS)
-
-
 _SIGNS = "#\\u0023"
-_encode = _encoder()
+_ONE_LINE = json.JSONEncoder(ensure_ascii=False, allow_nan=False, check_circular=False)
+
+
+def _encode(value: Any) -> str:
+    """JSON in one line, in which no CI server that reads the log finds a command of its own: `##[...]`."""
+    return _ONE_LINE.encode(value).replace("##", _SIGNS)
 
 
 def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
