@@ -1,7 +1,9 @@
 """`ptmcalc`: the commands and their options."""
 
+import copy
 import os
 import sys
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, NoReturn
@@ -145,7 +147,7 @@ def main() -> None:
     steady_streams()
     sys.argv[1:] = history_with_its_value(sys.argv[1:])
     try:
-        app()
+        _with_one_command(sys.argv[1:])()
     except UsageError as error:
         _fail(error)
     except KeyboardInterrupt:
@@ -160,6 +162,16 @@ def main() -> None:
             err=True,
         )
         sys.exit(EXIT_BUG)
+
+
+def _with_one_command(words: Sequence[str]) -> typer.Typer:
+    """The command line with the command that is called alone: typer reads the options of every one it has."""
+    called = [one for one in app.registered_commands if one.callback and [one.callback.__name__] == list(words[:1])]
+    if not called:
+        return app
+    alone = copy.copy(app)
+    alone.registered_commands = called
+    return alone
 
 
 def history_with_its_value(words: list[str]) -> list[str]:

@@ -242,13 +242,14 @@ class _Assembly:
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
         histories = self._histories()
+        without = tuple(planned.effect.name for planned in self.settled.plan.effects if planned.forced_off)
         report = SceneReport(
             name=scene.label,
             type=scene.type,
             effects=tuple(self._effects()),
             solvers=tuple(self._solvers()),
             loads=tuple(self._loads(histories)),
-            checks=tuple(self._judgement(ruling) for ruling in self.settled.rulings),
+            checks=tuple(self._judgement(ruling, without) for ruling in self.settled.rulings),
             health=self._health(),
             events=next((run.result.events for run in reversed(self.settled.runs) if run.result.events), ()),
         )
@@ -311,15 +312,15 @@ class _Assembly:
             best = self.settled.loads.get(info.name)
             if best is None:
                 continue
-            history = histories.get(info.name)
+            history, estimate = histories.get(info.name), best.estimate
             yield LoadReport(
                 info=info,
-                estimate=best.estimate,
+                estimate=estimate,
                 solver=best.rung.solver.name,
                 source=best.rung.solver.source,
                 at=best.found.at,
                 window=best.result.window,
-                formulas=self._formulas(info.name, best.estimate.value),
+                formulas=self._formulas(info.name, estimate.value) if info.name in self.settled.formulas else (),
                 history=history if self.options.histories else None,
                 course=history.course(_PARTS) if history and self.options.courses else (),
                 note=best.found.note,
@@ -341,10 +342,10 @@ class _Assembly:
     def _formulas(self, load: str, value: float) -> tuple[FormulaValue, ...]:
         return tuple(
             FormulaValue(name, textbook, value / textbook if textbook and math.isfinite(textbook) else None)
-            for name, textbook in self.settled.formulas.get(load, {}).items()
+            for name, textbook in self.settled.formulas[load].items()
         )
 
-    def _judgement(self, ruling: Ruling) -> Judgement:
+    def _judgement(self, ruling: Ruling, without: tuple[str, ...]) -> Judgement:
         check, scene = ruling.check, self.settled.plan.scene
         verdict, reason = ruling.verdict, ruling.reason
         blame = ruling.blame
@@ -368,11 +369,7 @@ class _Assembly:
             blame=Place(blame, _span(document, blame)),
             element=check.element,
             reason=reason,
-            without=tuple(
-                planned.effect.name
-                for planned in self.settled.plan.effects
-                if planned.forced_off and verdict is not Verdict.NOT_CHECKED
-            ),
+            without=without if verdict is not Verdict.NOT_CHECKED else (),
             repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL and self.options.repairs else None,
             loads=check.loads,
         )

@@ -26,7 +26,7 @@ class PlannedEffect:
     @property
     def excluded(self) -> bool:
         """Whether it is never computed: forced off, or an input it needs is missing."""
-        return self.forced_off or self.criterion is None
+        return self.wish == "off" or self.criterion is None
 
     @property
     def forced(self) -> bool:

@@ -33,9 +33,9 @@ def far_from_textbook(loaded: Loaded, scene: SceneReport) -> Diagnostic | None:
 
 def _apart(load: LoadReport) -> float:
     """How far the formula lies outside the error bar, over the formula."""
-    formula, known = load.formula, load.estimate
-    if formula is None or not load.info.headline or not known.bounded:
+    if not load.formulas or not load.info.headline or not load.estimate.bounded:
         return 0.0
+    formula, known = load.formulas[-1], load.estimate
     if not formula.value or not math.isfinite(formula.value):
         return 0.0
     return abs(min(max(formula.value, known.low), known.high) / formula.value - 1)

@@ -19,9 +19,10 @@ leaves its half turn at a mass or a jump of Z. So the modes below w are the half
 drum go adds a mode wherever its dynamic stiffness, K = w (line with the torque)/(line with the speed imposed), is
 negative: Wittrick and Williams' count for one freed displacement. The denominator is positive at w = 0 and changes its
 sign at each of its roots, which are single: its sign is that of (-1)^(half turns), and rounding beside a root of it
-cannot make count and sign disagree. Bisection on the count finds every frequency, double ones twice.
+cannot make count and sign disagree. Halving a bracket by the count finds every frequency, double ones twice.
 """
 
+import itertools
 import math
 from typing import NamedTuple
 
@@ -32,9 +33,17 @@ from ptmcalc.laws.loop_bounds import LoopMasses
 
 FloatArray = NDArray[np.float64]
 
-_BISECTIONS, _MOST_AT_ONCE, _AT_ONCE = 60, 5, 512
-"""Halvings of every interval, how many of them at most are made in one call, and places that cost little more than
-one."""
+_CLOSE = 2.0**-52
+"""Relative width at which an interval counts as a number."""
+
+
+class _Waves(NamedTuple):
+    """Travel times [s] and impedances [N*s/m] of both strands."""
+
+    carry_time: float
+    return_time: float
+    carry: float
+    back: float
 
 
 def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> FloatArray:
@@ -57,19 +66,36 @@ def natural_frequencies(loop: LoopMasses, takeup_mass: float, count: int) -> Flo
     **Source** frequency equations in the module docstring, derived; W. H. Wittrick, F. W. Williams, "A general
     algorithm for computing natural frequencies of elastic structures", Q. J. Mech. Appl. Math. 24 (1971).
     """
-    wanted, quarter, waves = np.arange(1, count + 1), takeup_mass / 4, _waves(loop)
-    high = (wanted + 4) * (np.pi / (waves.carry_time + waves.return_time))  # N >= (theta_1 + theta_2)/pi - 3
+    waves, quarter = _waves(loop), takeup_mass / 4
+    return np.array([_frequency(loop, waves, quarter, order) for order in range(1, count + 1)])
+
+
+def _frequency(loop: LoopMasses, waves: _Waves, quarter: float, order: int) -> float:
+    """One of them. The count says on which side of a place it lies; the line says where to look next: at its chord,
+    drawn as Illinois does, or in the middle, in every fourth step and where both ends lie on one side of it."""
+    high = (order + 4) * (math.pi / (waves.carry_time + waves.return_time))  # N >= (theta_1 + theta_2)/pi - 3
     low = high / 2
-    while (above := _below(loop, waves, quarter, low) >= wanted).any():
-        high = np.where(above, low, high)
-        low = np.where(above, low / 2, low)
-    together = min(max(int(math.log2(_AT_ONCE / max(count, 1))), 1), _MOST_AT_ONCE)
-    shares = np.arange(1, 1 << together)[:, None] / (1 << together)
-    for _ in range(math.ceil(_BISECTIONS / together)):
-        step = (high - low) / (1 << together)
-        below = (_below(loop, waves, quarter, low + (high - low) * shares) < wanted).sum(axis=0)
-        low, high = low + below * step, low + (below + 1) * step
-    return np.asarray((low + high) / 2)
+    at_high, at_low = _seen(loop, waves, quarter, high).line, _seen(loop, waves, quarter, low)
+    while at_low.below >= order:
+        low, high, at_high = low / 2, low, at_low.line
+        at_low = _seen(loop, waves, quarter, low)
+    lower, upper, was_below = at_low.line, at_high, False
+    for step in itertools.count(1):
+        margin = _CLOSE * high
+        if high - low <= 2 * margin:
+            break
+        middle = (low + high) / 2
+        if step % 4 and lower * upper < 0:
+            middle = min(max((low * upper - high * lower) / (upper - lower), low + margin), high - margin)
+        seen = _seen(loop, waves, quarter, middle)
+        below = seen.below < order
+        again = step > 1 and below == was_below
+        if below:
+            low, lower, upper = middle, seen.line, upper / 2 if again else upper
+        else:
+            high, upper, lower = middle, seen.line, lower / 2 if again else lower
+        was_below = below
+    return (low + high) / 2
 
 
 def modes_below(loop: LoopMasses, takeup_mass: float, frequency: ArrayLike) -> FloatArray:
@@ -89,16 +115,9 @@ def modes_below(loop: LoopMasses, takeup_mass: float, frequency: ArrayLike) -> F
     **Error** exact but within rounding of a natural frequency.
     **Source** module docstring.
     """
-    return np.asarray(_below(loop, _waves(loop), takeup_mass / 4, np.asarray(frequency, float)))
-
-
-class _Waves(NamedTuple):
-    """Travel times [s] and impedances [N*s/m] of both strands."""
-
-    carry_time: float
-    return_time: float
-    carry: float
-    back: float
+    waves, places = _waves(loop), np.asarray(frequency, float)
+    counts = [_seen(loop, waves, takeup_mass / 4, w).below for w in places.ravel().tolist()]
+    return np.array(counts, float).reshape(places.shape)
 
 
 def _waves(loop: LoopMasses) -> _Waves:
@@ -107,44 +126,49 @@ def _waves(loop: LoopMasses) -> _Waves:
     return _Waves(m1 * c1, m2 * c2, m1 / c1, m2 / c2)
 
 
-def _below(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
-    clamped = np.floor(_angle_at_drum(loop, waves, quarter, w) / np.pi)
+class _Seen(NamedTuple):
+    """How many frequencies are below w, and a line that is 0 at each of them and nowhere else."""
+
+    below: int
+    line: float
+
+
+def _seen(loop: LoopMasses, waves: _Waves, quarter: float, w: float) -> _Seen:
+    angle = _angle_at_drum(loop, waves, quarter, w)
+    clamped = math.floor(angle / math.pi)
     if loop.imposed_speed:
-        return clamped
-    held = 1.0 - 2.0 * (clamped % 2)
-    return np.asarray(clamped + (_with_free_drum(loop, waves, quarter, w) * held < 0) - 1)
+        return _Seen(clamped, math.sin(angle))
+    free = _with_free_drum(loop, waves, quarter, w)
+    return _Seen(clamped + (free > 0 if clamped % 2 else free < 0) - 1, free)
 
 
-def _angle_at_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
+def _angle_at_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: float) -> float:
     """phi at the run-on, from 0 at a clamped and pi/2 at a free beginning."""
-    begin: float | FloatArray = 0.0
+    begin = 0.0
     if not loop.fixed_length:
-        begin = np.pi / 2 + np.arctan(w * quarter / waves.back) if quarter else np.pi / 2
+        begin = math.pi / 2 + math.atan(w * quarter / waves.back)
     angle = begin + w * waves.return_time
-    turns = np.floor(angle / np.pi) * np.pi
-    sine, cosine = np.sin(angle - turns), np.cos(angle - turns)
-    end = np.arctan2(waves.carry * sine, waves.back * cosine - w * loop.tail_mass * sine)
-    return np.asarray(turns + end + w * waves.carry_time)
+    turns = math.floor(angle / math.pi) * math.pi
+    sine, cosine = math.sin(angle - turns), math.cos(angle - turns)
+    end = math.atan2(waves.carry * sine, waves.back * cosine - w * loop.tail_mass * sine)
+    return turns + end + w * waves.carry_time
 
 
-def _with_free_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: FloatArray) -> FloatArray:
+def _with_free_drum(loop: LoopMasses, waves: _Waves, quarter: float, w: float) -> float:
     """The functions of the module docstring with the torque imposed."""
     t1, t2, z1, z2 = waves
     m, tail = loop.drive_mass * w, loop.tail_mass * w
-    s1, c1, s2, c2 = np.sin(w * t1), np.cos(w * t1), np.sin(w * t2), np.cos(w * t2)
-    if not loop.fixed_length:
-        a = z2 * (z1 * c1 * c2 - z2 * s1 * s2 - tail * s1 * c2)
-        g = -z1 * z2 * (z1 * s1 * c2 + z2 * c1 * s2 + tail * c1 * c2)
-        if not quarter:
-            return np.asarray(g - m * a)
+    s1, c1, s2, c2 = math.sin(w * t1), math.cos(w * t1), math.sin(w * t2), math.cos(w * t2)
     cross = z1 * c1 * s2 + z2 * c2 * s1
     b = cross - tail * s1 * s2
     # 2 Z1 Z2 (c1 c2 - 1) - (Z1^2 + Z2^2) s1 s2, without its cancellation
-    ring = -4 * z1 * z2 * np.sin(w * (t1 + t2) / 2) ** 2 - (z1 - z2) ** 2 * s1 * s2
+    ring = -4 * z1 * z2 * math.sin(w * (t1 + t2) / 2) ** 2 - (z1 - z2) ** 2 * s1 * s2
     r = ring - tail * cross
     if loop.fixed_length:
-        return np.asarray(r - m * b)
-    return np.asarray(g - quarter * w * r - m * (a - quarter * w * b))
+        return r - m * b
+    a = z2 * (z1 * c1 * c2 - z2 * s1 * s2 - tail * s1 * c2)
+    g = -z1 * z2 * (z1 * s1 * c2 + z2 * c1 * s2 + tail * c1 * c2)
+    return g - quarter * w * r - m * (a - quarter * w * b)
 
 
 def modal_damping(

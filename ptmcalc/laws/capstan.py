@@ -7,13 +7,12 @@ its digits.
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
+from ptmcalc.laws.quotient import FloatArray, over
 
 
 def slip_utilisation(
-    tight: float | ArrayLike, slack: float | ArrayLike, centrifugal: float | ArrayLike, exponent: float
+    tight: float | FloatArray, slack: float | FloatArray, centrifugal: float | FloatArray, exponent: float
 ) -> FloatArray:
     """Share of the drum's grip that is used; the belt slips at 1.
 
@@ -32,16 +31,10 @@ def slip_utilisation(
     **Error** exact for that model; the friction coefficient itself is known to 20 % at best.
     **Source** Euler-Eytelwein; centrifugal term from the equilibrium of the moving belt element.
     """
-    if isinstance(tight, float) and isinstance(slack, float) and isinstance(centrifugal, float):
-        left = slack - centrifugal
-        return np.asarray((tight - centrifugal) * np.exp(-exponent) / left if left > 0 else np.inf)
-    grip = np.asarray(slack, float) - centrifugal
-    pull = np.asarray(tight, float) - centrifugal
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(grip > 0, pull * np.exp(-exponent) / grip, np.inf)
+    return over((tight - centrifugal) * np.exp(-exponent), slack - centrifugal)
 
 
-def slip_reserve_force(tight: float | ArrayLike, slack: float | ArrayLike, exponent: float) -> FloatArray:
+def slip_reserve_force(tight: float | FloatArray, slack: float | FloatArray, exponent: float) -> FloatArray:
     """Reserve of friction force at the drum: what it can transmit over what it must.
 
         k = S_s (exp(mu alpha) - 1) / (S_t - S_s)
@@ -60,15 +53,9 @@ def slip_reserve_force(tight: float | ArrayLike, slack: float | ArrayLike, expon
     **Source** reserve of friction forces k_T, lecture notes Kramatorsk 2007, with the usual reading
     S_off (exp(mu alpha) - 1) >= k_T F.
     """
-    if isinstance(tight, float) and isinstance(slack, float):
-        if not (tight > slack > 0):
-            return np.asarray(np.inf if slack > 0 else 0.0)
-        with np.errstate(over="ignore"):
-            return np.asarray(slack * np.expm1(exponent) / (tight - slack))
-    grip, pull = np.asarray(slack, float), np.asarray(tight, float) - slack
-    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        reserve = grip * np.expm1(exponent) / pull
-    return np.where(grip > 0, np.where(pull > 0, reserve, np.inf), 0.0)
+    with np.errstate(over="ignore"):
+        reserve = over(slack * np.expm1(exponent), tight - slack)
+    return np.where(np.greater(slack, 0), reserve, 0.0)
 
 
 def slip_reserve_ratio(ratio: float, exponent: float) -> float:

@@ -1,15 +1,12 @@
 """Sag of the belt between idlers, and how it softens the belt."""
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-FloatArray = NDArray[np.float64]
+from ptmcalc.laws.quotient import FloatArray, over
 
 DEEPEST = 0.10
 """Sag over span at which the shallow parabola ends, and with it every law here [1]."""
 
 
-def sag_ratio(span_weight: float, tension: float | ArrayLike) -> FloatArray:
+def sag_ratio(span_weight: float, tension: float | FloatArray) -> FloatArray:
     """Sag of a span over its length.
 
         h = w l / (8 S)
@@ -26,11 +23,7 @@ def sag_ratio(span_weight: float, tension: float | ArrayLike) -> FloatArray:
     which carries half the span besides, 28/3 h^2: 0.09 % at 1 %, 9 % at 10 %.
     **Source** equilibrium of the parabolic span; limits of 1 to 2 % in DIN 22101.
     """
-    if isinstance(tension, float):  # one span of many that are asked for one by one
-        return np.asarray(span_weight / (8 * tension) if tension > 0 else np.inf)
-    force = np.asarray(tension, float)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(force > 0, span_weight / (8 * np.maximum(force, 0)), np.inf)
+    return over(span_weight, 8 * tension)
 
 
 def tension_at_sag(span_weight: float, ratio: float) -> float:
@@ -52,7 +45,7 @@ def tension_at_sag(span_weight: float, ratio: float) -> float:
     return span_weight / (8 * ratio)
 
 
-def softening(stiffness: float, span_weight: float, tension: ArrayLike) -> FloatArray:
+def softening(stiffness: float, span_weight: float, tension: float | FloatArray) -> FloatArray:
     """How much more a sagging span gives than the belt alone.
 
         f = EA (w l)^2 / (12 S^3),   EA_eff = EA / (1 + f)
@@ -69,6 +62,4 @@ def softening(stiffness: float, span_weight: float, tension: ArrayLike) -> Float
     **Error** as `sag_ratio`, and tangential: valid for a small change of tension about S.
     **Source** H.-J. Ernst, "Der E-Modul von Seilen unter Beruecksichtigung des Durchhanges", Bauingenieur 40 (1965).
     """
-    force = np.asarray(tension, float)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.where(force > 0, stiffness * span_weight**2 / (12 * np.maximum(force, 0) ** 3), np.inf)
+    return over(stiffness * span_weight**2, 12 * tension**3)

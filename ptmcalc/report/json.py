@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -30,21 +30,17 @@ from ptmcalc.contract.result import History
 SCHEMA_VERSION = "1"
 
 
-def _encoder() -> Callable[[Any], str]:
-    """JSON of a value in one line, in which no CI server that reads the log finds a command of its own: `##[...]`.
-
-    What `json` builds anew for each value is built once, where it is there.
-    """
-    build, text = (getattr(json.encoder, name, None) for name in ("c_make_encoder", "encode_basestring"))
-    plain = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
-    if build is None or text is None:
-        return lambda value: plain.encode(value).replace("##", _SIGNS)
-    pieces = build(None, plain.default, text, None, plain.key_separator, plain.item_separator, False, False, False)
-    return lambda value: "".join(pieces(value, 0)).replace("##", _SIGNS)
+_ONE_LINE = json.JSONEncoder(ensure_ascii=False, allow_nan=False, check_circular=False)
 
 
-_SIGNS = "#\\u0023"
-_encode = _encoder()
+def _harmless(text: str) -> str:
+    """JSON in which no CI server that reads the log finds a command of its own: `##[...]`."""
+    return text.replace("##", "#\\u0023")
+
+
+def line(value: Any) -> str:
+    """JSON on one line."""
+    return _harmless(_ONE_LINE.encode(value))
 
 
 def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: bool = False) -> str:
@@ -55,12 +51,12 @@ def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: b
 
 def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]]) -> Iterator[str]:
     """The document bit by bit, of files as their paths and parts."""
-    yield f'{{\n "schema_version": {_encode(SCHEMA_VERSION)},\n'
-    yield f' "tool": {_encode({"name": "ptmcalc", "version": __version__})},\n'
-    yield f' "summary": {_encode(summary)},\n "files": ['
+    yield f'{{\n "schema_version": {line(SCHEMA_VERSION)},\n'
+    yield f' "tool": {line({"name": "ptmcalc", "version": __version__})},\n'
+    yield f' "summary": {line(summary)},\n "files": ['
     before = "\n"
     for path, part in files:
-        yield f'{before}  {{"path": {_encode(path)},\n'
+        yield f'{before}  {{"path": {line(path)},\n'
         yield part
         before = ",\n"
     yield "]}\n"
@@ -73,18 +69,20 @@ def part_of(report: FileReport) -> str:
 
 def part(entry: Mapping[str, Any]) -> str:
     """A line for each diagnostic, assumption, effect, solver, load, check: to be read, and compared line by line."""
-    lines = [f'   "{key}": {_encode(value)}' for key, value in entry.items() if not isinstance(value, list)]
+    one_line = _ONE_LINE.encode
+    lines = [f'   "{key}": {one_line(value)}' for key, value in entry.items() if not isinstance(value, list)]
     for key, value in entry.items():
         if key == "scenes":
             lines.append(f'   "scenes": {_list([_scene_text(scene) for scene in value], 3)}')
         elif isinstance(value, list):
-            lines.append(f'   "{key}": {_list([_encode(one) for one in value], 3)}')
-    return ",\n".join(lines) + "}"
+            lines.append(f'   "{key}": {_list([one_line(one) for one in value], 3)}')
+    return _harmless(",\n".join(lines) + "}")
 
 
 def _scene_text(scene: Mapping[str, Any]) -> str:
+    one_line = _ONE_LINE.encode
     lines = [
-        f'"{key}": ' + (_list([_encode(one) for one in value], 5) if isinstance(value, list) else _encode(value))
+        f'"{key}": ' + (_list([one_line(one) for one in value], 5) if isinstance(value, list) else one_line(value))
         for key, value in scene.items()
     ]
     return "{" + ",\n     ".join(lines) + "}"
@@ -103,12 +101,7 @@ def rows(found: list[dict[str, Any]]) -> str:
 
 def dump(document: Mapping[str, Any]) -> str:
     """JSON text without NaN and Infinity."""
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False).replace("##", _SIGNS) + "\n"
-
-
-def line(value: Any) -> str:
-    """JSON on one line."""
-    return _encode(value)
+    return _harmless(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)) + "\n"
 
 
 def finite(value: float | None) -> float | None:

@@ -7,7 +7,7 @@ these are given as a force.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -100,16 +100,16 @@ class BeltLine:
     """part of the idlers' resistance at rated speed that goes with the speed"""
     tail_pull: float = 0.0
     """what drives at the tail pull in steady motion [N]"""
+    static_resistance: float = field(init=False, compare=False, repr=False)
+    """static resistance left for the drums at the head, at the rim [N]"""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "static_resistance", self.carry.rise + self.back.rise + self.tail_step)
 
     @property
     def tail_step(self) -> float:
         """Static tension behind the tail over that before it [N]."""
         return self.tail_force - self.tail_pull
-
-    @property
-    def static_resistance(self) -> float:
-        """Static resistance left for the drums at the head, at the rim [N]."""
-        return self.carry.rise + self.back.rise + self.tail_step
 
     @property
     def run_off(self) -> float:
