@@ -22,6 +22,7 @@ from ptmcalc.cli.policy import (
     IgnoreOption,
     SelectOption,
     WriteOption,
+    choice_of,
     what_counts,
 )
 
@@ -294,12 +295,13 @@ def check(
         from ptmcalc.cli.pages import begin, write_pages
 
         begin(html, paths)
-    counted = what_counts(select, ignore, baseline, write_baseline, whole=not scene and not shard)
+    choice = choice_of(select, ignore)
+    counted = what_counts(choice, baseline, write_baseline, whole=not scene and not shard)
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
     asked = (tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html))
-    options = Options(*asked, _budget(budget), repairs, run=not validate_only)
+    options = Options(*asked, _budget(budget), repairs, choice, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}
     in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from ptmcalc.contract.report import FileReport
+    from ptmcalc.engine.policy import Choice
 
 SelectOption = Annotated[
     list[str] | None,
@@ -32,16 +33,22 @@ ExitZeroOption = Annotated[
 ]
 
 
+def choice_of(select: list[str] | None, ignore: list[str] | None) -> "Choice":
+    """The checks that `--select` and `--ignore` leave."""
+    from ptmcalc.engine.policy import Choice
+
+    return Choice(prefixes("--select", select), prefixes("--ignore", ignore))
+
+
 def what_counts(
-    select: list[str] | None, ignore: list[str] | None, baseline: str, write_baseline: str, *, whole: bool
+    choice: "Choice", baseline: str, write_baseline: str, *, whole: bool
 ) -> "Callable[[Sequence[FileReport]], Sequence[FileReport]]":
     """What the options of a run make of its reports; they are looked at before it begins.
 
     Of a run over `whole` files it is told what a baseline holds that is no longer there.
     """
-    from ptmcalc.engine.policy import Choice, apart_from, baseline_of, chosen, read_baseline
+    from ptmcalc.engine.policy import apart_from, baseline_of, chosen, read_baseline
 
-    choice = Choice(prefixes("--select", select), prefixes("--ignore", ignore))
     known = read_baseline(Path(baseline)) if baseline else {}
 
     def counted(reports: "Sequence[FileReport]") -> "Sequence[FileReport]":

@@ -35,6 +35,7 @@ from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, changed, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
+from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, without
 from ptmcalc.engine.solve import REPAIR_SECONDS, SearchPurse, solve, variants
@@ -65,6 +66,8 @@ class Options:
     """whether there is somebody who looks at pictures"""
     budget: float = WORK_BUDGET
     repairs: bool = True
+    counting: Choice = ANY
+    """the checks that count; for others no repair is looked for"""
     run: bool = True
     """whether anything is computed; else files are read and validated"""
     today: date | None = None
@@ -370,7 +373,7 @@ class _Assembly:
             element=check.element,
             reason=reason,
             without=without if verdict is not Verdict.NOT_CHECKED else (),
-            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL and self.options.repairs else None,
+            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
             loads=check.loads,
         )
 
@@ -378,7 +381,8 @@ class _Assembly:
         """The value of the repair's key at which the check was seen to pass, in a check of the changed file."""
         scene = self.settled.plan.scene
         path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
-        if not path or not self.purse.most:
+        asked = self.options.repairs and self.options.counting.takes(ruling.check.code)
+        if not asked or not path or not self.purse.most:
             return None
         search = SearchPurse(min(REPAIR_SECONDS, self.purse.most))
         try:

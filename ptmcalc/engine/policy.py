@@ -33,6 +33,9 @@ class Choice:
         return chosen is not None and chosen > (-1 if (left := _longest(code, self.ignore)) is None else left)
 
 
+ANY = Choice()
+
+
 def _longest(code: str, prefixes: Iterable[str]) -> int | None:
     return max((len(prefix) for prefix in prefixes if code.startswith(prefix)), default=None)
 

@@ -20,6 +20,7 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.report import Judgement
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import Loaded, load_text, measure_at
+from ptmcalc.engine.policy import Choice
 from ptmcalc.engine.solve import SearchPurse, solve
 
 SPECS = sorted(
@@ -82,7 +83,8 @@ class Case:
         again = load_text(written(self.loaded, self.path, value), self.loaded.document.name)
         if again.spec is None:
             return None
-        report = check(again, Options(scenes=(self.scene,), repairs=repairs))
+        own = Choice(select=(self.check.code,))
+        report = check(again, Options(scenes=(self.scene,), repairs=repairs, counting=own))
         return next(
             one for _, one in report.judgements if (one.code, one.element) == (self.check.code, self.check.element)
         )

@@ -148,9 +148,9 @@ def test_its_design_files_are_checked(done: dict[str, Done], name: str, status: 
 
 
 def test_the_value_that_passes_is_told(done: dict[str, Done]) -> None:
-    """With the swing's bound inside: 10 kN over 1.1 + 0.0025."""
-    assert "passes with load = 9.069 kN" in done["check overloaded"].out
-    assert done["solve"].out == "load: 9.069 kN   TOY101 just passes\n"
+    """With the swing's bound inside: 10 kN over 1.1 + 0.0025 is 9.0703 kN."""
+    assert "passes with load = 9.07 kN" in done["check overloaded"].out
+    assert done["solve"].out == "load: 9.07 kN   TOY101 just passes\n"
 
 
 def test_its_effect_stands_in_the_plan(done: dict[str, Done]) -> None:

@@ -127,8 +127,8 @@ for k, mutant in enumerate(m for m in mutants(path) if m.lines[1] in sys.argv[2:
 def test_a_fault_that_is_seen_is_told_from_one_that_is_not(tmp_path: Path) -> None:
     """Two faults of one law, tried for real: without friction the sign of its exponent does not show."""
     faults = (
-        "return np.asarray((tight - centrifugal) * np.exp(exponent) / left if left > 0 else np.inf)",
-        "return np.asarray((tight - centrifugal) * np.exp(-exponent) * left if left > 0 else np.inf)",
+        "return over((tight - centrifugal) * np.exp(exponent), slack - centrifugal)",
+        "return over((tight - centrifugal) * np.exp(-exponent), slack + centrifugal)",
     )
     done = python("-c", TRY, tmp_path, *faults)
     assert done.err == ""
@@ -161,8 +161,8 @@ print("told", [found[k].end if k in found else "stale" for k in range(len(drawn)
 def test_faults_in_forks_of_one_process_end_as_in_one_of_their_own(tmp_path: Path) -> None:
     """The two faults from above, and a number of a module that another one took while it was imported."""
     faults = (
-        "return np.asarray((tight - centrifugal) * np.exp(exponent) / left if left > 0 else np.inf)",
-        "return np.asarray((tight - centrifugal) * np.exp(-exponent) * left if left > 0 else np.inf)",
+        "return over((tight - centrifugal) * np.exp(exponent), slack - centrifugal)",
+        "return over((tight - centrifugal) * np.exp(-exponent), slack + centrifugal)",
     )
     done = python("-c", TRY_ALL, tmp_path, *faults)
     assert done.err == ""
