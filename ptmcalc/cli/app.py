@@ -287,6 +287,7 @@ def check(
     from ptmcalc.cli.batch import Run, rendered, tallies_of, write
     from ptmcalc.contract.report import status_of
     from ptmcalc.engine.check import Options
+    from ptmcalc.engine.policy import ANY
     from ptmcalc.report import Format
 
     files = [_target(text) for text in output or ()]
@@ -301,7 +302,8 @@ def check(
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
     asked = (tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html))
-    options = Options(*asked, _budget(budget), repairs, choice, run=not validate_only)
+    sought = ANY if store else choice  # what is kept serves every choice
+    options = Options(*asked, _budget(budget), repairs, sought, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}
     in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all

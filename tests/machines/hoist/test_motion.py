@@ -323,15 +323,18 @@ class TestStiffness:
             assert course.bottom("link", index)[0] >= -1e-9 * course.top("link", index)[0]
 
     def test_a_stiffer_gear_costs_no_more(self) -> None:
-        """What rings fast is passed over by long panels: seconds, by counted panels and crossings, are flat within 30 %
-        over gears from 1e10 to 1e14 N/m and ropes from 1e5 to 1e7 N/m; stiffer ropes let the load jump, and every jump
-        costs some panels and no more, however stiff the gear."""
+        """What rings fast is passed over by long panels: seconds, by counted panels and crossings, are flat within 15 %
+        over gears from 1e10 to 1e14 N/m, and no rope from 1e5 to 1e7 N/m is 15 % dearer than the softest; stiffer ropes
+        let the load jump, and every jump costs some panels and no more, however stiff the gear."""
         spent = {
             (rope, gear): motion.spent(stiff(rope, gear))
             for rope in (1e5, 1e6, 1e7)
             for gear in (1e10, 1e11, 1e12, 1e14)
         }
-        assert max(spent.values()) <= 1.3 * min(spent.values())
+        for rope in (1e5, 1e6, 1e7):
+            over_gears = [seconds for (own, _), seconds in spent.items() if own == rope]
+            assert max(over_gears) <= 1.15 * min(over_gears)
+        assert max(spent.values()) <= 1.15 * spent[1e5, 1e10]
         for rope in (1e8, 1e9):
             for gear in (1e10, 1e12, 1e14):
                 record = stiff(rope, gear).record
