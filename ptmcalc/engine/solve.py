@@ -3,7 +3,9 @@
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 from itertools import islice
+from typing import NamedTuple
 
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
@@ -22,12 +24,13 @@ _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 _MOST_STEPS = 60
 _CLOSE_ENOUGH = 5e-3
 """Of the value: a bracket so narrow is an answer where there are no seconds left to narrow it."""
+_FINEST = 1
+"""The most refinements of a run while a value is looked for: near the limit every one there is would run."""
+_STEP = 0.01
+"""Of the value: a check that still passes so far the wrong way, or its bar, whatever it takes, has no answer yet."""
 REPAIR_SECONDS = 15.0
 """Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
 
-Clearance = Callable[[float], float]
-"""How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the
-check passes from 0 up."""
 Spare = Callable[[Estimate], float]
 """The margin wanted beside a limit."""
 _Bracket = tuple[float, float]
@@ -62,7 +65,6 @@ def solve(
     scene_name: str = "",
     *,
     digits: int = 4,
-    finest: int = 1,
     purse: "SearchPurse | None" = None,
     spare: Spare = lambda limit: 0.0,
 ) -> Solution | None:
@@ -72,8 +74,8 @@ def solve(
     narrowed down, and the value is rounded to so many digits of its unit (a count to a whole number) towards the
     passing side. It is a value at which the check was seen to pass by `spare`, error bar included, with every assumed
     value at both ends of its interval, and which the file may have. Near the limit every refinement would run, which
-    no digit of the value is worth: `finest` is the most a run has. None too when the search is predicted to take more
-    than the `purse` has.
+    no digit of the value is worth; but 1 % the wrong way, or as far as the bar goes, all of them may, and what passes
+    there too is no answer yet. None too when the search is predicted to take more than the `purse` has.
 
     Raises:
         UsageError: the key is not a number of this file.
@@ -88,7 +90,7 @@ def solve(
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    search = _Search(loaded, check, path, scene_name, spare, finest, purse or SearchPurse(math.inf))
+    search = _Search(loaded, check, path, scene_name, spare, purse or SearchPurse(math.inf))
     grid = _Grid(measure.quantity if measure else RATIO, digits, counts)
     try:
         edges = _edges(search, float(present), grid)
@@ -164,12 +166,17 @@ class _Grid:
             middle = self.on(good - step if middle == good else bad + step)
         return middle if min(bad, good) < middle < max(bad, good) else wanted
 
+    def stepped(self, good: float, bad: float, share: float) -> float:
+        """A value a step of that share, or of a whole number, nearer to the failing side, or beyond it."""
+        step = max(math.floor(share * good), 1) if self.counts else share * good
+        return self.on(good + math.copysign(step, bad - good))
+
     def _step(self, value: float) -> float:
         """One in the last digit."""
         factor, places = self._places(value)
         return 1.0 if self.counts else factor * 10.0**-places
 
-    def rounded(self, clearance: Clearance, bad: float, good: float) -> float:
+    def rounded(self, clearance: "_Clearance", bad: float, good: float) -> float:
         """The passing value with few digits, in the unit it is shown in, if that still passes."""
         if self.counts:
             return good
@@ -203,35 +210,24 @@ class _Search:
     path: KeyPath
     scene: str
     spare: Spare
-    finest: int
     purse: SearchPurse
 
-    def clearances(self) -> list[Clearance]:
-        """The machine as it is first."""
+    def clearances(self, finest: float) -> list["_Clearance"]:
+        """Of runs with so many refinements at most: of the machine as it is first."""
         spec = self.loaded.spec
         assert spec is not None
         ends = [(one.path, end) for one, end, _ in variants(spec, self.loaded.assumed) if one.path != self.path]
-        return [self._clearance(None), *map(self._clearance, ends)]
+        return [_Clearance(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
 
-    def _clearance(self, end: tuple[KeyPath, float] | None) -> Clearance:
-        """The worst clearance over the scenes of the check; it remembers what it has tried."""
-        tried: dict[float, float] = {}
-
-        def clearance(value: float) -> float:
-            if value not in tried:
-                tried[value] = self._at(value, end)
-            return tried[value]
-
-        return clearance
-
-    def _at(self, value: float, end: tuple[KeyPath, float] | None) -> float:
+    def _at(self, value: float, end: tuple[KeyPath, float] | None, finest: float) -> "_Clear":
+        """The worst over the scenes of the check."""
         before = self.loaded.spec
         measure = measure_at(before, self.path) if before is not None else None
         if measure is not None and measure.broken_by(value):
-            return -math.inf
+            return _NOT_CLEAR
         spec = changed(self.loaded, self.path, value if measure else int(value)).spec
         if spec is None:
-            return -math.inf
+            return _NOT_CLEAR
         if self.path != ("accuracy",):
             spec = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
         if end is not None:
@@ -241,49 +237,91 @@ class _Search:
             for index, scene in enumerate(spec.all_scenes)
             if self.check.applies_to(scene) and self.scene in ("", scene.label)
         ]
-        return min((self._of_scene(spec, index) for index in wanted), default=-math.inf)
+        return min((self._of_scene(spec, index, finest) for index in wanted), default=_NOT_CLEAR)
 
-    def _of_scene(self, spec: MachineSpec, index: int) -> float:
+    def _of_scene(self, spec: MachineSpec, index: int, finest: float) -> "_Clear":
         kind = self.loaded.kind
         assert kind is not None
         scene = plan_scene(kind, spec, spec.all_scenes[index])
-        settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= self.finest)
+        settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= finest)
         self.purse.pay(settled.spent)
-        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
+        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=_NOT_CLEAR)
 
-    def _of_ruling(self, ruling: Ruling) -> float:
+    def _of_ruling(self, ruling: Ruling) -> "_Clear":
         if ruling.value is None or ruling.limit is None:
-            return -math.inf
+            return _NOT_CLEAR
         if ruling.check.sense is Sense.AT_LEAST:
             clearance = ruling.value.low - ruling.limit.high
         else:
             clearance = ruling.limit.low - ruling.value.high
-        return -math.inf if math.isnan(clearance) else clearance - self.spare(ruling.limit)
+        bar, value = ruling.value.bar, abs(ruling.value.value)
+        share = bar / value if value and math.isfinite(bar) else 0.0
+        return _NOT_CLEAR if math.isnan(clearance) else _Clear(clearance - self.spare(ruling.limit), share)
+
+
+class _Clear(NamedTuple):
+    """How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it, and
+    which share of the value it is; the check passes from 0 up."""
+
+    clearance: float
+    bar: float
+
+
+_NOT_CLEAR = _Clear(-math.inf, 0.0)
+
+
+class _Clearance:
+    """The clearance of a check as a function of a key; it remembers what it has tried."""
+
+    def __init__(self, judge: Callable[[float], _Clear]) -> None:
+        self._judged = cache(judge)
+
+    def __call__(self, value: float) -> float:
+        return self._judged(value).clearance
+
+    def bar(self, value: float) -> float:
+        """As a share of what is judged."""
+        return self._judged(value).bar
 
 
 def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
     """Where the check just passes, whatever is assumed: next to the present value, and where the check forbids a band
     on the other side too."""
-    clearances = search.clearances()
+    clearances = search.clearances(_FINEST)
     found: list[float] = []
     for place in range(2 if search.check.forbids_band else 1):
-        clearance: Clearance | None = clearances[0]
-        good = math.nan
+        clearance: _Clearance | None = clearances[0]
+        good = bad = math.nan
         for _ in clearances:
             if clearance is None:
                 break
             bracket = next(islice(_brackets(clearance, present, grid), place, None), None)
             if bracket is None:
                 return found
-            good = grid.rounded(clearance, *_narrow(clearance, *bracket, grid))
+            bad, good = _narrow(clearance, *bracket, grid)
+            good = grid.rounded(clearance, bad, good)
             clearance = next((other for other in clearances if other(good) < 0), None)
         if clearance is not None:
             return found
-        found.append(good)
+        found.append(_weakest(search.clearances(math.inf), good, bad, clearances[0].bar(good), grid))
     return found
 
 
-def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
+def _weakest(clearances: Sequence[_Clearance], good: float, bad: float, bar: float, grid: _Grid) -> float:
+    """The last value that passes, in steps of 1 % or the bar from one that is known to, by all refinements there are:
+    where a key matters little, the finer bar moves its edge by more than such a step."""
+    for _ in range(_MOST_STEPS):
+        further = grid.stepped(good, bad, max(_STEP, bar))
+        try:
+            if any(clearance(further) < 0 for clearance in clearances):
+                return good
+        except _SpentError:
+            return good
+        good, bad = further, bad + (further - good)
+    return good
+
+
+def _brackets(clearance: _Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
     """Changes between fail and pass, one on each side of the present value, as they are met in steps outwards."""
     passes = clearance(present) >= 0
     reached = {1: present, -1: present}
@@ -297,7 +335,7 @@ def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Br
                 reached[side] = candidate
 
 
-def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
+def _narrow(clearance: _Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
     halved where the clearance is not finite."""
     weight = 1.0

@@ -103,10 +103,13 @@ def happening(spec: Stacker, scene: StackerScene, *, gravity: bool) -> Happening
     if push.kind == "ramp":
         path, lasts = ramp(speed, push.size if starts else -push.size, push.rise)
         return Happening(column, Base(column.base, at_first, path=path), lasts, push.rise, push.size)
-    force = Signal.rising(push.size, push.delay, push.rise)
+    size = max(push.size, 0.0)  # a drive that does not overcome the resistance moves nothing
+    force = Signal.rising(size, push.delay, push.rise)
     grip = Grip("drive", force, speed) if starts else Grip("brake", force)
-    lasts = push.delay + max(push.rise, push.rise / 2 + column.total * speed / push.size)
-    return Happening(column, Base(column.base, at_first, grips=(grip,)), lasts, push.rise, push.size)
+    rigid = push.rise / 2 + column.total * speed / size if size > 0 else 0.0
+    return Happening(
+        column, Base(column.base, at_first, grips=(grip,)), push.delay + max(push.rise, rigid), push.rise, size
+    )
 
 
 def _collision(spec: Stacker, scene: ObstacleScene, speed: float, gravity: bool) -> Happening:
