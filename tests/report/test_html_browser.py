@@ -73,6 +73,8 @@ window.addEventListener("load", function () {
   all(document, "figure, .wrap, .source, .verdict, .tiles li, h1, h2, h3, p").forEach(function (one) {
     if (one.getBoundingClientRect().right > innerWidth + 1) said.outside.push(one.textContent.trim().slice(0, 40));
   });
+  function scrolls(one) { return one.scrollWidth > one.clientWidth + 1; }
+  said.scrolled = all(document, ".wrap").filter(scrolls).length;
   said.wide = document.documentElement.scrollWidth - innerWidth;
   said.width = innerWidth;
   var out = document.createElement("pre"); out.id = "measured"; out.textContent = JSON.stringify(said);
@@ -148,6 +150,14 @@ def test_the_index_fits_too(width: int, tmp_path: Path) -> None:
     pages = dict(html.site([reported(path) for path in SPECS], lambda report: ""))
     found = measured(pages[html.INDEX], MEASURE, width, tmp_path)
     assert (found["wide"] <= 0, found["overlaps"], found["outside"], found["resources"]) == (True, [], [], [])
+
+
+def test_on_a_wide_screen_no_column_of_the_index_is_hidden(tmp_path: Path) -> None:
+    """Nor where paths and intervals are the longest of all."""
+    paths = [*SPECS, "specs/hoist/winding_paper/height_25_rope_17_5.yaml"]
+    pages = dict(html.site([reported(path) for path in paths], lambda report: ""))
+    assert measured(pages[html.INDEX], MEASURE, 1280, tmp_path)["scrolled"] == 0
+    assert measured(pages[html.INDEX], MEASURE, 390, tmp_path)["scrolled"] == 1
 
 
 def test_the_index_is_sorted_by_a_button_that_has_the_focus(tmp_path: Path) -> None:
