@@ -2,10 +2,9 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from itertools import islice
-from typing import NamedTuple
 
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
@@ -27,10 +26,13 @@ _CLOSE_ENOUGH = 5e-3
 _FINEST = 1
 """The most refinements of a run while a value is looked for: near the limit every one there is would run."""
 _STEP = 0.01
-"""Of the value: a check that still passes so far the wrong way, or its bar, whatever it takes, has no answer yet."""
+"""Of the value: what still passes so far the wrong way, by whatever runs there are, is no answer yet."""
 REPAIR_SECONDS = 15.0
 """Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
 
+Clearance = Callable[[float], float]
+"""How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the
+check passes from 0 up."""
 Spare = Callable[[Estimate], float]
 """The margin wanted beside a limit."""
 _Bracket = tuple[float, float]
@@ -74,8 +76,8 @@ def solve(
     narrowed down, and the value is rounded to so many digits of its unit (a count to a whole number) towards the
     passing side. It is a value at which the check was seen to pass by `spare`, error bar included, with every assumed
     value at both ends of its interval, and which the file may have. Near the limit every refinement would run, which
-    no digit of the value is worth; but 1 % the wrong way, or as far as the bar goes, all of them may, and what passes
-    there too is no answer yet. None too when the search is predicted to take more than the `purse` has.
+    no digit of the value is worth; but 1 % the wrong way all of them may, and what passes there too is no answer yet.
+    None too when the search is predicted to take more than the `purse` has.
 
     Raises:
         UsageError: the key is not a number of this file.
@@ -166,17 +168,17 @@ class _Grid:
             middle = self.on(good - step if middle == good else bad + step)
         return middle if min(bad, good) < middle < max(bad, good) else wanted
 
-    def stepped(self, good: float, bad: float, share: float) -> float:
-        """A value a step of that share, or of a whole number, nearer to the failing side, or beyond it."""
-        step = max(math.floor(share * good), 1) if self.counts else share * good
-        return self.on(good + math.copysign(step, bad - good))
+    def step(self, value: float, share: float) -> float:
+        """So large a share of a value, or a whole number."""
+        size = share * abs(value)
+        return max(math.floor(size), 1) if self.counts else size
 
     def _step(self, value: float) -> float:
         """One in the last digit."""
         factor, places = self._places(value)
         return 1.0 if self.counts else factor * 10.0**-places
 
-    def rounded(self, clearance: "_Clearance", bad: float, good: float) -> float:
+    def rounded(self, clearance: Clearance, bad: float, good: float) -> float:
         """The passing value with few digits, in the unit it is shown in, if that still passes."""
         if self.counts:
             return good
@@ -212,22 +214,22 @@ class _Search:
     spare: Spare
     purse: SearchPurse
 
-    def clearances(self, finest: float) -> list["_Clearance"]:
+    def clearances(self, finest: float) -> list[Clearance]:
         """Of runs with so many refinements at most: of the machine as it is first."""
         spec = self.loaded.spec
         assert spec is not None
         ends = [(one.path, end) for one, end, _ in variants(spec, self.loaded.assumed) if one.path != self.path]
-        return [_Clearance(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
+        return [cache(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
 
-    def _at(self, value: float, end: tuple[KeyPath, float] | None, finest: float) -> "_Clear":
+    def _at(self, value: float, end: tuple[KeyPath, float] | None, finest: float) -> float:
         """The worst over the scenes of the check."""
         before = self.loaded.spec
         measure = measure_at(before, self.path) if before is not None else None
         if measure is not None and measure.broken_by(value):
-            return _NOT_CLEAR
+            return -math.inf
         spec = changed(self.loaded, self.path, value if measure else int(value)).spec
         if spec is None:
-            return _NOT_CLEAR
+            return -math.inf
         if self.path != ("accuracy",):
             spec = spec.model_copy(update={"accuracy": None})  # a verdict is wanted, not digits
         if end is not None:
@@ -237,51 +239,24 @@ class _Search:
             for index, scene in enumerate(spec.all_scenes)
             if self.check.applies_to(scene) and self.scene in ("", scene.label)
         ]
-        return min((self._of_scene(spec, index, finest) for index in wanted), default=_NOT_CLEAR)
+        return min((self._of_scene(spec, index, finest) for index in wanted), default=-math.inf)
 
-    def _of_scene(self, spec: MachineSpec, index: int, finest: float) -> "_Clear":
+    def _of_scene(self, spec: MachineSpec, index: int, finest: float) -> float:
         kind = self.loaded.kind
         assert kind is not None
         scene = plan_scene(kind, spec, spec.all_scenes[index])
         settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= finest)
         self.purse.pay(settled.spent)
-        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=_NOT_CLEAR)
+        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
-    def _of_ruling(self, ruling: Ruling) -> "_Clear":
+    def _of_ruling(self, ruling: Ruling) -> float:
         if ruling.value is None or ruling.limit is None:
-            return _NOT_CLEAR
+            return -math.inf
         if ruling.check.sense is Sense.AT_LEAST:
             clearance = ruling.value.low - ruling.limit.high
         else:
             clearance = ruling.limit.low - ruling.value.high
-        bar, value = ruling.value.bar, abs(ruling.value.value)
-        share = bar / value if value and math.isfinite(bar) else 0.0
-        return _NOT_CLEAR if math.isnan(clearance) else _Clear(clearance - self.spare(ruling.limit), share)
-
-
-class _Clear(NamedTuple):
-    """How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it, and
-    which share of the value it is; the check passes from 0 up."""
-
-    clearance: float
-    bar: float
-
-
-_NOT_CLEAR = _Clear(-math.inf, 0.0)
-
-
-class _Clearance:
-    """The clearance of a check as a function of a key; it remembers what it has tried."""
-
-    def __init__(self, judge: Callable[[float], _Clear]) -> None:
-        self._judged = cache(judge)
-
-    def __call__(self, value: float) -> float:
-        return self._judged(value).clearance
-
-    def bar(self, value: float) -> float:
-        """As a share of what is judged."""
-        return self._judged(value).bar
+        return -math.inf if math.isnan(clearance) else clearance - self.spare(ruling.limit)
 
 
 def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
@@ -290,7 +265,7 @@ def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
     clearances = search.clearances(_FINEST)
     found: list[float] = []
     for place in range(2 if search.check.forbids_band else 1):
-        clearance: _Clearance | None = clearances[0]
+        clearance: Clearance | None = clearances[0]
         good = bad = math.nan
         for _ in clearances:
             if clearance is None:
@@ -303,25 +278,43 @@ def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
             clearance = next((other for other in clearances if other(good) < 0), None)
         if clearance is not None:
             return found
-        found.append(_weakest(search.clearances(math.inf), good, bad, clearances[0].bar(good), grid))
+        found.append(_weakest(search, good, bad, grid))
     return found
 
 
-def _weakest(clearances: Sequence[_Clearance], good: float, bad: float, bar: float, grid: _Grid) -> float:
-    """The last value that passes, in steps of 1 % or the bar from one that is known to, by all refinements there are:
-    where a key matters little, the finer bar moves its edge by more than such a step."""
-    for _ in range(_MOST_STEPS):
-        further = grid.stepped(good, bad, max(_STEP, bar))
-        try:
-            if any(clearance(further) < 0 for clearance in clearances):
-                return good
-        except _SpentError:
-            return good
-        good, bad = further, bad + (further - good)
-    return good
+def _weakest(search: _Search, good: float, bad: float, grid: _Grid) -> float:
+    """The last value that passes, to 1 % or a whole number, by all refinements there are: where a key matters little,
+    or a bar is wide, they move the edge by more than that. It may take as many seconds again as the search.
+
+    Raises:
+        _SpentError: it has found the edge to move, and has no seconds to find where to.
+    """
+    finish = replace(search, purse=SearchPurse(search.purse.most))
+    clearances = finish.clearances(math.inf)
+
+    def passes(value: float) -> bool:
+        return all(clearance(value) >= 0 for clearance in clearances)
+
+    def narrowed(good: float, bad: float) -> float:
+        while abs(bad - good) > grid.step(good, _STEP):
+            middle = grid.on((good + bad) / 2)
+            good, bad = (middle, bad) if passes(middle) else (good, middle)
+        return good
+
+    share = 0.95 * _STEP  # so that halves of what is passed over are narrow enough
+    step = math.copysign(1.0, bad - good)
+    try:
+        for _ in range(_MOST_STEPS):
+            further = grid.on(good + step * grid.step(good, share))
+            if not passes(further):
+                return narrowed(good, further)
+            good, share = further, 2 * share
+        return good
+    finally:
+        search.purse.spent += finish.purse.spent
 
 
-def _brackets(clearance: _Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
+def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Bracket]:
     """Changes between fail and pass, one on each side of the present value, as they are met in steps outwards."""
     passes = clearance(present) >= 0
     reached = {1: present, -1: present}
@@ -335,7 +328,7 @@ def _brackets(clearance: _Clearance, present: float, grid: _Grid) -> Iterator[_B
                 reached[side] = candidate
 
 
-def _narrow(clearance: _Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
+def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
     halved where the clearance is not finite."""
     weight = 1.0
