@@ -28,7 +28,8 @@ _FINEST = 1
 _STEP = 0.01
 """Of the value: what still passes so far the wrong way, by whatever runs there are, is no answer yet."""
 REPAIR_SECONDS = 15.0
-"""Predicted work that looking for a repair may take; `solve`, which is asked for one, has no such limit."""
+"""Predicted work that looking for a repair may take, and as much again narrowing it by every run there is; `solve`, which
+is asked for one, has no such limit."""
 
 Clearance = Callable[[float], float]
 """How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the
@@ -168,7 +169,7 @@ class _Grid:
             middle = self.on(good - step if middle == good else bad + step)
         return middle if min(bad, good) < middle < max(bad, good) else wanted
 
-    def step(self, value: float, share: float) -> float:
+    def stride(self, value: float, share: float) -> float:
         """So large a share of a value, or a whole number."""
         size = share * abs(value)
         return max(math.floor(size), 1) if self.counts else size
@@ -296,7 +297,7 @@ def _weakest(search: _Search, good: float, bad: float, grid: _Grid) -> float:
         return all(clearance(value) >= 0 for clearance in clearances)
 
     def narrowed(good: float, bad: float) -> float:
-        while abs(bad - good) > grid.step(good, _STEP):
+        while abs(bad - good) > grid.stride(good, _STEP):
             middle = grid.on((good + bad) / 2)
             good, bad = (middle, bad) if passes(middle) else (good, middle)
         return good
@@ -305,7 +306,7 @@ def _weakest(search: _Search, good: float, bad: float, grid: _Grid) -> float:
     step = math.copysign(1.0, bad - good)
     try:
         for _ in range(_MOST_STEPS):
-            further = grid.on(good + step * grid.step(good, share))
+            further = grid.on(good + step * grid.stride(good, share))
             if not passes(further):
                 return narrowed(good, further)
             good, share = further, 2 * share
