@@ -28,8 +28,8 @@ _FINEST = 1
 _STEP = 0.01
 """Of the value: what still passes so far the wrong way, by whatever runs there are, is no answer yet."""
 REPAIR_SECONDS = 15.0
-"""Predicted work that looking for a repair may take, and as much again narrowing it by every run there is; `solve`, which
-is asked for one, has no such limit."""
+"""Predicted work that looking for a repair may take, and narrowing it by every run there is as much again; `solve`
+has no such limit."""
 
 Clearance = Callable[[float], float]
 """How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the
