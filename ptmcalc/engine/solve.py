@@ -20,6 +20,8 @@ from ptmcalc.spec.machine import MachineSpec
 
 _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 """How far from the present value others are tried, in decades on either side."""
+_FARTHEST = 1e3
+"""How many times the present value a solution may be, or the present value it."""
 _MOST_STEPS = 60
 _CLOSE_ENOUGH = 5e-3
 """Of the value: a bracket so narrow is an answer where there are no seconds left to narrow it."""
@@ -279,13 +281,18 @@ def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
             clearance = next((other for other in clearances if other(good) < 0), None)
         if clearance is not None:
             return found
-        found.append(_weakest(search, good, bad, grid))
+        farthest = present * (_FARTHEST if abs(bad) > abs(good) else 1 / _FARTHEST)
+        edge = _weakest(search, good, farthest, grid)
+        if edge is None:
+            return found
+        found.append(edge)
     return found
 
 
-def _weakest(search: _Search, good: float, bad: float, grid: _Grid) -> float:
+def _weakest(search: _Search, good: float, farthest: float, grid: _Grid) -> float | None:
     """The last value that passes, to 1 % or a whole number, by all refinements there are: where a key matters little,
     or a bar is wide, they move the edge by more than that. It may take as many seconds again as the search.
+    None where they pass as far as values are looked at.
 
     Raises:
         _SpentError: it has found the edge to move, and has no seconds to find where to.
@@ -303,14 +310,16 @@ def _weakest(search: _Search, good: float, bad: float, grid: _Grid) -> float:
         return good
 
     share = 0.95 * _STEP  # so that halves of what is passed over are narrow enough
-    step = math.copysign(1.0, bad - good)
+    step = math.copysign(1.0, farthest - good)
     try:
-        for _ in range(_MOST_STEPS):
+        while good != farthest:
             further = grid.on(good + step * grid.stride(good, share))
+            if (further - farthest) * step > 0:
+                further = farthest
             if not passes(further):
                 return narrowed(good, further)
             good, share = further, 2 * share
-        return good
+        return None
     finally:
         search.purse.spent += finish.purse.spent
 

@@ -122,6 +122,17 @@ def test_what_a_step_the_wrong_way_passes_too_is_no_answer(fine: float) -> None:
     assert edge * (1 - 0.0101) <= found <= edge
 
 
+@pytest.mark.parametrize("power", [1, -1])
+def test_a_key_that_all_refinements_let_be_anything_has_no_boundary(power: int) -> None:
+    """A pull of 9 kN whatever the load: what 5 kN of it bounds is the bar of the runs of the search alone."""
+
+    def run(spec: Any, scene: Any, carried: frozenset[str], level: int) -> Result:
+        bar = KN * (spec.load / (5 * KN)) ** power if level < 3 else 0.0
+        return Result({"pull": Found(Estimate.within(9 * KN, bar))})
+
+    assert solution(kind_of(replace(solver("top", pull(0)), run=run, levels=4)), "load", load="6 kN") is None
+
+
 def test_the_bound_of_an_effect_is_included() -> None:
     swinging = kind_of(STATICS, effects=[effect("swing", bound=Interval(0, KN))])
     assert value(swinging, "load", load="12 kN", shock=1) == pytest.approx(9 * KN, rel=1e-9)
