@@ -318,7 +318,8 @@ def check(
                 write(Path(name), [histories.render(reports)])
         if html and not run.interrupted:
             write_pages(html, reports)
-        say_all(rendered(chosen, reports, verbose, to_terminal=terminal), commands=chosen is Format.GITHUB)
+        as_it_is = chosen in (Format.GITHUB, Format.JSON)
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal), as_it_is=as_it_is)
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))

@@ -27,13 +27,13 @@ def steady_streams() -> None:
             stream.reconfigure(encoding=None if chosen else "utf-8", errors="replace")
 
 
-def _in_its_signs(text: str, stream: TextIO, *, commands: bool) -> str:
+def _in_its_signs(text: str, stream: TextIO, *, as_it_is: bool) -> str:
     """A text as a stream can show it; what it still cannot is printed as `?`.
 
     CI servers read what is printed: a line that begins as a command to them, of a file or a machine that is called
-    so, gets a backslash in front of it, unless the text holds `commands` of ours.
+    so, gets a backslash in front of it. A text that goes out `as_it_is` holds no commands but ours.
     """
-    if not commands:
+    if not as_it_is and ("::" in text or "##" in text):
         text = _COMMAND.sub(r"\\\g<0>", text)
     encoding = stream.encoding or "utf-8"
     try:
@@ -45,24 +45,24 @@ def _in_its_signs(text: str, stream: TextIO, *, commands: bool) -> str:
     return text
 
 
-def say_all(pieces: Iterable[str], *, commands: bool = False) -> None:
+def say_all(pieces: Iterable[str], *, as_it_is: bool = False) -> None:
     """Print texts one after the other, as `say` does."""
     if sys.stdout.isatty():
         for piece in pieces:
-            say(piece, commands=commands)
+            say(piece, as_it_is=as_it_is)
         return
     try:
-        sys.stdout.writelines(_in_its_signs(piece, sys.stdout, commands=commands) for piece in pieces)
+        sys.stdout.writelines(_in_its_signs(piece, sys.stdout, as_it_is=as_it_is) for piece in pieces)
         sys.stdout.flush()
     except BrokenPipeError:
         _let_go(sys.stdout)
 
 
-def say(text: str, *, err: bool = False, commands: bool = False) -> None:
+def say(text: str, *, err: bool = False, as_it_is: bool = False) -> None:
     """Print a text. A reader that has gone away (`| head`) changes no exit status."""
     stream = sys.stderr if err else sys.stdout
     try:
-        stream.write(_in_its_signs(text, stream, commands=commands))
+        stream.write(_in_its_signs(text, stream, as_it_is=as_it_is))
         stream.flush()
     except BrokenPipeError:
         _let_go(stream)
