@@ -236,6 +236,21 @@ class TestWhatIsWrong:
         assert report.verdict == "fail"
 
     @pytest.mark.parametrize(
+        ("torque", "layer", "hook"),
+        [(24.0, 2, None), (26.0, 3, None), (27.5, 4, None), (29.0, 0, None), (20.0, 0, None), (24.0, 0, "0 m")],
+    )
+    @pytest.mark.parametrize("scene", [{"type": "lower_brake"}, {"type": "stop", "direction": "down"}])
+    def test_a_brake_that_holds_at_the_bottom_only_says_from_where_on_it_does_not(
+        self, torque: float, layer: int, hook: str | None, scene: dict[str, Any]
+    ) -> None:
+        """Pull on the drum falls with the rope's weight, the radius grows by the rope's diameter a layer."""
+        report = report_of(
+            changed(PAPER, brake__torque=f"{torque} N*m", scenes=[scene | ({"hook_height": hook} if hook else {})])
+        )
+        said = [one for one in report.diagnostics if one.code == "NUM104"]
+        assert [f"on layer {layer}, it does not" in one.message for one in said] == [True] * bool(layer)
+
+    @pytest.mark.parametrize(
         ("brake", "scene"),
         [
             ({"torque": "60 N*m"}, {"type": "stop", "direction": "up"}),

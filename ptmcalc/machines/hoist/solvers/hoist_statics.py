@@ -1,11 +1,12 @@
 """Hoisting and lowering at an even speed: rope, drum, torques, brake, heat."""
 
 import math
+from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.duty_motor import DutyMotor
-from ptmcalc.contract.result import Found, Result, of
+from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist import drive, model
@@ -15,6 +16,9 @@ from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
 
 Numbers = dict[str, float]
+
+_ONTO = 1 + 1e-9
+"""Of the height at which a layer begins: there the rope still lies on the layer below."""
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
@@ -222,7 +226,29 @@ def hold(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) ->
     **Error** exact for that model.
     **Source** power balance of the gearbox (`laws.hoisting`).
     """
-    return Result(_of_the_brake(spec, scene), work=1)
+    return Result(_of_the_brake(spec, scene), work=1, findings=tuple(_where_the_brake_lets_go(spec, scene)))
+
+
+def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding]:
+    """Of a stop from lowering that names no height: the layer on which the brake first does not hold, if there is one.
+
+    The stop is simulated with the hook at its lowest; the check of the closed brake takes the worst height.
+    """
+    if scene.hook_height is not None or (isinstance(scene, Stop) and scene.direction == "up"):
+        return
+    mass = model.hook_mass(spec, scene)
+    for layer, height in enumerate(model.layer_heights(spec), 1):
+        held = drive.held(spec, mass, height * _ONTO)
+        if held is None or held.reserve >= 1:
+            continue
+        if layer > 1:
+            said = units.show(height, units.SPAN)
+            message = (
+                f"scene `{scene.label}` takes the hook at its lowest, where the brake holds the load; from {said} up,"
+                f" with the rope on layer {layer}, it does not"
+            )
+            yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to see such a stop")
+        return
 
 
 HOLDING: Solver[Hoist, HoistScene] = Solver(
