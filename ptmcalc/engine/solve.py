@@ -340,14 +340,14 @@ def _brackets(clearance: Clearance, present: float, grid: _Grid) -> Iterator[_Br
 
 def _narrow(clearance: Clearance, bad: float, good: float, grid: _Grid) -> _Bracket:
     """A narrow bracket round the change from fail to pass: secant steps kept away from its ends,
-    halved where the clearance is not finite."""
+    halved where the clearance is not finite, or 0 as that of a count at its limit."""
     weight = 1.0
     for _ in range(_MOST_STEPS):
         if grid.close(bad, good):
             break
         below, above = clearance(bad) * weight, clearance(good)
         share = 0.5
-        if math.isfinite(below) and math.isfinite(above):
+        if math.isfinite(below) and math.isfinite(above) and above > 0:
             share = min(max(below / (below - above), 0.02), 0.98)
         middle = grid.between(bad, good, share)
         try:

@@ -106,6 +106,13 @@ def test_a_curved_boundary_is_found_as_well(power: float, boundary: float, start
     assert found >= boundary * KN * (1 - 1.3e-3)  # a bracket of 3e-4, and one unit of the last digit
 
 
+@pytest.mark.parametrize("start", ["3.4 kN", "12 kN", "90 kN"])
+def test_the_edge_of_a_count_is_found_as_well(start: str) -> None:
+    """So many pieces of 3.3 kN as the load takes, at most two: the clearance is 0 or a whole number everywhere."""
+    kind = finds(lambda spec: Estimate.exact(LIMIT / 2 * math.ceil(spec.load / (3.3 * KN))))
+    assert value(kind, "load", load=start) == pytest.approx(6.6 * KN, rel=6e-4)
+
+
 @pytest.mark.parametrize("fine", [1e-4, 3e-3])
 def test_what_a_step_the_wrong_way_passes_too_is_no_answer(fine: float) -> None:
     """Pull = 10 kN (load/5 kN)^(1/20), known to 0.4 % by the runs of the search: that alone ends 8 % below 5 kN.

@@ -4,7 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.checks import RUNNING, OneCheck, loaded
@@ -66,7 +66,7 @@ LAYERS: OneCheck = only(loaded)(
         limit=_layers_limit,
         needs=no_needs,
         blame=blames("drum", "layers"),
-        repair=no_repair,
+        repair=at("drum", "length"),
         what="With the hook at its highest the rope lies in no more layers than the file, or its group, allows.",
         why="Each layer crushes the one below, and at every crossover the rope is jolted.",
         formula="layers(l) <= n",
