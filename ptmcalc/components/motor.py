@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +10,7 @@ from pydantic import Field
 from pydantic_core import PydanticCustomError
 
 from ptmcalc.base import units
+from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import motor
 from ptmcalc.spec.fields import (
     Measure,
@@ -69,6 +70,9 @@ class Stage:
 class Motor(Fragment):
     """What every motor has: a torque over speed and time, and a rating."""
 
+    size_key: ClassVar[str] = ""
+    """the number that all its torques grow with, where there is one"""
+
     largest_torque: PositiveTorque | None = None
     """the most the motor may be loaded with for a short time (overload limit); needed to check it"""
 
@@ -117,6 +121,7 @@ class RatedMotor(Motor):
 class ConstantMotor(RatedMotor):
     """A motor that gives the same torque at every speed."""
 
+    size_key: ClassVar[str] = "torque"
     type: Literal["constant"]
     constant: PositiveTorque = Field(alias="torque")
     """the torque"""
@@ -134,6 +139,7 @@ class ConstantMotor(RatedMotor):
 class LinearMotor(RatedMotor):
     """A motor whose torque falls in a straight line with its speed, as a DC motor's, beyond both ends too."""
 
+    size_key: ClassVar[str] = "starting_torque"
     type: Literal["linear"]
     starting_torque: PositiveTorque
     """torque at rest"""
@@ -148,6 +154,7 @@ class LinearMotor(RatedMotor):
 class InductionBase(Motor):
     """What a cage motor and a slip-ring motor share: rating, and the natural curve of Kloss."""
 
+    size_key: ClassVar[str] = "power"
     power: PositivePower
     """rated power on the shaft"""
     speed: PositiveAngularSpeed
@@ -308,6 +315,7 @@ class RheostatMotor(InductionBase):
 class ConverterMotor(RatedMotor):
     """A motor on a frequency converter: it follows a ramp of speed, softly, up to a limit of torque."""
 
+    size_key: ClassVar[str] = "torque_limit"
     type: Literal["converter"]
     power: PositivePower | None = None
     """rated power on the shaft, or give `rated_torque`"""
@@ -435,6 +443,14 @@ AnyMotor = Annotated[
     Field(discriminator="type"),
 ]
 """A motor, told by its `type`."""
+
+
+def number_at(path: KeyPath, curve: AnyMotor | None) -> KeyPath:
+    """The number that a key stands for: where it names the curve of a motor, the one all its torques grow with; none
+    where there is no such number."""
+    if path[-1] != "curve":
+        return path
+    return (*path, curve.size_key) if curve is not None and curve.size_key else ()
 
 
 def _natural_curve(given: Given) -> tuple[float, float, float] | None:

@@ -19,6 +19,7 @@ from ptmcalc.components.motor import (
     RheostatMotor,
     Stage,
     TableMotor,
+    number_at,
 )
 from ptmcalc.spec.machine import replaced
 from ptmcalc.spec.shape import example_of, keys_of, measure_of
@@ -337,3 +338,31 @@ def test_the_types() -> None:
     assert types == {ConstantMotor, LinearMotor, InductionMotor, RheostatMotor, ConverterMotor, TableMotor}
     with pytest.raises(ValidationError, match="type"):
         READER.validate_python({"torque": "3 N*m"})
+
+
+@pytest.mark.parametrize(
+    ("data", "key"),
+    [
+        (CONSTANT, "torque"),
+        (LINEAR, "starting_torque"),
+        (INDUCTION, "power"),
+        (RHEOSTAT, "power"),
+        (BY_TIME, "power"),
+        (CONVERTER, "torque_limit"),
+    ],
+    ids=["constant", "linear", "induction", "rheostat", "rheostat by time", "converter"],
+)
+def test_the_number_behind_a_curve_makes_every_torque_of_it_larger(data: dict[str, Any], key: str) -> None:
+    """In proportion, or to a larger limit."""
+    assert number_at(("drive", "motor", "curve"), read(data)) == ("drive", "motor", "curve", key)
+    number, unit = data[key].split()
+    larger = read(data, **{key: f"{1.25 * float(number)} {unit}"})
+    stages = list(zip(read(data).stages, larger.stages, strict=True))
+    for before, after in stages:
+        assert after.torque(0.0) == pytest.approx(1.25 * before.torque(0.0), rel=1e-9)
+
+
+def test_a_table_has_no_such_number_and_other_keys_stand_for_themselves() -> None:
+    assert number_at(("motor", "curve"), read(TABLE)) == ()
+    assert number_at(("motor", "curve"), None) == ()
+    assert number_at(("motor", "mean_starting_torque"), read(TABLE)) == ("motor", "mean_starting_torque")

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import tension_key
@@ -23,8 +24,7 @@ def torque_key(spec: ChainDrive) -> KeyPath:
 
 
 def _torque_repair(spec: ChainDrive, scene: Start) -> KeyPath:
-    key = torque_key(spec)
-    return () if key[-1] == "curve" else key
+    return number_at(torque_key(spec), drive_of(spec).motor.curve)
 
 
 def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
@@ -36,7 +36,7 @@ def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
 
 def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
     key = _profile_key(spec, scene)
-    return () if key[-1] in ("curve", "points") else key
+    return () if key[-1] == "points" else number_at(key, drive_of(spec).motor.curve)
 
 
 # -- strong enough --------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
@@ -28,8 +29,7 @@ def _torque_key(spec: Hoist, scene: Run) -> KeyPath:
 
 
 def _torque_repair(spec: Hoist, scene: Run) -> KeyPath:
-    key = _torque_key(spec, scene)
-    return key if key[-1] != "curve" else ()
+    return number_at(_torque_key(spec, scene), spec.motor.curve if spec.motor else None)
 
 
 def _gearbox(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.moving import Moving, case_of
@@ -83,8 +84,11 @@ def _lift_limit(spec: Hoist, scene: Lift) -> Estimate:
 
 def _stall_repair(spec: Hoist, scene: Lift) -> KeyPath:
     """The torque that lifts, where one number says it."""
-    given = spec.motor is not None and spec.motor.mean_starting_torque is not None
-    return ("motor", "mean_starting_torque") if given and scene.profile.shape != "curve" else ()
+    if spec.motor is None:
+        return ()
+    if scene.profile.shape == "curve":
+        return number_at(("motor", "curve"), spec.motor.curve)
+    return ("motor", "mean_starting_torque") if spec.motor.mean_starting_torque is not None else ()
 
 
 STALL: Check[Hoist, Lift] = Check(

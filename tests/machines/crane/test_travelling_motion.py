@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 from support import travel_ode
-from support.machines import changed, load_of, report_of, scene_of
+from support.machines import changed, check_of, load_of, report_of, scene_of
 from support.travel_ode import Machine
 from support.travelling import BRIDGE, as_file, crane, crane_of, scene_report, value
 
+from ptmcalc.contract.report import Judgement
 from ptmcalc.contract.result import Found
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
@@ -165,6 +166,23 @@ def test_a_motor_that_does_not_come_to_full_speed_stalls() -> None:
     scene = scene_report(changed(BRIDGE, drive__acceleration=None, drive__motor=motor))
     assert "stall" in load_of(scene, "start_time").note
     assert {one.code: one.verdict for one in scene.checks}["CRN150"] == "fail"
+
+
+def test_a_curve_too_weak_is_told_the_number_it_grows_with() -> None:
+    """A straight line from 30 N*m: the torque that brings the crane to speed in time, and 1 % less does not."""
+
+    def judged(torque: float) -> Judgement:
+        curve = {"type": "linear", "starting_torque": f"{torque} N*m", "no_load_speed": "220 rad/s"}
+        motor = {"count": 2, "inertia": "0.006 kg*m^2", "coupling_inertia": "0.002 kg*m^2", "curve": curve}
+        data = changed(BRIDGE, rail__adhesion=0.9, drive__acceleration=None, drive__motor=motor)
+        return check_of(scene_report(data | {"checks": {"start_time": "5 s"}}, repairs=True), "CRN150")
+
+    failing = judged(20)
+    assert failing.verdict == "fail"
+    assert failing.repair is not None
+    assert failing.repair.path == ("drive", "motor", "curve", "starting_torque")
+    assert judged(failing.repair.value).verdict == "pass"
+    assert judged(0.99 * failing.repair.value).verdict != "pass"
 
 
 def test_a_rheostat_start_changes_over_from_step_to_step() -> None:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
@@ -43,8 +44,7 @@ def torque_key(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 
 
 def _torque_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
-    key = torque_key(spec, scene)
-    return key if key[-1] != "curve" else ()
+    return number_at(torque_key(spec, scene), spec.motor.curve)
 
 
 def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:

@@ -4,6 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_repair, only
 from ptmcalc.machines.crane.slewing import chain, model
 from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, torque_key, turns
@@ -73,7 +74,7 @@ TANGENTIAL: OneCheck = only(_swings)(
         limit=_allowed_sway,
         needs=needs(*_ROPE),
         blame=lambda spec, scene, loads: _thrown_by(spec, scene),
-        repair=lambda spec, scene: () if _thrown_by(spec, scene)[-1] == "curve" else _thrown_by(spec, scene),
+        repair=lambda spec, scene: number_at(_thrown_by(spec, scene), spec.motor.curve),
         what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
         why="The rope then pulls the jib sideways, and the load cannot be put down.",
         formula="theta_t <= 10 deg",

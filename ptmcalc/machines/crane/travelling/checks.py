@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.scenes import (
@@ -42,8 +43,7 @@ def torque_key(spec: Travelling) -> KeyPath:
 
 def torque_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
     """The torque of the motors, where it is one number."""
-    key = torque_key(spec)
-    return key if key[-1] != "curve" else ()
+    return number_at(torque_key(spec), spec.drive.motor.curve)
 
 
 def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
@@ -56,8 +56,7 @@ def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
 
 
 def _rate_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
-    key = rate_key(spec, _moving(scene))
-    return key if key[-1] != "curve" else ()
+    return number_at(rate_key(spec, _moving(scene)), spec.drive.motor.curve)
 
 
 def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
