@@ -279,17 +279,19 @@ class _Assembly:
 
     def _change(self, name: str) -> Change | None:
         """The load of a check that leaving the effect out changes most; one whose change is clear goes first."""
-        other = without(self.settled, self.spec, name)
+        pair = without(self.settled, self.spec, name)
+        if pair is None:
+            return None
+        carrying, sparing = pair
         loads = dict.fromkeys(load for ruling in self.settled.rulings for load in ruling.check.loads)
         changes = [
-            Change(load, changed.value / best.value - 1, clear=changed.low > best.high or changed.high < best.low)
+            Change(load, changed.value / own.value - 1, clear=changed.low > own.high or changed.high < own.low)
             for load in loads
-            if other is not None
-            and load in other
-            and (known := self.settled.loads.get(load)) is not None
-            and (best := known.estimate).bounded
-            and (changed := other[load]).bounded
-            and best.value != 0
+            if (own := carrying.get(load)) is not None
+            and (changed := sparing.get(load)) is not None
+            and own.bounded
+            and changed.bounded
+            and own.value != 0
         ]
         return max(changes, key=lambda change: (change.clear and change.visible, abs(change.relative)), default=None)
 

@@ -370,6 +370,22 @@ def test_an_effect_far_from_its_threshold_is_not_run_again(number: float) -> Non
     assert effect_of(found, "sag").change is None
 
 
+def test_what_an_effect_changes_is_told_by_the_coarsest_run_that_carried_it() -> None:
+    """The verdict asks for a finer one; the two runs whose loads are compared have the same grid."""
+    log = Log()
+
+    def refined(carried: frozenset[str], level: int) -> Estimate:
+        middle = (9.5 if "sag" in carried else 9.0) + (0.2 if level == 0 else 0.0)
+        return pull(middle - 1 / (1 + 9 * level), middle + 1 / (1 + 9 * level))
+
+    found = report(kind_of(solver("rich", refined, carries=("sag",), levels=2, log=log), effects=[effect("sag", 0.15)]))
+    assert judgement(found).verdict is Verdict.PASS
+    assert [(set(carried), level) for _, carried, level in log.runs] == [({"sag"}, 0), ({"sag"}, 1), (set(), 0)]
+    change = effect_of(found, "sag").change
+    assert change is not None
+    assert change.relative == pytest.approx(9.2 / 9.7 - 1)
+
+
 @pytest.mark.parametrize(("without", "clear"), [(pull(8.9, 9.09), True), (pull(8.9, 9.11), False), (pull(9.3), False)])
 def test_a_change_is_clear_where_the_bars_do_not_meet(without: Estimate, clear: bool) -> None:
     kind = kind_of(
