@@ -79,6 +79,10 @@ class Run:
             return (*told, *engine.check_paths(named, self.options))
         return self.batch(named, told)
 
+    def hands(self, number: int) -> int:
+        """Processes of this machine for so many things to do that take as long as a process takes to begin."""
+        return self.jobs or (_cores() if number >= FEW else 1)
+
     def batch(self, files: Sequence[Path], told: Sequence[FileReport]) -> Sequence[FileReport]:
         """The reports of files, as far as the run gets."""
         from ptmcalc.cli.processes import pool

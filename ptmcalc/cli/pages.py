@@ -1,10 +1,14 @@
 """What `ptmcalc check --html` writes: the page of one file, or a folder of pages with their index."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import BrokenExecutor, Executor
+from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.batch import write
+from ptmcalc.cli.processes import pool
 from ptmcalc.contract.report import FileReport
 from ptmcalc.report import html
 from ptmcalc.text.document import MAX_BYTES
@@ -25,8 +29,8 @@ def begin(place: str, paths: Sequence[str]) -> None:
         raise UsageError(f"--html: `{place}` is a file", "name a folder, or a file that ends in .html")
 
 
-def write_pages(place: str, reports: Sequence[FileReport]) -> None:
-    """Write the page, or the pages and their index.
+def write_pages(place: str, reports: Sequence[FileReport], jobs: int) -> None:
+    """Write the page, or the pages and their index, drawn by so many processes.
 
     Raises:
         UsageError: they cannot be written, or a single page is named for several files.
@@ -41,8 +45,23 @@ def write_pages(place: str, reports: Sequence[FileReport]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"cannot write `{place}`: {error.strerror}") from None
-    for name, text in html.site(reports, _text_of):
-        write(folder / name, [text])
+    with ExitStack() as stack:
+        each = _each(stack.enter_context(pool(jobs, ())())) if min(jobs, len(reports)) > 1 else map
+        for name, text in html.site(reports, _text_of, each):
+            write(folder / name, [text])
+
+
+def _each(executor: Executor) -> Callable[..., Iterable[str]]:
+    """A `map` by other processes, and by this one where there are none."""
+
+    def each(make: Callable[..., str], *given: Iterable[Any]) -> list[str]:
+        rows = list(zip(*given, strict=True))
+        try:
+            return list(executor.map(make, *zip(*rows, strict=True)))
+        except (BrokenExecutor, OSError):
+            return [make(*row) for row in rows]
+
+    return each
 
 
 def _single(place: str) -> bool:

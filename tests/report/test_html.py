@@ -6,6 +6,7 @@ import json
 import math
 import re
 from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor, Executor
 from dataclasses import fields, is_dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -17,6 +18,7 @@ from support.web_pages import Element, as_document, page_of, page_of_text, read,
 
 from ptmcalc.base import units
 from ptmcalc.base.diagnostic import Verdict
+from ptmcalc.cli.pages import _each
 from ptmcalc.contract.report import FileReport
 from ptmcalc.contract.result import History, family
 from ptmcalc.engine.figures import figures_of
@@ -493,6 +495,28 @@ def test_the_same_file_gives_the_same_bytes(tmp_path: Path) -> None:
         assert (done.status, done.err) == (1, "")
         pages.append((tmp_path / f"{seed}.html").read_text("utf-8"))
     assert pages[0] == pages[1]
+
+
+def test_pages_are_the_same_whoever_draws_them(tmp_path: Path) -> None:
+    files = [tmp_path / f"{number}.yaml" for number in range(3)]
+    for file in files:
+        file.write_text(SHORT, encoding="utf-8")
+    for jobs in ("1", "2"):
+        assert ptmcalc("check", *files, "--html", tmp_path / jobs, "--jobs", jobs).status == 1
+    one, two = ({page.name: page.read_bytes() for page in (tmp_path / jobs).iterdir()} for jobs in ("1", "2"))
+    assert one == two
+    assert len(one) == 4
+
+
+class Gone(Executor):
+    """Processes that end before they have done anything."""
+
+    def submit(self, *given: Any, **named: Any) -> Any:
+        raise BrokenExecutor
+
+
+def test_where_nobody_else_draws_the_command_does() -> None:
+    assert list(_each(Gone())(str.upper, iter(["a", "b"]))) == ["A", "B"]
 
 
 @pytest.mark.parametrize(

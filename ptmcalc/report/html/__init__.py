@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _FOLDER = Path(__file__).parent
 _COLUMNS = ("verdict", "file", "kind", "governs", "#value", "#limit", "#margin", "#passed", "#others")
 INDEX = "index.html"
+_AT_A_TIME = 64
+"""Reports, and pages, of a large folder that are in memory together."""
 
 
 def require() -> None:
@@ -62,16 +64,21 @@ def index(rows: Iterable[view.Entry], totals: dict[str, int]) -> str:
     return _rendered("index.html.jinja", "Design check", shown)
 
 
-def site(reports: Sequence[FileReport], text_of: Callable[[FileReport], str]) -> Iterator[tuple[str, str]]:
-    """Name and text of each page of a folder, and of the index at last."""
+def site(
+    reports: Sequence[FileReport], text_of: Callable[[FileReport], str], each: Callable[..., Iterable[str]] = map
+) -> Iterator[tuple[str, str]]:
+    """Name and text of each page of a folder, and of the index at last; `each` is a `map`, maybe by other processes."""
     rows = []
     names = page_names([report.path for report in reports])
     totals: dict[str, int] = {}
-    for report, name in zip(reports, names, strict=True):
-        for key, number in count([report]).items():
-            totals[key] = totals.get(key, 0) + number
-        rows.append(view.row(words.printable(report), name))
-        yield name, page(report, text_of(report), INDEX)
+    for first in range(0, len(reports), _AT_A_TIME):
+        some = [reports[k] for k in range(first, min(first + _AT_A_TIME, len(reports)))]
+        pages = each(page, some, map(text_of, some), [INDEX] * len(some))
+        for report, name, text in zip(some, names[first:], pages, strict=False):
+            for key, number in count([report]).items():
+                totals[key] = totals.get(key, 0) + number
+            rows.append(view.row(words.printable(report), name))
+            yield name, text
     yield INDEX, index(rows, totals or count([]))
 
 
