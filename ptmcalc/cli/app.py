@@ -317,7 +317,7 @@ def check(
             for name in courses:
                 write(Path(name), [histories.render(reports)])
         if html and not run.interrupted:
-            write_pages(html, reports, run.hands(len(reports)))
+            write_pages(html, reports, run.processes(len(reports)))
         as_it_is = chosen in (Format.GITHUB, Format.JSON)
         say_all(rendered(chosen, reports, verbose, to_terminal=terminal), as_it_is=as_it_is)
         if history and not courses and not in_json:

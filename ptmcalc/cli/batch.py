@@ -79,7 +79,7 @@ class Run:
             return (*told, *engine.check_paths(named, self.options))
         return self.batch(named, told)
 
-    def hands(self, number: int) -> int:
+    def processes(self, number: int) -> int:
         """Processes of this machine for so many things to do that take as long as a process takes to begin."""
         return self.jobs or (_cores() if number >= FEW else 1)
 

@@ -169,7 +169,7 @@ def test_a_motor_that_does_not_come_to_full_speed_stalls() -> None:
 
 
 def test_a_curve_too_weak_is_told_the_number_it_grows_with() -> None:
-    """A straight line from 30 N*m: the torque that brings the crane to speed in time, and 1 % less does not."""
+    """A straight line from 20 N*m: the torque that brings the crane to speed in time, and 1 % less does not."""
 
     def judged(torque: float) -> Judgement:
         curve = {"type": "linear", "starting_torque": f"{torque} N*m", "no_load_speed": "220 rad/s"}
