@@ -1,6 +1,6 @@
 """Twenty thousand inputs that nobody wrote: sound files changed key by key and byte by byte, and YAML from nothing.
 
-The whole, a million: `python -m pytest tests/fuzz -n 2 -m study`.
+The whole, a million: `python -m pytest tests/fuzz -n 2 --dist load -m study`.
 """
 
 import re

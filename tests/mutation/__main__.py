@@ -253,6 +253,7 @@ def main() -> None:
     parser.add_argument("--most", type=float, default=MOST, help="processor seconds of tests for a fault")
     parser.add_argument("--doubt", action="store_true", help="try what is explained too: a reason may be none")
     parser.add_argument("--only", nargs="*", type=int, help="of the faults drawn, these: to try survivors again")
+    parser.add_argument("--of", default="", help="only faults of files with this in their path: to go through one")
     given = parser.parse_args()
     given.kept.mkdir(parents=True, exist_ok=True)
     for library in LIBRARIES:
@@ -265,9 +266,10 @@ def main() -> None:
                 print(room, *run_tests(place, f"tests/{room}", **{KEPT: str(given.kept)})[1][-1:], flush=True)
             return
         reach, known = read_reach(given.kept), reasons()
-        drawn = random.Random(given.seed).sample(list(population(ROOT / "ptmcalc")), given.number)
+        faults = [one for one in population(ROOT / "ptmcalc") if given.of in one.path.relative_to(ROOT).as_posix()]
+        drawn = random.Random(given.seed).sample(faults, min(given.number, len(faults)))
         ends: collections.Counter[str] = collections.Counter()
-        print(f"seed {given.seed}: {given.number} faults", flush=True)
+        print(f"seed {given.seed}: {len(drawn)} faults", flush=True)
         chosen = [(k, mutant) for k, mutant in enumerate(drawn) if not given.only or k in given.only]
         keys = {k: (mutant.path.relative_to(ROOT).as_posix(), *mutant.lines) for k, mutant in chosen}
         for k, mutant in chosen:
