@@ -89,6 +89,11 @@ def tail_mass(spec: ChainDrive) -> float:
     return own / tail_arm(spec) ** 2
 
 
+def sprocket_inertia(spec: ChainDrive) -> float:
+    """The driving sprocket on its own shaft; 0 where the file leaves it out [kg*m^2]."""
+    return spec.sprocket.inertia or 0.0
+
+
 def motor_side_inertia(spec: ChainDrive) -> float:
     """Rotors and couplings of all motors on the motor shaft [kg*m^2]; 0 without a drive."""
     if spec.drive is None:
@@ -105,7 +110,7 @@ def drive_mass(spec: ChainDrive, flow: str) -> float:
         return math.inf
     gear = spec.drive.gear
     slow = inertia.inertia_on_slow_shaft(motor_side_inertia(spec), gear.ratio, filled(gear.efficiency), flow)
-    return (slow + (spec.sprocket.inertia or 0.0)) / mean_arm(spec) ** 2
+    return (slow + sprocket_inertia(spec)) / mean_arm(spec) ** 2
 
 
 def starting_force(spec: ChainDrive) -> float:

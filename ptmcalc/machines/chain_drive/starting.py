@@ -22,6 +22,7 @@ from ptmcalc.machines.chain_drive.model import (
     filled,
     mean_arm,
     motor_side_inertia,
+    sprocket_inertia,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive, Start
 from ptmcalc.numerics.mode_sum import Course
@@ -54,7 +55,7 @@ def motor_torque(spec: ChainDrive) -> float:
 
 def sprocket_mass(spec: ChainDrive) -> float:
     """The driving sprocket as a mass that moves with the chain [kg]."""
-    return filled(spec.sprocket.inertia) / mean_arm(spec) ** 2
+    return sprocket_inertia(spec) / mean_arm(spec) ** 2
 
 
 def light_return(spec: ChainDrive, loop: LoopMasses) -> LoopMasses:

@@ -10,6 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from support import chain_fem
 from support.chain_starts import KIND, built, random_chain, scraper
+from support.machines import load_of, report_of
 
 from ptmcalc.contract.result import Result
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene
@@ -460,6 +461,18 @@ class TestBackstop:
         })  # fmt: skip
         found = solved("chain_hold", spec, spec.all_scenes[0]).loads["backstop_torque"].estimate
         assert found.value == pytest.approx(5459.74, rel=1e-5)
+
+
+def test_a_driving_sprocket_without_inertia_turns_with_none() -> None:
+    """Left out it is 0, in starts and stops as in runs; one that is not makes the start slower."""
+    scenes = [{"type": "start"}, {"type": "stop"}]
+    times = []
+    for inertia in ({}, {"inertia": "0 kg*m^2"}, {"inertia": "15 kg*m^2"}):
+        data = scraper(scenes=scenes)
+        data["sprocket"] = {"teeth": data["sprocket"]["teeth"]} | inertia
+        start = next(one for one in report_of(data).scenes if one.type == "start")
+        times.append(load_of(start, "start_time").estimate.value)
+    assert times[0] == times[1] < times[2]
 
 
 def test_seeded_machines_have_loads_that_are_numbers() -> None:

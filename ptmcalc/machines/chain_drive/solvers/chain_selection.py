@@ -19,6 +19,7 @@ from ptmcalc.machines.chain_drive.model import (
     fitted_distance,
     pitches,
     reaches_round,
+    sprocket_inertia,
     tail_teeth,
     useful_pull,
     wrap,
@@ -87,7 +88,7 @@ def _equalising(spec: ChainDrive) -> dict[str, float]:
     swing = equalising.equalising_acceleration(spec.speed, spec.chain.pitch, spec.sprocket.teeth)
     return {
         "equalising_ratio": equalising.equalising_ratio(spec.sprocket.teeth),
-        "equalising_torque": (spec.sprocket.inertia or 0.0) * swing,
+        "equalising_torque": sprocket_inertia(spec) * swing,
     }
 
 

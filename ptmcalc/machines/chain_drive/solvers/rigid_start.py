@@ -7,7 +7,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
-from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius
+from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius, sprocket_inertia
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, rigid_tensions
 from ptmcalc.machines.chain_drive.starting import (
@@ -59,7 +59,7 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
     needed = case.line.static_resistance
     if case.imposed_speed:
         needed += case.acceleration * (mass + inertia_at_chain(spec, case))
-    driven = mass + filled(spec.sprocket.inertia) / arm**2
+    driven = mass + sprocket_inertia(spec) / arm**2
     return {
         "static_resistance": case.line.static_resistance,
         "starting_force": case.available,
@@ -73,7 +73,7 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
 def inertia_at_chain(spec: ChainDrive, case: StartCase) -> float:
     """Motors, couplings and sprocket at the chain, through the losses of the start [kg]."""
     gear, arm = drive_of(spec).gear, mean_arm(spec)
-    return (case.losses * motor_side_inertia(spec) * gear.ratio**2 + filled(spec.sprocket.inertia)) / arm**2
+    return (case.losses * motor_side_inertia(spec) * gear.ratio**2 + sprocket_inertia(spec)) / arm**2
 
 
 def _start_time(spec: ChainDrive, scene: Start, case: StartCase) -> Estimate:
