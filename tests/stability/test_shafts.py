@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from scipy.integrate import quad, solve_ivp
+from support.command import ROOT
 from support.machines import changed, check_of, load_of, report_of, scene_of
 from support.shafts import C23, Reference
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.report import FileReport
+from ptmcalc.machines.shaft import steady
 
 LINEAR: dict[str, Any] = {
     "kind": "shaft",
@@ -432,6 +435,40 @@ def test_limits_that_no_brake_keeps_and_that_none_is_needed_for() -> None:
     assert check_of(scene_of(never), "SHF105").verdict is Verdict.FAIL
     idle = sound(report_of(changed(braked, checks={"stop_angle": "1000 rad", "stop_time": "1000 s"})))
     assert of(idle, "run_out", "brake_torque_needed").value == 0
+
+
+# --- work ------------------------------------------------------------------------------------------------------------
+
+PRESS: dict[str, Any] = yaml.safe_load((ROOT / "specs" / "shaft.yaml").read_text("utf-8"))
+SPIKES = changed(PRESS, inertia__rod_inertia="2.5e14 kg*m^2", scenes=[{"type": "steady"}])
+"""A rod that swings outweighs all else by 1e12 but at the two angles at which it turns back."""
+
+
+def test_an_inertia_with_spikes_does_not_run_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Runs over a cycle begin on the stretches of the one before: 250 solutions, where each alone took 8000."""
+    calls, ours = [], steady.solve
+    monkeypatch.setattr(steady, "solve", lambda *given, **named: calls.append(given) or ours(*given, **named))
+    report = sound(report_of(SPIKES, budget=0.5))
+    assert len(calls) <= 400
+    assert [(d.code, d.severity) for d in report.diagnostics if d.code == "NUM101"]
+    assert check_of(scene_of(report), "SHF102").verdict is Verdict.UNDECIDED
+
+
+def test_a_stiff_drive_is_refined_to_its_rounding_and_no_further(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hundred stretches in all, where halving what was mere rounding took ten thousand."""
+    sizes, ours = [], steady.solve
+    monkeypatch.setattr(
+        steady, "solve", lambda grid, *given, **named: sizes.append(len(grid.edges)) or ours(grid, *given, **named)
+    )
+    sound(report_of(changed(LINEAR, inertia__value="1.1e-3 kg*m^2", scenes=[{"type": "steady"}])))
+    assert 0 < sum(sizes) <= 200
+
+
+def test_the_search_for_a_cycle_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(steady, "_MOST_MARCHED", 20)
+    report = sound(report_of(changed(SPIKES, inertia__rod_inertia="2.4e14 kg*m^2"), budget=0.5))
+    assert [d.message for d in report.diagnostics if "20 stretches" in d.message and d.code == "NUM103"]
+    assert check_of(scene_of(report), "SHF102").verdict is Verdict.UNDECIDED
 
 
 # --- anything --------------------------------------------------------------------------------------------------------

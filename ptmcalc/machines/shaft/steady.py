@@ -17,9 +17,11 @@ FINE, COARSE = 12, 8  # nodes of a stretch, and of the run the bar is read from
 _LONGEST = math.pi / 8
 _SHORTEST = 1e-11  # of the cycle
 _TOLERANCE, _ROUNDING = 1e-12, 1e-15
+_UNSEEN = 16 * float(np.finfo(float).eps)  # of e: what its last digits make of its rate is no tail, 0.4 to 3 of eps
 _ON_EDGE, _NEAR_EDGE = 1e-9, 0.05  # shares of a stretch
-_MOST_PASSES, _MOST_STRETCHES, _MOST_SECANTS = 40, 3000, 40
-_STARTS = 28
+_MOST_STRETCHES, _MOST_REFINED, _MOST_SECANTS = 3_000, 10_000, 40
+_STARTS, _MOST_MARCHED = 28, 1000
+_ROUGH = 1e-7  # of the value at the beginning of a stretch, where only the way to the cycle is looked for
 _SAMPLES = np.linspace(0.0, 1.0, 41)
 
 
@@ -158,6 +160,59 @@ def surely_stalls(machine: Machine) -> bool:
 # -- the Poincare map -----------------------------------------------------------------------------------------------
 
 
+@dataclass(slots=True)
+class _Map:
+    """Motions over a cycle from any speed at its beginning; each is looked for on the stretches of the one before."""
+
+    machine: Machine
+    grid: Grid
+    left: int
+    """how many stretches may still be tried one by one"""
+    last: Orbit | None = None
+
+    def gain(self, speed: float) -> float:
+        """P(w) - w; minus infinity where the shaft stalls on the way."""
+        orbit = self.run(speed**2 / 2)
+        return -math.inf if orbit is None else math.sqrt(2 * float(orbit.within([1.0])[-1, 0])) - speed
+
+    def run(self, e: float) -> Orbit | None:
+        """The motion from its value at the first edge; None where the shaft stalls.
+
+        Raises:
+            NumericsError: it calls for too many stretches.
+        """
+        found = self._solved(self.last.grid, self.last.nodes, e) if self.last is not None else None
+        if found is None:
+            found = self._marched(e)
+        self.last = found or self.last
+        return found
+
+    def _solved(self, grid: Grid, guess: FloatArray, e: float) -> Orbit | None:
+        orbit = solve(grid, rate(self.machine, grid, running(self.machine)), guess, start=e)
+        return orbit if orbit is not None and np.all(orbit.tail() <= _ROUGH * orbit.start) else None
+
+    def _marched(self, e: float) -> Orbit | None:
+        """Stretch by stretch, each divided where one does not do."""
+        done: list[Orbit] = []
+        for low, high in zip(self.grid.edges[:-1].tolist(), self.grid.edges[1:].tolist(), strict=True):
+            begin, ends, shortest = low, [high], (high - low) * 1e-5
+            while ends:
+                self.left -= 1
+                if self.left < 0:
+                    raise NumericsError("NUM103", f"no steady cycle is found by trying {_MOST_MARCHED} stretches")
+                piece = self._solved(Grid(np.array([begin, ends[-1]]), FINE), np.full((1, FINE), e), e)
+                if piece is not None:
+                    done.append(piece)
+                    begin, e = ends.pop(), float(piece.within([1.0])[0, 0])
+                elif ends[-1] - begin > shortest:
+                    ends.append((begin + ends[-1]) / 2)
+                else:
+                    return None
+        edges = np.array([self.grid.edges[0], *(piece.grid.edges[1] for piece in done)])
+        start, slopes = np.concatenate([one.start for one in done]), np.concatenate([one.slopes for one in done])
+        return Orbit(Grid(edges, FINE), start, slopes, math.nan)
+
+
 def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
     """The cycle from a change of sign of P(w) - w, with P the speed a cycle later, looked for from above.
 
@@ -166,11 +221,11 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
     """
     top = next(iter(machine.working_speeds), None) or machine.drive.free_speed or float(machine.tried_speeds[-1])
     starts = [1.5 * top * (1 - k / _STARTS) for k in range(_STARTS)]
-    gains: list[float] = []
+    back, gains = _Map(machine, grid, _MOST_MARCHED), list[float]()
     for k, speed in enumerate(starts):
-        gains.append(_gain(machine, grid, speed))
+        gains.append(back.gain(speed))
         if gains[-1] > 0:
-            return _bracketed(machine, grid, speed, starts[k - 1]) if k else None
+            return _bracketed(back, speed, starts[k - 1]) if k else None
         if gains[-1] == -math.inf:
             break
     if gains[0] == -math.inf:
@@ -179,78 +234,35 @@ def _from_the_map(machine: Machine, grid: Grid) -> Orbit | None:
     low, high = starts[min(best + 1, _STARTS - 1)], starts[max(best - 1, 0)]
     for _ in range(24):  # a gain that peaks between two starts
         thirds = low + (high - low) / 3, high - (high - low) / 3
-        both = [_gain(machine, grid, speed) for speed in thirds]
+        both = [back.gain(speed) for speed in thirds]
         for speed, gain in zip(thirds, both, strict=True):
             if gain > 0:
-                return _bracketed(machine, grid, speed, starts[0])
+                return _bracketed(back, speed, starts[0])
         low, high = (thirds[0], high) if both[1] >= both[0] else (low, thirds[1])
     return None
 
 
-def _gain(machine: Machine, grid: Grid, speed: float) -> float:
-    """P(w) - w; minus infinity where the shaft stalls on the way."""
-    pieces = _run(machine, grid, speed**2 / 2)
-    return -math.inf if pieces is None else math.sqrt(2 * pieces[-1].after) - speed
-
-
-@dataclass(frozen=True, slots=True)
-class _Piece:
-    """A stretch that the motion has passed: its end, e at its nodes, shape (1, n), and behind it."""
-
-    edge: float
-    nodes: FloatArray
-    after: float
-
-
-def _run(machine: Machine, grid: Grid, e: float) -> list[_Piece] | None:
-    """The motion from its value at the first edge of a grid, stretch by stretch, each divided where one does not do;
-    None where the shaft stalls."""
-    pieces: list[_Piece] = []
-    for low, high in zip(grid.edges[:-1].tolist(), grid.edges[1:].tolist(), strict=True):
-        passed = _passed(machine, low, high, pieces[-1].after if pieces else e, (high - low) * 1e-5)
-        if passed is None:
-            return None
-        pieces += passed
-    return pieces
-
-
-def _passed(machine: Machine, low: float, high: float, e: float, shortest: float) -> list[_Piece] | None:
-    piece = Grid(np.array([low, high]), FINE)
-    orbit = solve(piece, rate(machine, piece, running(machine)), np.full((1, FINE), e), start=e)
-    if orbit is not None and float(orbit.tail()[0]) <= 1e-7 * e:
-        return [_Piece(high, orbit.nodes, float(orbit.within([1.0])[0, 0]))]
-    if high - low <= shortest:
-        return None
-    middle = (low + high) / 2
-    half = _passed(machine, low, middle, e, shortest)
-    if half is None:
-        return None
-    rest = _passed(machine, middle, high, half[-1].after, shortest)
-    return None if rest is None else half + rest
-
-
-def _bracketed(machine: Machine, grid: Grid, low: float, high: float) -> Orbit:
+def _bracketed(back: _Map, low: float, high: float) -> Orbit:
     """The cycle between a speed that a cycle raises and one that it lowers, on the stretches it was passed by.
 
     Raises:
         NumericsError: Newton's method does not close it: there is one, but it is not found.
     """
-    at_low, at_high = _gain(machine, grid, low), _gain(machine, grid, high)
+    at_low, at_high = back.gain(low), back.gain(high)
     for _ in range(80):
         middle = high - at_high * (high - low) / (at_high - at_low)
         if not low < middle < high:
             middle = (low + high) / 2
-        gain = _gain(machine, grid, middle)
+        gain = back.gain(middle)
         if gain > 0:
             low, at_low, at_high = middle, gain, at_high / 2
         else:
             high, at_high, at_low = middle, gain, at_low / 2
         if high - low <= 1e-9 * high or gain == 0:
             break
-    pieces = _run(machine, grid, low**2 / 2)
-    if pieces is not None:
-        finer = Grid(np.array([grid.edges[0], *(one.edge for one in pieces)]), FINE)
-        orbit = solve(finer, rate(machine, finer, running(machine)), np.concatenate([one.nodes for one in pieces]))
+    near = back.run(low**2 / 2)
+    if near is not None:
+        orbit = solve(near.grid, rate(back.machine, near.grid, running(back.machine)), near.nodes)
         if orbit is not None and orbit.multiplier < 1:
             return orbit
     raise NumericsError("NUM101", "there is a steady cycle, and it is not found to its last digits")
@@ -261,13 +273,11 @@ def _bracketed(machine: Machine, grid: Grid, low: float, high: float) -> Orbit:
 
 def refined(machine: Machine, law: Law, orbit: Orbit, start: float | None = None) -> tuple[Orbit, int] | None:
     """A motion over the angle with its stretches cut at every corner of the torque and divided until none has a tail
-    left, and the evaluations that took; None where it is lost on the way."""
-    work = 0
-    for _ in range(_MOST_PASSES):
-        edges = _better_edges(machine, law, orbit)
-        if edges is None:
-            return orbit, work
-        if len(edges) > 2 * _MOST_STRETCHES:  # corners that do not come to rest call for more without end
+    left, and the evaluations that took; None where it is lost on the way or no end is in sight."""
+    work, left = 0, _MOST_REFINED
+    while (edges := _better_edges(machine, law, orbit)) is not None:
+        left -= len(edges)
+        if left < 0:  # corners that do not come to rest, and rates of mere rounding, call for more without end
             return None
         grid = Grid(edges, orbit.grid.order)
         finer = solve(grid, rate(machine, grid, law), orbit.at(grid.angles), start)
@@ -302,8 +312,10 @@ def _better_edges(machine: Machine, law: Law, orbit: Orbit) -> FloatArray | None
             continue
         changed = True
         cut.add(k)
-    tails = orbit.tail()
-    bad = tails > _TOLERANCE * float(np.abs(orbit.rates).max()) + _ROUNDING * float(orbit.start.max())
+    nodes = orbit.nodes
+    steep = np.abs(rate(machine, grid, law)(nodes)[1] * nodes).max(axis=1)
+    least = _TOLERANCE * float(np.abs(orbit.rates).max()) + _ROUNDING * float(orbit.start.max())
+    bad = orbit.tail() > least + _UNSEEN * steep * lengths
     for k in np.flatnonzero(bad & (lengths > _SHORTEST * machine.period)).tolist():
         if k not in cut and len(lengths) < _MOST_STRETCHES:
             new.append(float((grid.edges[k] + grid.edges[k + 1]) / 2))
