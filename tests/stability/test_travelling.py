@@ -12,6 +12,8 @@ from support.travelling import crane, scene_report
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
+from ptmcalc.numerics.extremes import Extremes
+from ptmcalc.numerics.panels import FloatArray
 
 SEED = 314
 
@@ -106,3 +108,19 @@ def test_a_drive_that_stops_exactly_as_the_load_swings_back() -> None:
         loads = {load.info.name: load.estimate.value for load in scene_report(data).loads}
         swings.append(loads["sway_residual"] / loads["sway_angle_max"])
     assert swings == pytest.approx([1.0, 0.0, 0.0], abs=1e-3)
+
+
+@pytest.mark.parametrize("gravity", ["1e9 m/s^2", "1e11 m/s^2", "1e13 m/s^2"])
+def test_swings_without_number_are_not_looked_at_one_by_one(gravity: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A load that swings a million times while its crane starts: said to be unknown, and at no price."""
+    seen, ours = [], Extremes.see
+
+    def counted(self: Extremes, starts: FloatArray, *given: Any, **named: Any) -> None:
+        seen.append(len(starts))
+        ours(self, starts, *given, **named)
+
+    monkeypatch.setattr(Extremes, "see", counted)
+    data = crane(gravity=gravity, suspension__hoist_speed="8 m/min", scenes=[{"type": "start"}, {"type": "brake"}])
+    report = check(load_text(yaml.safe_dump(data).encode(), "case.yaml"), Options(repairs=False, budget=0.5))
+    assert {d.code for d in report.diagnostics if d.code.startswith("NUM")} >= {"NUM103"}
+    assert sum(seen) <= 1_000_000

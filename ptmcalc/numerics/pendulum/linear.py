@@ -42,8 +42,9 @@ _LONG = 2.0
 _PANEL = 0.8
 _SEEN = 6e-12
 """Share of the largest value by which a peak may lie above the one that the panels' polynomials point at."""
-_MOST_PIECES = 50_000
-_MOST_PANELS = 2_000_000
+_MOST_PIECES = 5_000
+_MOST_PANELS = 20_000
+"""Pieces of a motion, and panels in which its swings are looked at: more than a thousand swings either way."""
 _AT_ONCE = 20_000
 _EPS = float(np.finfo(float).eps)
 
@@ -168,7 +169,7 @@ class LinearSwing:
         raise ValueError(f"a pendulum has no {name}")
 
     def _extreme(self, name: str, sign: int, since: float, until: float) -> Peak:
-        found, size, most = Extremes.of(1, sign), 0.0, 0.0
+        found, size, most, panel_count = Extremes.of(1, sign), 0.0, 0.0, 0
         for index in range(self._index(since), self._index(until) + 1):
             part = self.parts[index]
             low, high = max(since, part.start), min(until, part.end)
@@ -176,8 +177,9 @@ class LinearSwing:
                 continue
             omega = part.frequency or _PHASE / part.unit
             count = max(math.ceil((high - low) * omega / _PANEL), 1)
-            if count > _MOST_PANELS:
-                raise NumericsError("NUM103", f"{count} panels would be needed to look at all swings")
+            panel_count += count
+            if panel_count > _MOST_PANELS:
+                raise NumericsError("NUM103", f"more than {_MOST_PANELS} panels are needed to look at all swings")
             step = (high - low) / count
             for first in range(0, count, _AT_ONCE):
                 starts = np.asarray(low + step * np.arange(first, min(first + _AT_ONCE, count)), float)
@@ -222,7 +224,7 @@ def linear_swing(case: LinearCase, end: float) -> LinearSwing:
     **Source** module docstring; growth after Liouville and Green.
 
     Raises:
-        NumericsError: without gravity or rope, or for a motion of more than 50 000 pieces.
+        NumericsError: without gravity or rope, or for a motion of more than 5000 pieces.
     """
     _refuse(case, end)
     stiff = case.gravity * (1 + case.mass_ratio)
