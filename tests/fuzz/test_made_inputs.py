@@ -4,6 +4,7 @@ The whole, a million: `python -m pytest tests/fuzz -n 2 --dist load -m study`.
 """
 
 import re
+import warnings
 from collections import Counter
 
 import pytest
@@ -11,9 +12,11 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import fuzz
-from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, made, said, slots, sound, trees, written
+from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, left_out, made, said, slots, sound, trees, written
 
+from ptmcalc.base.diagnostic import BROKEN
 from ptmcalc.engine import load
+from ptmcalc.engine.check import Options, check
 from ptmcalc.report import json as report_json
 
 FIRST, IN_CI, ALL, PART = 1_000, 19_500, 1_000_000, 1_850
@@ -31,7 +34,7 @@ def test_no_input_of_a_million_breaks_the_program_or_hangs_it(first: int) -> Non
     assert failures(range(first, min(first + 10_000, ALL))) == []
 
 
-# -- every key in every wrong form ----------------------------------------------------------------------------------
+# -- every key in every wrong form, or left out -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("part", range(4))
@@ -51,6 +54,20 @@ def test_no_key_of_any_kind_breaks_the_program_in_any_form(part: int) -> None:
     for slot in slots()[part::20]:
         for raw in in_wrong_forms(slot):
             assert said(raw).status in (0, 1, 2, 3), slot
+
+
+@pytest.mark.parametrize("part", range(4))
+def test_anything_may_be_left_out(part: int) -> None:
+    """What is then refused is told why; what is not can be planned and run, every scene of it."""
+    for raw in sorted(set(left_out()))[part::4]:
+        found = load.load_text(raw, "fuzz.yaml")
+        if found.spec is None:
+            assert found.diagnostics
+        else:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                report = check(found, Options(budget=fuzz.BUDGET, repairs=False))
+            assert BROKEN not in {d.code for d in report.diagnostics}, raw
 
 
 def test_the_wrong_forms_are_of_every_key() -> None:

@@ -687,3 +687,23 @@ def _set(data: Any, path: tuple[str | int, ...], value: object) -> None:
         node = node[0 if isinstance(node, list) else step]
         if not isinstance(node, dict | list):
             return
+
+
+def left_out() -> Iterator[bytes]:
+    """Every sound file without one of its keys or entries."""
+    for tree in trees():
+        for path in _paths(tree):
+            shortened = _copied(tree)
+            node = shortened
+            for step in path[:-1]:
+                node = node[step][1] if isinstance(node, Entries) else node[step]
+            del node[path[-1]]
+            yield written(shortened)
+
+
+def _paths(node: Any, at: tuple[int, ...] = ()) -> Iterator[tuple[int, ...]]:
+    """The place of everything in a tree: numbers of entries, from the outermost on."""
+    if isinstance(node, list):
+        for index, item in enumerate(node):
+            yield (*at, index)
+            yield from _paths(item[1] if isinstance(node, Entries) else item, (*at, index))
