@@ -1,4 +1,4 @@
-"""Bookkeeping of the march: when and where extremes are, how long it is, and what its claim on energy is measured by."""
+"""Bookkeeping of the march: when and where extremes are, how long it is, what its claim on energy is measured by."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What a belt carries along in one go: everything comes from where it was, and no sooner than the belt has run there."""
+"""What a belt carries along in one go: everything comes from where it was, no sooner than the belt has run there."""
 
 import math
 
