@@ -86,14 +86,16 @@ def test_energy_is_the_work_of_what_is_passed_on() -> None:
         course = course_of(900.0)
         give = Give(course, rubber, EA)
         give.begin(np.full(course.cells - 1, 20e3))
-        quiet = np.zeros(course.cells - 1)
+        rub, drag = np.full(course.cells - 1, 50.0), np.full(course.cells - 1, 7e3)
         rng = np.random.default_rng(4)
         work, start = 0.0, give.stored + give.lost
         for _ in range(40):
             into, out = rng.uniform(15e3, 40e3, (2, course.cells - 1))
-            before, behind = give.pass_on(into, out, quiet, quiet)
-            passed = into + give.before * before  # no friction: the tension on both sides is one
-            assert passed == pytest.approx(out - give.after * behind, rel=1e-9)
+            before, behind = give.pass_on(into, out, rub, drag)
+            passed = out - give.after * behind
+            rubs = np.where(before != 0, rub * np.sign(before), passed - into)  # friction is before what gives
+            assert (np.abs(rubs) <= rub).all()
+            assert passed == pytest.approx(into + (give.before + drag) * before + rubs, rel=1e-9)
             work += float(passed @ (behind - before)) * course.step
         assert give.stored + give.lost - start == pytest.approx(work, rel=1e-9)
         assert give.lost > 0
