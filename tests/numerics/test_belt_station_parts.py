@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt import station as module
@@ -161,10 +162,14 @@ def test_what_brakes_of_two_drums_do_to_the_tension_between_them(speed: float) -
     assert station.slid == station.heat == [0.0, 0.0]
 
 
+@pytest.mark.parametrize("scale", [1.0, 1e-4])
 @pytest.mark.parametrize("excess", [0.5, 500.0])
-def test_a_backstop_holds_back_and_never_forward(excess: float) -> None:
+def test_a_backstop_holds_back_and_never_forward(excess: float, scale: float) -> None:
     """Half a newton forward at the start: both drums share it by their masses, and the backstop has no part in it."""
-    drums = [Drum("one", 2e3, lambda t, v: (1e4, 0.0)), Drum("two", 6e3, lambda t, v: (2e4, 0.0), one_way=True)]
+    drums = [
+        Drum("one", 2e3 * scale, lambda t, v: (1e4, 0.0)),
+        Drum("two", 6e3 * scale, lambda t, v: (2e4, 0.0), one_way=True),
+    ]
     seen = Station(place(), drums).begin(0.0, 1.3e5, 1e5 + excess)
     assert seen.belt == 0.0
     assert seen.tensions == pytest.approx((1.3e5, 1.2e5 + excess - 0.75 * excess, 1e5 + excess), rel=1e-9)
@@ -184,10 +189,46 @@ def test_a_drum_with_a_backstop_that_slips_is_never_turned_back() -> None:
     assert station.work == 0.0
 
 
-def test_equal_shares_where_none_are_told() -> None:
-    drums = [Drum(f"{j}", 0.0, exponent=9.0) for j in range(3)]
-    seen = fed(Station(place(), drums, TakeUp(6e4), lambda t: 0.5), 1.8e5 - ON * 0.5, 6e4, 0.1, 2, 0.5)[-1]
-    assert seen.tensions == pytest.approx((1.8e5, 1.4e5, 1e5, 6e4), rel=1e-12)
+@pytest.mark.parametrize("speed", [0.5, -0.5, 0.0])
+def test_equal_shares_where_none_are_told(speed: float) -> None:
+    """At an even speed, from the first look on, with friction against it or, at rest, none."""
+    drums = [Drum(f"{j}", 5e3, exponent=9.0) for j in range(3)]
+    station = Station(place((2e3, 1e3)), drums, None, lambda t: speed)
+    way = float(np.sign(speed))
+    on, off = 1.8e5, 6e4
+    for one in fed(station, on - ON * speed - way * 2e3, off + OFF * speed + way * 1e3, 0.1, 2, speed):
+        assert one.tensions == pytest.approx((1.8e5, 1.4e5, 1e5, 6e4), rel=1e-12)
+
+
+@pytest.mark.parametrize("push", [9e4, -9e4])
+def test_a_backstop_takes_what_friction_leaves_and_a_push_all_of_it(push: float) -> None:
+    """At the start, when nothing has moved yet: friction of the belt is at its limit either way."""
+    station = Station(place((2e3, 1e3)), [Drum("drum", 1e3, one_way=True)])
+    seen = station.begin(0.0, 1e5, 1e5 + push)
+    way = math.copysign(1.0, push)
+    assert seen.belt == 0.0
+    assert seen.tensions == pytest.approx((1e5 + way * 2e3, 1e5 + push - way * 1e3), rel=1e-12)
+
+
+def test_a_backstop_behind_a_drum_that_spins_takes_what_the_grip_passes_on() -> None:
+    """The first drum spins on a belt that the second holds: S/e is between them, whatever either drives."""
+    spins = Drum("one", 1e4, lambda t, v: (6e5, 0.0), exponent=0.4)
+    holds = Drum("two", 2e4, lambda t, v: (1e3, 0.0), exponent=9.0, one_way=True)
+    seen = fed(Station(place(), [spins, holds], TakeUp(5e4)), 9e4, 5e4, 0.1, 4)[-1]
+    assert (seen.slips, seen.belt) == ((1, 0), 0.0)
+    assert seen.tensions == pytest.approx((9e4, 9e4 / math.exp(0.4), 5e4), rel=1e-9)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-5])
+def test_between_two_drums_with_curves_is_what_the_second_gives_less_what_it_takes(scale: float) -> None:
+    """At the end of a step of any length, however light they are: m2 a with the acceleration there."""
+    masses, starts, slopes = (2e4 * scale, 6e4 * scale), (3e5, 1e5), (-4e5, -1e5)
+    drums = [Drum(f"{j}", masses[j], lambda t, v, j=j: (starts[j] + slopes[j] * v, slopes[j])) for j in range(2)]
+    seen = fed(Station(place(), drums), 1.2e5, 1.1e5, 0.05 * scale, 1)[-1]
+    forces = [start + slope * seen.belt for start, slope in zip(starts, slopes, strict=True)]
+    gains = (sum(forces) + seen.tensions[2] - seen.tensions[0]) / sum(masses)
+    assert seen.belt > 0.05
+    assert seen.tensions[1] == pytest.approx(seen.tensions[2] + forces[1] - masses[1] * gains, rel=1e-9)
 
 
 # -- slip -------------------------------------------------------------------------------------------------------------
@@ -234,32 +275,56 @@ def test_what_drive_brake_and_slip_do_over_time() -> None:
 
 
 @pytest.mark.parametrize("share", [0.004, 0.5, 0.93])
-@pytest.mark.parametrize("exponent", [0.5, 1.1])
-def test_a_drum_that_is_caught_goes_on_with_the_belt_from_then_on(share: float, exponent: float) -> None:
-    """Its force falls to less than the belt pulls: it slows down evenly to the belt's speed inside a step, and from
-    there both go on by m v' = F + T - N - Z v."""
+@pytest.mark.parametrize("pace", [0.0, 0.4, -0.4])
+def test_a_drum_that_is_caught_goes_on_with_the_belt_from_then_on(share: float, pace: float) -> None:
+    """Its force falls to less than the belt pulls: it slows down evenly to the speed of a belt that gets faster or
+    slower inside a step, and from there both go on by m v' = F + P - N - (Z_u + Z_d) v."""
     mass, high, low, step = 1e4, 4e5, 2e4, 0.1
-    grip = math.exp(exponent)
-    pull, slide = TENSION * (grip - 1), -1e4 / ON
-    n = TENSION * grip + 1e4
-    gained = (high - pull) / mass * 3 * step + ((high + low) / 2 - pull) / mass * step - slide  # over the belt
-    slows = (pull - low) / mass
-    step_at = int(gained / slows / step)  # it is caught so many steps later
-    # what it has to lose is set so that it is caught at this share of a step
-    start = (step_at + share) * step * slows - gained
-    high += start * mass / (3.5 * step)
+    slide = -1e4 / ON
+
+    def belt(time: float) -> float:  # while it slips, by waves that leave both tensions as they are
+        return slide + pace * time
+
+    # the drum over the belt: driven for three steps, less and less for one, then slowed down
+    gained = ((high - PULL) * 3 + (high + low) / 2 - PULL) / mass * step - pace * 4 * step - slide
+    slows = (PULL - low) / mass + pace
+    after = int(gained / slows / step)
+    high += ((after + share) * step * slows - gained) * mass / (3.5 * step)
 
     def force(time: float, speed: float) -> tuple[float, float]:
         return high + (low - high) * min(max(time / step - 3, 0.0), 1.0), 0.0
 
-    station = Station(place(), [Drum("drum", mass, force, exponent=exponent)], TakeUp(TENSION))
-    seen = fed(station, n, TENSION, (5 + step_at) * step, 5 + step_at)
+    station = Station(place(), [Drum("drum", mass, force, exponent=0.5)])
+    n, p = (lambda t: TENSION * GRIP - ON * belt(t)), (lambda t: TENSION + OFF * belt(t))
+    end, z = (5 + after) * step, ON + OFF
+    seen = fed(station, n, p, end, 5 + after)
     assert [one.slips for one in seen[-2:]] == [(1,), (0,)]
+    assert seen[-2].belt == pytest.approx(belt(end - step), rel=1e-9)
     left = (1 - share) * step
-    decay = math.exp(-ON / mass * left)
-    expected = slide * decay + (low + TENSION - n) / ON * (1 - decay)
+    push, rate = low + p(end - left) - n(end - left), z * pace
+    steady = push / z - mass * rate / z**2
+    decay = math.exp(-z / mass * left)
+    expected = (belt(end - left) - steady) * decay + steady + rate / z * left
     assert seen[-1].belt == seen[-1].drums[0] == pytest.approx(expected, rel=1e-7)
-    assert seen[-1].tensions == pytest.approx((n + ON * expected, TENSION), rel=1e-7)
+    assert seen[-1].tensions == pytest.approx((n(end) + ON * expected, p(end) - OFF * expected), rel=1e-7)
+
+
+def test_a_drum_that_slips_before_one_that_sticks_passes_on_no_centrifugal_tension() -> None:
+    """e m2 v' = e (F2 + T) + (1 - e) l - N - Z v with l = rho v^2."""
+    e, rho = math.exp(0.4), 4e4
+    drums = [
+        Drum("one", 1e4, lambda t, v: (6e5, 0.0), exponent=0.4),
+        Drum("two", 2e4, lambda t, v: (8e4, 0.0), exponent=9.0),
+    ]
+    station = Station(place(line_mass=rho), drums, TakeUp(5e4))
+    seen = fed(station, 5e4, 5e4, 0.5, 4000)[-1]
+    found = solve_ivp(
+        lambda t, v: (e * (8e4 + 5e4) + (1 - e) * rho * v**2 - 5e4 - ON * v) / (e * 2e4), (0.0, 0.5), [0.0],
+        rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    assert seen.slips == (1, 0)
+    assert rho * seen.belt**2 > 5e3
+    assert seen.belt == pytest.approx(float(found.y[0, -1]), rel=2e-4)
 
 
 @pytest.mark.parametrize("line_mass", [15.0, 2e3])
@@ -349,10 +414,16 @@ def test_steady_motion_with_a_take_up_is_steady_from_the_start(weight: float, wa
 
 
 def test_a_speed_that_is_imposed_from_the_start_leaves_the_belt_behind_the_weight_its_own() -> None:
-    station = Station(place((0.0, 1e3), (0.0, 5e3)), [Drum("drum", 1e3)], TakeUp(6e4, 2e4), lambda t: 0.7)
+    station = Station(place((0.0, 1e3), (0.0, 5e3)), [Drum("drum", 1e3)], TakeUp(6e4, 2e4), lambda t: 0.7 + 3 * t)
     seen = station.begin(0.5, 1e5, 9e4)
     assert (seen.belt, seen.behind) == pytest.approx((0.7, 0.5), rel=1e-12)
     assert seen.tensions == pytest.approx((1e5 + ON * 0.7, 9e4 - 1e3 - (OFF + 5e3) * 0.5), rel=1e-12)
+
+
+def test_a_belt_at_rest_behind_a_weight_stays_there_when_drums_start_at_a_speed() -> None:
+    station = Station(place((0.0, 2e3)), [Drum("drum", 1e3)], TakeUp(6e4, 2e4), lambda t: 0.7)
+    seen = station.begin(0.0, 1e5, 6.1e4)
+    assert (seen.belt, seen.behind, seen.tensions[-1]) == (0.7, 0.0, 6e4)
 
 
 def test_at_the_start_friction_holds_as_much_of_a_weight_as_it_can() -> None:
