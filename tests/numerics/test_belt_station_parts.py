@@ -135,6 +135,17 @@ def test_a_belt_that_leaves_faster_than_it_comes_has_the_tension_of_its_own_spee
     assert seen.tensions[0] == pytest.approx(1e5 + ON * seen.belt + friction, rel=1e-12)
 
 
+@pytest.mark.parametrize("steps", [1, 7])
+def test_a_drum_between_two_heights(steps: int) -> None:
+    """m v' + (Z_u + Z_d) v = F + P + climb behind - N - climb before: exact in any step."""
+    station = Station(place(climbs=(700.0, -300.0)), [Drum("drum", 4e4, lambda t, v: (9e4, 0.0))])
+    seen = fed(station, 1e5, 9e4, 0.3, steps)[-1]
+    z = ON + OFF
+    speed = (9e4 + 9e4 - 300.0 - 1e5 - 700.0) / z * -math.expm1(-z * 0.3 / 4e4)
+    assert seen.belt == pytest.approx(speed, rel=1e-12)
+    assert seen.tensions == pytest.approx((1e5 + 700.0 + ON * speed, 9e4 - 300.0 - OFF * speed), rel=1e-12)
+
+
 # -- drums that stick, brakes, a backstop -----------------------------------------------------------------------------
 
 
@@ -237,11 +248,12 @@ GRIP, TENSION = math.exp(0.5), 1e5
 PULL = TENSION * (GRIP - 1)
 
 
+@pytest.mark.parametrize("one_way", [False, True])
 @pytest.mark.parametrize("steps", [4, 40])
-def test_a_slipping_drum_with_its_brake_and_its_curve(steps: int) -> None:
+def test_a_slipping_drum_with_its_brake_and_its_curve(steps: int, one_way: bool) -> None:
     """m w' = F - c w - pull - b t from rest, exact in steps of any length; the belt slides at an even speed."""
     mass, force, curve, brake, end = 1e4, 4e5, 2e4, 1e5, 1.0
-    drum = Drum("drum", mass, lambda t, v: (force - curve * v, -curve), lambda t: brake * t, 0.5)
+    drum = Drum("drum", mass, lambda t, v: (force - curve * v, -curve), lambda t: brake * t, 0.5, one_way)
     station = Station(place(), [drum], TakeUp(TENSION))
     n = TENSION * GRIP + 1e4  # more than it grips from the start
     seen = fed(station, n, TENSION, end, steps)
@@ -341,6 +353,46 @@ def test_slip_at_the_start_presses_with_the_speed_after_the_jump(line_mass: floa
     assert seen.drums == (speed,)
 
 
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("share", [0.999, 1.001])
+@pytest.mark.parametrize("single", [True, False])
+def test_a_drum_sticks_up_to_its_grip_on_what_presses(sense: int, share: float, single: bool) -> None:
+    """(S_on - l)/(S_off - l) = e^(+-mu alpha), l = rho v^2: a little less holds, a little more slips."""
+    rho, speed, off = 2e3, 3.0, 9e4
+    lift = rho * speed**2
+    on = lift + (share * GRIP if sense > 0 else 1 / (share * GRIP)) * (off - lift)
+    drums = [Drum("drum", 1e9, exponent=0.5)] + ([] if single else [Drum("none", 0.0, exponent=0.0)])
+    seen = Station(place(line_mass=rho), drums, TakeUp(off)).begin(speed, on - ON * speed, off)
+    assert seen.slips[0] == (0 if share < 1 else sense)
+
+
+def test_the_second_of_two_drums_slips_on_what_presses_it() -> None:
+    """(S_1 - l)/(T - l) = e while it does, between drums too."""
+    drums = [
+        Drum("one", 2e4, lambda t, v: (1.5e5, 0.0), exponent=3.0),
+        Drum("two", 1e4, lambda t, v: (1.5e5, 0.0), exponent=0.5),
+    ]
+    seen = fed(Station(place(line_mass=4e4), drums, TakeUp(5e4)), 5e4, 5e4, 2.0, 400)[-1]
+    lift = 4e4 * seen.belt**2
+    assert seen.slips == (0, 1)
+    assert lift > 5e3
+    assert (seen.tensions[1] - lift) / (5e4 - lift) == pytest.approx(GRIP, rel=1e-9)
+
+
+def test_at_a_speed_drums_share_what_a_slipping_one_between_them_leaves() -> None:
+    """By 2 to 1, their own mass apart; what presses the one that slips is less by the centrifugal part."""
+    rho, gains, shares = 3e3, 0.3, (0.4, 0.4, 0.2)
+    drums = [Drum(f"{j}", 2e3 * (j + 1), exponent=exponent) for j, exponent in enumerate((4.0, 0.1, 4.0))]
+    station = Station(place(line_mass=rho), drums, TakeUp(60e3), lambda time: 0.5 + gains * time, shares)
+    seen = fed(station, lambda t: 200e3 - ON * (0.5 + gains * t), 60e3, 0.1, 50, 0.5)[-1]
+    lift = rho * seen.belt**2
+    assert seen.slips == (0, 1, 0)
+    assert (seen.tensions[1] - lift) / (seen.tensions[2] - lift) == pytest.approx(math.exp(0.1), rel=1e-9)
+    first, third = seen.tensions[0] - seen.tensions[1], seen.tensions[2] - seen.tensions[3]
+    assert first + 2e3 * gains == pytest.approx(2 * (third + 6e3 * gains), rel=1e-9)
+    assert lift > 700.0
+
+
 # -- a weight behind the drums ----------------------------------------------------------------------------------------
 
 
@@ -374,16 +426,40 @@ def test_a_belt_behind_a_weight_sticks_and_slides_on_its_own_idlers(end: float) 
 
 @pytest.mark.parametrize("over", [-0.99, 0.0, 0.99, -1.2, 1.2])
 @pytest.mark.parametrize("weight", [100.0, 6e4])
-def test_a_weight_rests_while_friction_holds_the_belt_behind_it(over: float, weight: float) -> None:
+@pytest.mark.parametrize("friction", [2e4, 0.25])
+def test_a_weight_rests_while_friction_holds_the_belt_behind_it(over: float, weight: float, friction: float) -> None:
     """So long as P - T is within the friction of the idlers there; beyond, it moves the way of the difference."""
-    rest, friction = 5e4, 2e4
-    station = Station(place((0.0, friction)), [Drum("drum", 1e3)], TakeUp(rest, weight), lambda t: 0.0)
-    seen = fed(station, 1e5, rest + over * friction, 5.0, 50)
+    rest, climb = 5e4, -4e3
+    at = place((0.0, friction), climbs=(0.0, climb))
+    station = Station(at, [Drum("drum", 1e3)], TakeUp(rest, weight), lambda t: 0.0)
+    seen = fed(station, 1e5, rest + over * friction - climb, 5.0, 50)
     if abs(over) < 1:
         assert all((one.behind, one.tensions[-1]) == (0.0, rest) for one in seen)
     else:
         assert seen[-1].behind == pytest.approx(math.copysign(0.2, over) * friction / OFF, rel=1e-6)
         assert seen[-1].tensions[-1] == pytest.approx(rest, rel=1e-6)
+
+
+@pytest.mark.parametrize(("weight", "friction"), [(4e3, 2e4), (0.8, 2e4), (4e3, 0.5)])
+def test_a_belt_behind_a_weight_that_turns_back_comes_to_rest_first(weight: float, friction: float) -> None:
+    """Pulled one way and in the next step the other: between both it stands, as friction has it."""
+    rest = 5e4
+    station = Station(place((0.0, friction)), [Drum("drum", 1e3)], TakeUp(rest, weight), lambda t: 0.0)
+    seen = fed(station, 1e5, lambda t: rest + (3 if t < 0.95 else -3) * friction, 2.0, 20)
+    senses = [int(np.sign(one.behind)) for one in seen]
+    assert senses[1:10] == [1] * 9
+    assert senses[10:] == [0] + [-1] * 10
+
+
+def test_a_light_weight_has_its_own_time() -> None:
+    """M/4 v' + Z v = P - T with drums that stand: exact in any step, of a kilogram too."""
+    weight, rest = 2.0, 5e4
+    station = Station(place(), [Drum("drum", 1e3)], TakeUp(rest, weight), lambda t: 0.0)
+    seen = fed(station, 1e5, rest + 1e3, 2e-5, 8)
+    for k, one in enumerate(seen):
+        speed = 1e3 / OFF * -math.expm1(-OFF * k * 2.5e-6 / (weight / 4))
+        assert one.behind == pytest.approx(speed, rel=1e-9, abs=1e-15)
+        assert one.tensions[-1] == pytest.approx(rest + 1e3 - OFF * speed, rel=1e-12)
 
 
 def test_a_weight_on_a_belt_that_rests_goes_with_the_drums() -> None:
@@ -392,9 +468,11 @@ def test_a_weight_on_a_belt_that_rests_goes_with_the_drums() -> None:
     gaps = []
     for steps in (200, 400):
         station = Station(place((0.0, 1e9)), [Drum("drum", mass, lambda t, v: (force, 0.0))], TakeUp(5e4, weight))
-        seen = fed(station, 5e4, 5e4, 0.2, steps)[-1]
+        before, seen = fed(station, 5e4, 5e4, 0.2, steps)[-2:]
         expected = force / ON * -math.expm1(-ON * 0.2 / (mass + weight / 4))
+        gains = (seen.belt - before.belt) * steps / 0.2
         assert seen.behind == 0.0
+        assert seen.tensions[-1] == pytest.approx(5e4 - weight / 4 * gains, rel=1e-9)
         gaps.append(abs(seen.belt / expected - 1))
     assert gaps[1] < 1e-3
     assert gaps[1] < 0.6 * gaps[0]
