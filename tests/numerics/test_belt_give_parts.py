@@ -101,9 +101,9 @@ def test_energy_is_the_work_of_what_is_passed_on() -> None:
         assert give.lost > 0
 
 
-@pytest.mark.parametrize("tail", [2, 3, 5])
+@pytest.mark.parametrize("tail", [1, 2, 3, 5, 10, 11])
 def test_all_that_cells_would_give_is_given_beside_head_and_tail(tail: int) -> None:
-    """Nothing at the tail, which has its own station; wherever it is."""
+    """Nothing at the tail, which has its own station; wherever it is, beside a strand of one cell too."""
     back = replace(Reach.even(5.0 * tail, RHO, EA), span=900.0)
     carry = replace(Reach.even(5.0 * (12 - tail), RHO, EA), span=300.0)
     course = lay_out((back, carry), 1, 12)
