@@ -92,3 +92,32 @@ def test_what_never_leaves_has_settled_at_once_and_told_so() -> None:
         assert (found.time, found.low, found.high) == (0.0, 0.0, 0.0)
     quiet = settling(Ring(np.array([1.05j]), np.array([-0.4 + 3j])), 1.0)  # its envelope does not fit, it does
     assert (quiet.time, quiet.low, quiet.high) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "damped", "low"),
+    [
+        ((0.4,), (), math.inf),  # its own peak again and again
+        ((0.4,), (0.3, 0.2), math.inf),
+        ((0.4, 0.0), (), math.inf),
+        ((0.3, 0.2), (), 0.0),  # two peaks may never meet
+        ((0.3, 0.2), (0.3,), 0.0),
+    ],
+)
+def test_without_damping_it_never_settles_and_one_mode_surely(
+    amplitudes: tuple[float, ...], damped: tuple[float, ...], low: float
+) -> None:
+    sizes = np.array([*amplitudes, *damped], complex)
+    rates = np.array([3j * (k + 1) for k in range(len(amplitudes))] + [-0.5 + 7j] * len(damped))
+    found = settling(Ring(sizes, rates), 0.35)
+    assert (found.time, found.low, found.high) == (math.inf, low, math.inf)
+    assert "damping" in found.reason
+
+
+def test_a_doubt_as_wide_as_what_the_lean_leaves_is_no_answer_from_above() -> None:
+    one = Ring(np.array([1.0 + 0j]), np.array([-0.4 + 3j]))
+    for lean, doubt in ((0.0, 0.3), (0.1, 0.2), (0.1, 0.25), (-0.25, 0.06)):
+        found = settling(one, 0.3, lean, doubt)
+        assert math.isfinite(found.time)
+        assert found.low <= found.time
+        assert math.isinf(found.high)
