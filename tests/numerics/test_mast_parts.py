@@ -416,3 +416,18 @@ class TestSettled:
             assert told == pytest.approx(float(t[np.abs(x) > edge][-1]), abs=2e-5)
         wider = settled(course, 2.0, window, doubt=stray)
         assert wider.high == pytest.approx(float(t[np.abs(x) > window - 2 * stray][-1]), abs=2e-5)
+
+    def test_after_a_guide_was_touched_not_before_the_run_ends_if_it_is_still_outside(self) -> None:
+        """The stop sets it swinging into the guide; at its end it swings free and is looked at from there."""
+        case = light(braked(), 0.02, guide=Guide(LENGTH, 1e6, 2e-3))
+        course = play(case, 3.5)
+        assert any(event.element == "guide" and event.time > course.held_since for event in course.record.events)
+        passed = course.record.time - course.held_since
+        late = settled(course, LENGTH, 1e-3)
+        kept = play(case, 9.0, keep=True)
+        times, tips = kept.over_time("deflection")
+        last = times[np.abs(tips) > 1e-3].max() - kept.held_since
+        assert passed < late.low <= late.time <= late.high
+        assert late.time == pytest.approx(last, abs=0.02)
+        done = settled(course, LENGTH, 1.9e-3)
+        assert (done.low, done.time, done.high) == (0.0, passed, passed)

@@ -121,3 +121,27 @@ def test_a_doubt_as_wide_as_what_the_lean_leaves_is_no_answer_from_above() -> No
         assert math.isfinite(found.time)
         assert found.low <= found.time
         assert math.isinf(found.high)
+
+
+@pytest.mark.parametrize("ratio", [0.02, 1e-5, 1e-10])
+def test_no_unit_of_time_or_length_changes_what_is_told(ratio: float) -> None:
+    """Frequencies and sizes times powers of 2, so that rounding is the same: of swings that hardly fade too."""
+    rates, sizes = np.array([-ratio + 1j, -3 * ratio + 2.7j]), np.array([1.0 + 0.2j, 0.3j])
+    one = settling(Ring(sizes, rates), 0.1, 0.02, 1e-3)
+    for pace, size in ((2.0**20, 1.0), (2.0**-20, 2.0**10), (1.0, 2.0**-12)):
+        other = settling(Ring(sizes * size, rates * pace), 0.1 * size, 0.02 * size, 1e-3 * size)
+        assert (other.time * pace, other.low * pace, other.high * pace) == (one.time, one.low, one.high)
+
+
+def test_at_rest_on_the_edge_is_told_from_outside() -> None:
+    one = Ring(np.array([0.01 + 0j]), np.array([-0.4 + 3j]))
+    for lean, word in (
+        (0.3, "on the edge"),
+        (-0.3, "on the edge"),
+        (0.31, "already outside"),
+        (-0.31, "already outside"),
+    ):
+        found = settling(one, 0.3, lean)
+        assert found.low == math.inf
+        assert word in found.reason
+    assert settling(one, 0.3, 0.25).reason == ""
