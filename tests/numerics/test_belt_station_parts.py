@@ -24,7 +24,9 @@ def place(
     return Place(ON, OFF, *climbs, *friction, *drag, line_mass)
 
 
-def fed(station: Station, n_on: float | Wave, p_off: float | Wave, window: float, steps: int, speed: float = 0.0):
+def fed(
+    station: Station, n_on: float | Wave, p_off: float | Wave, window: float, steps: int, speed: float = 0.0
+) -> list[Seen]:
     """Histories of a station that gets these waves."""
     n, p = ((lambda t, wave=wave: wave) if isinstance(wave, float) else wave for wave in (n_on, p_off))
     step = window / steps
@@ -239,7 +241,7 @@ def test_between_two_drums_with_curves_is_what_the_second_gives_less_what_it_tak
     """At the end of a step of any length, however light they are: m2 a with the acceleration there."""
     masses, starts, slopes = (2e4 * scale, 6e4 * scale), (3e5, 1e5), (-4e5, -1e5)
     drums = [Drum(f"{j}", masses[j], lambda t, v, j=j: (starts[j] + slopes[j] * v, slopes[j])) for j in range(2)]
-    seen = fed(Station(place(), drums), 1.2e5, 1.1e5, 0.05 * scale, 1)[-1]
+    seen = fed(Station(place(), drums), 1.2e5, 1.1e5, 0.05 * scale, 1, 0.02)[-1]
     forces = [start + slope * seen.belt for start, slope in zip(starts, slopes, strict=True)]
     gains = (sum(forces) + seen.tensions[2] - seen.tensions[0]) / sum(masses)
     assert seen.belt > 0.05
@@ -383,15 +385,16 @@ def test_the_second_of_two_drums_slips_on_what_presses_it() -> None:
     assert (seen.tensions[1] - lift) / (5e4 - lift) == pytest.approx(GRIP, rel=1e-9)
 
 
-def test_at_a_speed_drums_share_what_a_slipping_one_between_them_leaves() -> None:
+@pytest.mark.parametrize(("on", "off", "sense"), [(200e3, 60e3, 1), (60e3, 200e3, -1)], ids=["drive", "brake"])
+def test_at_a_speed_drums_share_what_a_slipping_one_between_them_leaves(on: float, off: float, sense: int) -> None:
     """By 2 to 1, their own mass apart; what presses the one that slips is less by the centrifugal part."""
     rho, gains, shares = 3e3, 0.3, (0.4, 0.4, 0.2)
     drums = [Drum(f"{j}", 2e3 * (j + 1), exponent=exponent) for j, exponent in enumerate((4.0, 0.1, 4.0))]
-    station = Station(place(line_mass=rho), drums, TakeUp(60e3), lambda time: 0.5 + gains * time, shares)
-    seen = fed(station, lambda t: 200e3 - ON * (0.5 + gains * t), 60e3, 0.1, 50, 0.5)[-1]
+    station = Station(place(line_mass=rho), drums, TakeUp(off), lambda time: 0.5 + gains * time, shares)
+    seen = fed(station, lambda t: on - ON * (0.5 + gains * t), off, 0.1, 50, 0.5)[-1]
     lift = rho * seen.belt**2
-    assert seen.slips == (0, 1, 0)
-    assert (seen.tensions[1] - lift) / (seen.tensions[2] - lift) == pytest.approx(math.exp(0.1), rel=1e-9)
+    assert seen.slips == (0, sense, 0)
+    assert (seen.tensions[1] - lift) / (seen.tensions[2] - lift) == pytest.approx(math.exp(0.1 * sense), rel=1e-9)
     first, third = seen.tensions[0] - seen.tensions[1], seen.tensions[2] - seen.tensions[3]
     assert first + 2e3 * gains == pytest.approx(2 * (third + 6e3 * gains), rel=1e-9)
     assert lift > 700.0
