@@ -8,7 +8,7 @@ import pytest
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
-from ptmcalc.numerics.belt.march import march, place_at
+from ptmcalc.numerics.belt.march import Drawn, march, place_at
 from ptmcalc.numerics.belt.station import Drum, Seen, Station, TakeUp
 from ptmcalc.numerics.belt.travel import Travel
 
@@ -159,22 +159,26 @@ def test_as_much_belt_goes_past_every_place() -> None:
     assert travel.creep_at(seen) == pytest.approx(3.0 * (2e3 - on) / EA, rel=1e-12)
 
 
-def run(steps: int, speed: float, cells: int = 40, travels: bool = True) -> tuple[Course, list[Seen], list[Seen]]:
+def run(steps: int, speed: float) -> Drawn:
     """A loop with a drum that pulls a little, and with a jump of tension at the tail."""
-    course = course_of(cells, None)
+    course = course_of(rubber=None)
     head = Station(place_at(course, 0, 0.0), [Drum("drive", 0.0, lambda t, v: (700.0, 0.0))], TakeUp(3e4))
     tail = Station(place_at(course, course.tail, 0.0), [Drum("tail", 1e9)])
     tension = np.where(course.middles < LENGTHS[0], 3e4, 3.4e4)
-    travel = Travel(course, EA, speed) if travels else None
-    drawn = march(course, head, tail, tension, speed, steps * course.step, travel=travel)
-    return course, list(drawn.head), list(drawn.tail)
+    return march(course, head, tail, tension, speed, steps * course.step, travel=Travel(course, EA, speed))
 
 
 def test_the_creep_at_the_start_is_that_of_the_tensions_it_starts_with() -> None:
-    _, head, tail = run(1, 2.0)
+    drawn = run(1, 2.0)
     climb = sum(CLIMBS)
-    assert head[0].creep == pytest.approx(2.0 * (3e4 - 3.4e4 - climb) / EA, rel=1e-12)
-    assert tail[0].creep == pytest.approx(2.0 * 4e3 / EA, rel=1e-12)
+    assert drawn.head[0].creep == pytest.approx(2.0 * (3e4 - 3.4e4 - climb) / EA, rel=1e-12)
+    assert drawn.tail[0].creep == pytest.approx(2.0 * 4e3 / EA, rel=1e-12)
+
+
+def test_energy_that_goes_with_the_belt_is_no_gap_in_the_ledger() -> None:
+    """What comes and goes as the belt carries it is told apart from what friction and the drums do."""
+    for speed in (2.0, 12.0, 60.0):
+        assert run(70, speed).energy_residual < 1e-12
 
 
 @pytest.mark.parametrize("speed", [2.0, 12.0, 60.0])
