@@ -112,6 +112,13 @@ def test_all_that_cells_would_give_is_given_beside_head_and_tail(tail: int) -> N
     give.begin(np.full(11, 1e4))
     k = (900.0**2 * 5.0 * tail + 300.0**2 * 5.0 * (12 - tail)) / 24
     assert give.length == pytest.approx(60.0 * 1e4 * 0.3 / 1.3 / EA - k / 1e4**2, rel=1e-12)
+    lengths = dict.fromkeys(range(1, 12), 0.0)
+    for cell in range(12):
+        inner = [node for node in (cell, cell + 1) if node not in (0, tail, 12)]
+        beside = [2 if tail == 1 else 10]  # of a strand of one cell the next node of the other
+        for node in (inner * 2)[:2] or beside * 2:
+            lengths[node] += 2.5
+    assert give.yields * EA / 0.3 * 1.3 == pytest.approx(list(lengths.values()), rel=1e-12)
     waves = np.full(11, 2e4)
     before, behind = give.pass_on(waves, waves, np.zeros(11), np.zeros(11))
     gives = behind - before
