@@ -1,6 +1,7 @@
 """Reaches cut into cells: what acts along a belt is neither lost nor moved, and waves keep their time."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -130,3 +131,30 @@ def test_more_cells_never_fit_worse_by_much() -> None:
         course = lay_out(belt, 1, cells)
         assert cells - 1 <= course.cells <= 1.25 * cells + 2
         assert course.mismatch < 0.5 / cells
+
+
+@pytest.mark.parametrize(
+    ("cells", "lengths", "taken"),
+    [(8, (3.0, 7.0), 10), (8, (4.0, 7.0), 8), (2, (1.0, 3.0), 3)],
+    ids=["a quarter more fits exactly", "what would fit is beyond a quarter", "one more at least is looked at"],
+)
+def test_of_all_counts_up_to_a_quarter_more_the_best_is_taken(
+    cells: int, lengths: tuple[float, float], taken: int
+) -> None:
+    course = lay_out((Reach.even(lengths[0], 50.0, EA), Reach.even(lengths[1], 50.0, EA)), 1, cells)
+    assert course.cells == taken
+    assert (course.mismatch < 1e-12) is (taken == 10)
+
+
+def test_spans_and_what_goes_with_the_belt_are_those_of_each_reach() -> None:
+    """(w l)^2 h/24 of a cell, by its own length h; a straight belt has none of the first and goes with all its mass."""
+    one, two = Reach.even(90.0, 40.0, EA), Reach.even(60.0, 160.0, EA)
+    course = lay_out((replace(one, span=700.0, goes=0.75), replace(two, span=1900.0, goes=0.5)), 1, 20)
+    cells = np.diff(course.places)
+    here = course.middles < 90.0
+    assert course.sag == pytest.approx(np.where(here, 700.0, 1900.0) ** 2 * cells / 24, rel=1e-12)
+    assert course.goes.tolist() == np.where(here, 0.75, 0.5).tolist()
+    plain = lay_out((one, two), 1, 20)
+    assert (plain.sag == 0.0).all()
+    assert (plain.goes == 1.0).all()
+    assert one.marks[0] == 0.0

@@ -92,3 +92,56 @@ def test_what_never_leaves_has_settled_at_once_and_told_so() -> None:
         assert (found.time, found.low, found.high) == (0.0, 0.0, 0.0)
     quiet = settling(Ring(np.array([1.05j]), np.array([-0.4 + 3j])), 1.0)  # its envelope does not fit, it does
     assert (quiet.time, quiet.low, quiet.high) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "damped", "low"),
+    [
+        ((0.4,), (), math.inf),  # its own peak again and again
+        ((0.4,), (0.3, 0.2), math.inf),
+        ((0.4, 0.0), (), math.inf),
+        ((0.3, 0.2), (), 0.0),  # two peaks may never meet
+        ((0.3, 0.2), (0.3,), 0.0),
+    ],
+)
+def test_without_damping_it_never_settles_and_one_mode_surely(
+    amplitudes: tuple[float, ...], damped: tuple[float, ...], low: float
+) -> None:
+    sizes = np.array([*amplitudes, *damped], complex)
+    rates = np.array([3j * (k + 1) for k in range(len(amplitudes))] + [-0.5 + 7j] * len(damped))
+    found = settling(Ring(sizes, rates), 0.35)
+    assert (found.time, found.low, found.high) == (math.inf, low, math.inf)
+    assert "damping" in found.reason
+
+
+def test_a_doubt_as_wide_as_what_the_lean_leaves_is_no_answer_from_above() -> None:
+    one = Ring(np.array([1.0 + 0j]), np.array([-0.4 + 3j]))
+    for lean, doubt in ((0.0, 0.3), (0.1, 0.2), (0.1, 0.25), (-0.25, 0.06)):
+        found = settling(one, 0.3, lean, doubt)
+        assert math.isfinite(found.time)
+        assert found.low <= found.time
+        assert math.isinf(found.high)
+
+
+@pytest.mark.parametrize("ratio", [0.02, 1e-5, 1e-10])
+def test_no_unit_of_time_or_length_changes_what_is_told(ratio: float) -> None:
+    """Frequencies and sizes times powers of 2, so that rounding is the same: of swings that hardly fade too."""
+    rates, sizes = np.array([-ratio + 1j, -3 * ratio + 2.7j]), np.array([1.0 + 0.2j, 0.3j])
+    one = settling(Ring(sizes, rates), 0.1, 0.02, 1e-3)
+    for pace, size in ((2.0**20, 1.0), (2.0**-20, 2.0**10), (1.0, 2.0**-12)):
+        other = settling(Ring(sizes * size, rates * pace), 0.1 * size, 0.02 * size, 1e-3 * size)
+        assert (other.time * pace, other.low * pace, other.high * pace) == (one.time, one.low, one.high)
+
+
+def test_at_rest_on_the_edge_is_told_from_outside() -> None:
+    one = Ring(np.array([0.01 + 0j]), np.array([-0.4 + 3j]))
+    for lean, word in (
+        (0.3, "on the edge"),
+        (-0.3, "on the edge"),
+        (0.31, "already outside"),
+        (-0.31, "already outside"),
+    ):
+        found = settling(one, 0.3, lean)
+        assert found.low == math.inf
+        assert word in found.reason
+    assert settling(one, 0.3, 0.25).reason == ""

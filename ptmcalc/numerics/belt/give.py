@@ -221,9 +221,9 @@ def _at_nodes(cells: FloatArray, tail: int) -> FloatArray:
     found: FloatArray = (cells[:-1] + cells[1:]) / 2
     found[0] += cells[0] / 2
     found[-1] += cells[-1] / 2
-    at = tail - 1
-    if at > 0:
-        found[at - 1] += cells[at] / 2
-        found[at + 1] += cells[at + 1] / 2
+    at, last = tail - 1, len(found) - 1
+    if last:  # a strand of one cell has no node within; of two such strands the tail is the only node there is
+        found[at - 1 if at else 1] += found[at] - cells[at + 1] / 2
+        found[at + 1 if at < last else at - 1] += cells[at + 1] / 2
         found[at] = 0.0
     return found

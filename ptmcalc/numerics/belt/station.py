@@ -115,7 +115,7 @@ class _Move:
     acceleration: float
     forces: list[tuple[float, float]]
     held: float
-    holds: float = 0.0
+    holds: float
 
 
 class Station:
@@ -134,7 +134,7 @@ class Station:
     ) -> None:
         self.place, self.drums, self.takeup, self.imposed = place, tuple(drums), takeup, imposed
         count = len(self.drums)
-        self.shares = tuple(shares) or (1 / max(count, 1),) * count
+        self.shares = tuple(shares) or tuple(1 / count for _ in self.drums)
         self.grips = [math.exp(drum.exponent) if drum.exponent is not None else math.inf for drum in self.drums]
         self.slid, self.heat = [0.0] * count, [0.0] * count
         """way [m] and heat [J] of slip so far"""

@@ -95,7 +95,7 @@ def settling(ring: Ring, window: float, lean: float = 0.0, doubt: float = 0.0) -
     if not doubt:
         return Settled(found[1], *found, reason)
     low = _last(ring, window + doubt, lean)[0]
-    high = _last(ring, window - doubt, lean)[1] if window - doubt > abs(lean) else math.inf
+    high = _last(ring, window - doubt, lean)[1]
     return Settled(found[1], min(low, found[0]), max(high, found[1]), reason)
 
 

@@ -137,8 +137,8 @@ class MastSystem:
             for signal in base.signals
             for k in range(len(signal.times) - 1)
         ]
-        speed = max([abs(base.speed), *(abs(grip.speed) for grip in base.grips)], default=0.0)
-        pace = max(forces, default=0.0) / self.total
+        speed = max(abs(one) for one in (base.speed, *(grip.speed for grip in base.grips)))
+        pace = max(forces) / self.total
         if base.path is not None:
             pace = max(pace, *(abs(value) for value in base.path.values))
         slowest = float(self.w[0])
