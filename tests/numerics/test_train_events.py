@@ -9,6 +9,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.motion import Reaction
 from ptmcalc.numerics.piecewise import march
 from ptmcalc.numerics.train.parts import (
+    HUNT_CROSSLEY,
     RIGID,
     Body,
     Drive,
@@ -201,6 +202,16 @@ class TestRigidPlay:
         assert record.events[-1].time == pytest.approx(time, rel=1e-6)
         assert float(record.last[system.watched["speed", 0]]) == 0.0
         assert system.fired <= 2 + math.log(1e-14) / math.log(restitution)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_contact_of_hunt_and_crossley_without_loss_is_a_spring(side: int) -> None:
+    """n = 1, c = 0: half a period pi (m/C)^(1/2) in contact, at most v (C m)^(1/2)."""
+    spring = Spring("c", 0, None, 400.0, play=0.2, law=HUNT_CROSSLEY, exponent=1.0)
+    found = run(Train((Body("m", 4.0, 0.0, 0.5 * side),), springs=(spring,)), 0.6)
+    assert found.times("c") == pytest.approx([0.2, 0.2 + math.pi / 10], rel=1e-9)
+    assert side * (found.top("link") if side > 0 else found.bottom("link")) == pytest.approx(20.0, rel=1e-9)
+    assert found.last("speed") == pytest.approx(-0.5 * side, rel=1e-9)
 
 
 class TestClutches:

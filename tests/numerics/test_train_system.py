@@ -17,6 +17,7 @@ from ptmcalc.numerics.train.ledger import ledger
 from ptmcalc.numerics.train.modes import damped
 from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, RIGID, Body, Drive, Grip, Guide, Mesh, Smooth, Spring, Train
 from ptmcalc.numerics.train.signals import ONE, Now, Signal
+from ptmcalc.numerics.train.state import State
 from ptmcalc.numerics.train.statics import link_forces
 from ptmcalc.numerics.train.system import TrainSystem
 from ptmcalc.numerics.train.tree import Coordinates, Groups
@@ -57,9 +58,9 @@ class TestTravel:
         found = Coordinates.of(train, Groups.among(train))
         shapes = null_space(rows, rcond=1e-12)
         assert found.travels == shapes.shape[1]
-        for spring, place in enumerate(found.places):
+        for line, place in enumerate(found.places):
             if place is not None:
-                assert found.inverse[place] == pytest.approx(rows[spring], rel=1e-14)
+                assert found.inverse[place] == pytest.approx(rows[line], rel=1e-14)
         means = found.inverse[count - found.travels :]
         assert means @ (rows / mass).T == pytest.approx(np.zeros((len(means), len(rows))), abs=1e-12)
         for mean in means:
@@ -279,8 +280,9 @@ def test_a_light_train_is_solved_as_well_as_a_heavy_one() -> None:
         )  # fmt: skip
         system = TrainSystem(train)
         state, z = system.start()
-        state = system.react(state, 0.0, z, None).mode
-        solved, _ = Balances(system, state).solve(state)  # type: ignore[arg-type]
+        held = system.react(state, 0.0, z, None).mode
+        assert isinstance(held, State)
+        solved, _ = Balances(system, held).solve(held)
         acceleration = 5.0 / (light + heavy)
         assert solved.acceleration @ z == pytest.approx([acceleration, acceleration], rel=4e-16)
         assert abs(float(solved.holds[0] @ z)) == pytest.approx(light * acceleration, rel=4e-16)
