@@ -23,7 +23,7 @@ from ptmcalc.numerics.train.parts import (
     Train,
 )
 from ptmcalc.numerics.train.signals import FloatArray, Signal, Trigger
-from ptmcalc.numerics.train.state import State
+from ptmcalc.numerics.train.state import NO_FRICTION, State
 from ptmcalc.numerics.train.system import TrainSystem
 
 UP = Trigger(0, "speed", 1.0, rising=True)
@@ -203,6 +203,20 @@ class TestRigidPlay:
         assert float(record.last[system.watched["speed", 0]]) == 0.0
         assert system.fired <= 2 + math.log(1e-14) / math.log(restitution)
 
+    def test_bounces_that_lose_little_end_too(self) -> None:
+        """With e = 0.95 from a height of 1e-13 beside a speed of 1: where a fall gains what the impact before it lost,
+        rounding would keep them up for ever."""
+        floor = Spring("floor", 0, None, 0.0, law=RIGID, side=-1, restitution=0.95)
+        drive = Drive.of("weight", 0, Signal.constant(-2.0))
+        system = Counting(
+            Train((Body("ball", 1.0, 1e-13), Body("by", 3.0, 0.0, 1.0)), springs=(floor,), drives=(drive,))
+        )
+        time = math.sqrt(1e-13) * 1.95 / 0.05
+        record = march(system, *system.start(), end=1.5 * time)
+        assert record.events[-1].time == pytest.approx(time, rel=0.01)
+        assert 100 < system.fired < 200
+        assert float(record.last[system.watched["speed", 0]]) == 0.0
+
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_contact_of_hunt_and_crossley_without_loss_is_a_spring(side: int) -> None:
@@ -301,6 +315,32 @@ class TestPrescribed:
         found = run(train, 2.0)
         assert found.events("b") == [(pytest.approx(1.0), "at rest", "forward" if way > 0 else "backward")]
         assert found.last("guide") == pytest.approx(11.0 * way, rel=1e-14)
+
+
+def begins(train: Train) -> tuple[int, ...]:
+    """How the groups of a train begin to turn."""
+    system = TrainSystem(train)
+    state, z = system.start()
+    begun = system.react(state, 0.0, z, None).mode
+    assert isinstance(begun, State)
+    return begun.turning
+
+
+@pytest.mark.parametrize(("torque", "speed"), [(12.9, 0.0), (15.0, 2.0), (-12.9, 0.0), (-15.0, -2.0)])
+@pytest.mark.parametrize("brake", [10.0, 3.0])
+def test_what_a_brake_and_a_clutch_to_a_prescribed_body_hold_is_what_both_do(
+    torque: float, speed: float, brake: float
+) -> None:
+    """10 and 3 or 3 and 10, on a body beside one that is told to stay; what is held tells nothing."""
+    train = Train(
+        (Body("told", 1.0), Body("b", 1.0)),
+        grips=(Grip("brake", 1, None, Signal.constant(brake)), Grip("clutch", 1, 0, Signal.constant(13.0 - brake))),
+        drives=(Drive.of("d", 1, Signal.constant(torque)),),
+        guides=(Guide("g", 0),),
+    )
+    found = run(train, 1.0)
+    assert (found.last("speed", 0), found.last("speed", 1)) == pytest.approx((0.0, speed), abs=1e-14)
+    assert speed or begins(train) == (NO_FRICTION, 0)
 
 
 def test_a_gear_without_slip_in_its_brake_carries_the_load_as_its_ratio_says() -> None:

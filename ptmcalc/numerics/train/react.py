@@ -453,7 +453,7 @@ def _pushes(
 ) -> tuple[FloatArray, FloatArray]:
     """Impulses of closed rigid contacts, and the closing speeds after them."""
     count = len(closing)
-    small = _SETTLED * float(np.abs(closing).max(initial=0.0))
+    small = _SETTLED * float(np.abs(closing).max())
     for size in range(count, -1, -1):
         for pushing in itertools.combinations(range(count), size):
             push, active = np.zeros(count), list(pushing)
