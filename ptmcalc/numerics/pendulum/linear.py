@@ -108,7 +108,7 @@ class LinearSwing:
     def at(self, name: str, time: ArrayLike) -> FloatArray:
         """A signal at times from 0 to the end."""
         t = np.asarray(time, float)
-        where = np.clip(np.searchsorted(self._starts, t, "right") - 1, 0, len(self.parts) - 1)
+        where = np.maximum(np.searchsorted(self._starts, t, "right") - 1, 0)
         result = np.empty(t.shape)
         for index in np.unique(where):
             inside = where == index
@@ -142,7 +142,7 @@ class LinearSwing:
     # --- parts --------------------------------------------------------------------------------------------------
 
     def _index(self, time: float) -> int:
-        return min(max(bisect_right(self._starts, time) - 1, 0), len(self.parts) - 1)
+        return max(bisect_right(self._starts, time) - 1, 0)
 
     def _seen(self, part: _Part, name: str, time: FloatArray) -> FloatArray:
         since = time - part.start

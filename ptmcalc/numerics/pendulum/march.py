@@ -235,16 +235,6 @@ class March:
             mode = mode._replace(forward=bool(forward))
         return mode, state
 
-    def _below_knot(self, time: float, state: FloatArray, mode: Mode) -> int:
-        """1 on a knot of the drive's law from which the motion goes down, else 0."""
-        drive = self.case.axis.drive
-        assert isinstance(drive, Push)
-        assert isinstance(drive.law, Straight)
-        if state[SPEED] != drive.law.knots[mode.piece]:
-            return 0
-        now = self._leg(mode, time).now(np.array([time]), state[:, None])
-        return int(float(now.acceleration[0]) < 0 or (mode.side < 0 and state[SPEED] == 0))
-
     def _side(self, time: float, state: FloatArray, rest: Mode) -> int:
         """Sign of the motion that goes on; at rest, where friction does not hold it, where it is pushed to."""
         leg, v = self._leg(rest, time), float(state[SPEED])
@@ -364,7 +354,8 @@ class March:
         if isinstance(drive, Follow):
             speeds += [abs(c[0]) for c in drive.speed.coefficients]
         elif isinstance(drive, Push):
-            speeds.append(abs(drive.reaches or 0.0))
+            if drive.reaches is not None:
+                speeds.append(abs(drive.reaches))
             if isinstance(drive.law, Straight):
                 forces += [abs(value) for value in drive.law.values]
             else:

@@ -62,7 +62,7 @@ class Track:
     """work done at once"""
 
     def index(self, time: float) -> int:
-        return min(max(bisect_right(self._starts, time) - 1, 0), len(self.steps) - 1)
+        return max(bisect_right(self._starts, time) - 1, 0)
 
     def runs(self, since: float, until: float) -> Iterator[tuple[Leg, list[Step]]]:
         """Steps that share their equations."""
@@ -78,7 +78,7 @@ class Track:
     def at(self, names: tuple[str, ...], times: FloatArray) -> FloatArray:
         """Signals at times, shape (names, times); the later side at an event."""
         result = np.empty((len(names), len(times)))
-        where = np.clip(np.searchsorted(self._starts, times, "right") - 1, 0, len(self.steps) - 1)
+        where = np.maximum(np.searchsorted(self._starts, times, "right") - 1, 0)
         for index in np.unique(where):
             step, inside = self.steps[index], where == index
             share = (times[inside] - step.start) / step.length if step.length else np.zeros(int(inside.sum()))

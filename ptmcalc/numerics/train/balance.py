@@ -110,9 +110,8 @@ class Balances:
         groups, grip = self.system.groups, self.train.grips[index]
         if index in self.system.clutches:
             return state.clutches[self.system.clutches.index(index)]
-        turn = state.turning[groups.of[grip.first]]
-        row = float(groups.row(grip.first, grip.second)[groups.of[grip.first]])
-        return 0 if turn == NO_FRICTION else int(np.sign(turn * row))
+        group = groups.of[grip.first]
+        return int(np.sign(state.turning[group] * groups.row(grip.first, grip.second)[group]))
 
     def _holds(self, state: State, stays: int | None) -> list[Hold]:
         """What is held: prescribed motions, groups at rest (and the one that `stays`), clutches, rigid contacts."""
@@ -218,7 +217,7 @@ def _solution(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, bool]:
     """
     largest = max(1.0, float(np.abs(right).max()))
     try:
-        inverse = np.linalg.inv(matrix) if matrix.shape[0] == matrix.shape[1] else np.linalg.pinv(matrix, rcond=1e-13)
+        inverse = np.linalg.inv(matrix)
         found: FloatArray = inverse @ right
         found += inverse @ (right - matrix @ found)
         fits = bool(np.isfinite(found).all() and np.abs(matrix @ found - right).max() <= 1e-9 * largest)
@@ -229,7 +228,8 @@ def _solution(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, bool]:
         found = inverse @ right
         found += inverse @ (right - matrix @ found)
         beyond = np.abs(matrix @ found - right) - 1e-6 * (np.abs(matrix) @ np.abs(found) + np.abs(right))
-        fits = bool((beyond <= 1e-12 * largest).all())  # each by itself: accelerations are small beside stiffnesses
+        beside = np.abs(right).max(axis=0)  # each by itself: accelerations are small beside stiffnesses
+        fits = bool((beyond <= 1e-12 * beside).all())
     noise = CANCELS * (np.abs(inverse) @ (np.abs(matrix) @ np.abs(found) + np.abs(right)))
     found[np.abs(found) <= noise] = 0.0
     return found, fits

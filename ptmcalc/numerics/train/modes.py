@@ -40,9 +40,10 @@ def damped(train: Train) -> tuple[FloatArray, FloatArray]:
     rows = np.array([groups.link(spring) for spring in springs])[:, free]
     stiffness = np.sqrt([spring.stiffness for spring in springs])
     shares, values, _ = np.linalg.svd(rows / np.sqrt(inertia[free]) * stiffness[:, None], full_matrices=False)
-    travels = 0 if fixed else Coordinates.of(Train(train.bodies, train.meshes, tuple(springs)), groups).travels
     if fixed:
         travels = len(free) - int(np.linalg.matrix_rank(rows))
+    else:
+        travels = Coordinates.of(Train(train.bodies, train.meshes, tuple(springs)), groups).travels
     count = min(len(values), len(free) - travels)
     times = np.array([spring.damping for spring in springs]) / stiffness**2
     rising = slice(count - 1, None, -1) if count else slice(0, 0)

@@ -34,6 +34,9 @@ _AT_REST = 1e-13
 """Share of the largest speed in the train below which a speed after an event is 0."""
 STICKS_BELOW = 1e-14
 """Speed of a rebound, as a share of the first impact's, below which a rigid contact stays shut (Zeno)."""
+_LAST_DIGITS = 1e-14
+_LEAST_LOSS = 1e-6
+"""Share of its energy that a bounce loses at least, where it is asked how low rounding lets it fall."""
 _TURNING = {1: "forward", -1: "backward", 0: "at rest", 2: "free"}
 _SLIPPING = {1: "slips forward", -1: "slips backward", 0: "locked"}
 _LIMITED = {1: "at its limit", -1: "at its limit backward", 0: "in control"}
@@ -82,11 +85,7 @@ class Reactor:
             if now.piece >= 0:
                 since = time - now.start + 4 * np.finfo(float).eps * time
                 pieces[index] = Now(max(signal.piece(since), now.piece), now.start)
-                if signal.decay and abs(time - now.start - signal.decay_start) <= 1e-12 * max(time, 1e-300):
-                    self.z[system.own + system.inputs.decay_index(signal)] = 1.0
-        if time == 0:
-            for signal in system.signals:
-                if signal.decay and signal.trigger is None and signal.decay_start == 0:
+                if signal.decay and abs(time - now.start - signal.decay_start) <= 1e-12 * time:
                     self.z[system.own + system.inputs.decay_index(signal)] = 1.0
         self.state = self.state._replace(signals=tuple(pieces))
         for index, (drive, one) in enumerate(zip(system.train.drives, self.state.drives, strict=True)):
@@ -147,7 +146,7 @@ class Reactor:
         contacts[index] = to
         self.state = self.state._replace(contacts=tuple(contacts))
 
-    def _collide(self, met: int = -1) -> None:
+    def _collide(self, met: int | None = None) -> None:
         """Velocities after an impact: v' = -e v at every rigid contact that is closed (or was `met`) and closing, by
         impulses between its bodies that only push. Contacts that are closed when struck act at once.
 
@@ -190,12 +189,20 @@ class Reactor:
                 self.z[at] = side * springs[index].play / 2
 
     def _invisible(self, index: int, rebound: float) -> bool:
-        """Whether a rebound v is lower than rounding sees: v^2/(2 a) under the last digits of the position."""
-        of, count = self.system.stretches[index], self.system.groups.count
-        motion = self.system.motion(self.before)
-        back = abs(float(of.rate[count : self.system.own] @ (motion.rate @ self.z)[count : self.system.own]))
-        size = float(np.abs(of.x) @ np.abs(self.z)) + self.system.train.springs[index].play
-        return rebound**2 <= 2 * back * 1e-14 * size
+        """Whether a rebound v is lower than rounding sees: v^2/(2 a) under the last digits of the position, or under
+        the dust beside the largest state (`Look`).
+
+        A guard is seen to cross when it is below 0 by its dust d, so every impact comes with 2 a d too much of v^2, and
+        bounces that lose a share 1 - e^2 of it would go on for ever at a height of d e^2/(1 - e^2).
+        """
+        system, spring = self.system, self.system.train.springs[index]
+        of, count = system.stretches[index], system.groups.count
+        motion = system.motion(self.before)
+        back = abs(float(of.rate[count : system.own] @ (motion.rate @ self.z)[count : system.own]))
+        size = float(np.abs(of.x) @ np.abs(self.z)) + spring.play
+        dust = float(np.abs(of.x[: system.own]) @ Look(system, self.z).dust)
+        hidden = _LAST_DIGITS * size + 2 * dust / max(1 - spring.restitution**2, _LEAST_LOSS)
+        return rebound**2 <= 2 * back * hidden
 
     def _drive(self, index: int, to: drives.DriveState) -> None:
         if to[0] != self.state.drives[index][0]:
@@ -207,7 +214,6 @@ class Reactor:
 
     def _stage(self, index: int, number: int) -> None:
         drive = self.system.train.drives[index]
-        number = min(number, len(drive.stages) - 1)
         states = list(self.state.drives)
         states[index] = (number, drives.law_now(drive.stages[number].law, *self.system.seen(self.z, drive.body)))
         self.state = self.state._replace(drives=tuple(states))
@@ -431,7 +437,7 @@ def _agrees(slip: int, ways: list[int]) -> bool:
 def _contact_word(contact: links.Contact) -> str:
     phase, side = contact
     word = _WORDS[phase]
-    return word if word == "open" or side >= 0 else f"{word} backward"
+    return word if word == "open" or side > 0 else f"{word} backward"
 
 
 def _flipped(state: State, change: Change) -> State:
@@ -447,7 +453,7 @@ def _pushes(
 ) -> tuple[FloatArray, FloatArray]:
     """Impulses of closed rigid contacts, and the closing speeds after them."""
     count = len(closing)
-    small = _SETTLED * float(np.abs(closing).max(initial=0.0))
+    small = _SETTLED * float(np.abs(closing).max())
     for size in range(count, -1, -1):
         for pushing in itertools.combinations(range(count), size):
             push, active = np.zeros(count), list(pushing)

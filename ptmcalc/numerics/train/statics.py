@@ -20,7 +20,7 @@ def link_forces(train: Train, held: int) -> list[float]:
     **Error** exact for links that stay closed; a share of a load that links in parallel carry is by their stiffness.
     """
     moves = any(body.speed for body in train.bodies)
-    springs = tuple(replace(one, law=LINEAR, play=0.0, side=0) for one in train.springs if one.law != RIGID)
+    springs = tuple(replace(one, law=LINEAR) for one in train.springs if one.law != RIGID)
     meshes = train.meshes if moves else tuple(Mesh(m.name, m.inner, m.outer, m.ratio) for m in train.meshes)
     grips = tuple(grip for grip in train.grips if moves and _always(grip))
     drives = tuple(drive for drive in train.drives if drive.gate.values == (1.0,))
