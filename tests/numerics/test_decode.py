@@ -147,6 +147,26 @@ class TestLine:
         assert decode.mean(y, self.DEVIATION) == pytest.approx((fitted[0], np.sqrt(covariance[0, 0])), rel=1e-12)
 
 
+@pytest.mark.parametrize("size", [1e-60, 1.0, 1e60])
+def test_a_deviation_counts_down_to_a_millionth_of_a_millionth(size: float) -> None:
+    """Of the largest value; where all of them say nothing, they weigh alike."""
+    y = size * np.array([1.0, 1.0, 1.0, 1.0])
+    for deviation, counts in ((1e-10, 1e-10), (1e-11, 1e-11), (1e-14, 1e-12), (0.0, 1e-12)):
+        value, spread = decode.mean(y, np.full(4, deviation * size))
+        assert value == pytest.approx(size, rel=1e-14)
+        assert spread == pytest.approx(counts * size / 2, rel=1e-12)
+
+
+def test_a_shaft_that_turns_evenly_has_no_torque() -> None:
+    """To the last digit: neither its torques nor their deviations are anything but 0."""
+    found = decode.fit(np.linspace(0.0, 1.0, 50), np.full(50, 3.0))
+    value, deviation = decode.torque(found, np.full(50, 2.0), np.zeros(50))
+    assert decode.mean(value, deviation)[0] == 0.0
+    line = decode.line(np.arange(50.0), value, deviation)
+    assert (line.offset, line.slope) == (0.0, 0.0)
+    assert 0 <= line.slope_deviation < 1e-90
+
+
 @pytest.mark.parametrize(("apart", "taken"), [(3.99, 1), (4.01, 0)])
 def test_stretches_are_taken_as_long_as_twice_their_deviations_have_a_value_in_common(apart: float, taken: int) -> None:
     fits = np.ones((3, 7, 40))

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import sagging, strand
-from ptmcalc.numerics.loop import MOST_STEPS, Drive, Grid, Loop, Strand, match, panelled, refined, steps_of
+from ptmcalc.numerics.loop import MOST_STEPS, Drive, Extreme, Grid, Loop, Strand, match, panelled, refined, steps_of
 
 CARRY, BACK = Strand(700.0, 130.0, 3.1e7, 2.1e4, 9.3e4), Strand(640.0, 41.0, 2.2e7, 1.4e4, 2.1e4)
 
@@ -72,6 +72,11 @@ def test_the_mismatch_is_that_of_the_worse_strand() -> None:
             step = (first + second) / (carry + back)
             assert grid.mismatch <= max(abs(carry * step / first - 1), abs(back * step / second - 1)) + 1e-15
     assert match(1.0, 1e-9, 5, 1.0).back == 1
+
+
+def test_an_extreme_misses_nothing_unless_it_says_so() -> None:
+    assert Extreme(7.0, 2.0, 3.0).moved(400.0) == Extreme(7.0, 2.0, 403.0, 0.0)
+    assert Extreme(7.0, 2.0, 3.0, 0.5).moved(400.0) == Extreme(7.0, 2.0, 403.0, 0.5)
 
 
 @pytest.mark.parametrize(("share", "turned"), [(-1e-8, False), (-1e-4, True), (1e-4, False)])

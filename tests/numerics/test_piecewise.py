@@ -292,6 +292,12 @@ class TestCurves:
         assert steps == sorted(steps)
         assert steps[-1] < 2000
 
+    def test_nine_digits_where_none_are_asked_for(self) -> None:
+        system = Modes({"fall": Part(np.zeros((1, 1)), gain=np.ones((1, 1)), curves=(cube(),))}, np.eye(1), 1)
+        plain, asked = march(system, "fall", np.ones(1), 50.0), march(system, "fall", np.ones(1), 50.0, tolerance=1e-9)
+        assert (plain.steps, plain.last[0]) == (asked.steps, asked.last[0])
+        assert plain.last[0] == pytest.approx(1 / math.sqrt(101.0), rel=3e-8)
+
     def test_a_guard_along_a_curve(self) -> None:
         """x = 1/sqrt(1 + 2t) falls to 1/3 at t = 4."""
         rate = np.zeros((2, 2))

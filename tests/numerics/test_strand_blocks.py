@@ -1,5 +1,7 @@
 """A loop advanced in blocks and panels: against one step after the other, all pairs of samples, the echo series."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support import echoes
@@ -51,13 +53,14 @@ def by_steps(loop: Loop, drive: Drive, steps: int, grid: Grid) -> np.ndarray:
     waves = np.zeros((4, steps + 1))
     belt = tail = tail_before = 0.0
     force = drive.force(times) if drive.force else 0 * times
+    speeds = drive.speed(times) if drive.speed else None
     drum_before = force[0]
     for k in range(1, steps + 1):
         n_on, p_tail = (waves[i, k - grid.carry] if k >= grid.carry else 0.0 for i in (1, 0))
         p_off, n_tail = (waves[i, k - grid.back] if k >= grid.back else 0.0 for i in (2, 3))
         pushed = force[k] - n_on + (p_off if loop.fixed_length else 0.0)
-        if drive.speed:
-            belt = drive.speed(times)[k]
+        if speeds is not None:
+            belt = speeds[k]
         else:
             belt = node(loop.drum_mass, z_carry + z_off, belt, drum_before, pushed)
         tail = node(loop.tail_mass, z_carry + z_back, tail, tail_before, p_tail - n_tail)
@@ -168,6 +171,22 @@ class TestPanels:
             exact = echoes.run_on(6e4, loop.impedances, 45_120.0, (carry.transit, back.transit), motion.times)
             errors.append(float(np.abs(motion.run_on - 5e5 - exact)[:-1].max()))
         assert np.log2(errors[0] / errors[1]) > order
+
+    @pytest.mark.parametrize("fixed", [False, True])
+    @pytest.mark.parametrize("longer", ["carry", "back"])
+    def test_masses_at_both_ends_move_as_by_small_steps(self, longer: str, fixed: bool) -> None:
+        """Panels of four steps against one step after the other, twenty times as short."""
+        carry, back = Strand(500.0, 80.0, 2e7, 5e4, 5e4), Strand(500.0, 20.0, 2e7, 5e4, 5e4)
+        if longer == "back":
+            carry, back = back, carry
+        loop = Loop(carry, back, 9e3, 4e3, fixed_length=fixed)
+        drive = Drive(force=lambda t: 3e4 * np.sin(2.0 * t))
+        grid = panelled(match(carry.transit, back.transit, 8, 1e-12, at_most=16), 4)
+        motion = strand.march(loop, drive, 5.0, grid)
+        fine = replace(grid, step=grid.step / 20, carry=20 * grid.carry, back=20 * grid.back, panel=1)
+        steps = len(motion.times) - 1
+        expected = by_steps(loop, drive, 20 * steps, fine)[:, ::20]
+        assert motion.waves == pytest.approx(expected, rel=0, abs=2e-4 * np.abs(expected).max())
 
     def test_a_history_between_its_samples(self) -> None:
         when = np.linspace(0.0, 1.3, 77)
