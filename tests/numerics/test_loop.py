@@ -38,7 +38,14 @@ def test_an_exchange_of_1e_8_of_the_tensions_is_rounding() -> None:
 
 @pytest.mark.parametrize(
     ("window", "steps", "share"),
-    [(0.07, 7, 1.0), (0.0705, 8, 0.05), (0.0699999, 7, 0.99999), (0.004, 1, 0.4), (0.07 * (1 + 1e-12), 7, 1.0)],
+    [
+        (0.07, 7, 1.0),
+        (0.0705, 8, 0.05),
+        (0.0699999, 7, 0.99999),
+        (0.07000005, 8, 5e-6),
+        (0.004, 1, 0.4),
+        (0.07 * (1 + 1e-12), 7, 1.0),
+    ],
 )
 def test_a_window_ends_within_its_last_step(window: float, steps: int, share: float) -> None:
     found = steps_of(window, Grid(0.01, 10, 10, 0.0))
@@ -80,11 +87,14 @@ def test_an_extreme_misses_nothing_unless_it_says_so() -> None:
 
 
 @pytest.mark.parametrize(("share", "turned"), [(-1e-8, False), (-1e-4, True), (1e-4, False)])
-def test_a_belt_turns_back_where_it_goes_a_millionth_of_its_speed_that_way(share: float, turned: bool) -> None:
+@pytest.mark.parametrize("pull", [6e4, 6e7])
+def test_a_belt_turns_back_where_it_goes_a_millionth_of_its_speed_that_way(
+    share: float, turned: bool, pull: float
+) -> None:
     """Pulled back by a little first and forward then, by both marches: the motion is linear in the pull."""
     carry, back = Strand(1000.0, 245.0, 138e6, 5e5, 5e5), Strand(1000.0, 39.2, 138e6, 5e5, 5e5)
     belt = Loop(carry, back, 45_120.0, 0.0, fixed_length=False)
-    drive = Drive(force=lambda t: 6e4 * np.where(t < 1.0, share, np.minimum(t - 1.0, 1.0)))
+    drive = Drive(force=lambda t: pull * np.where(t < 1.0, share, np.minimum(t - 1.0, 1.0)))
     straight = strand.march(belt, drive, 3.0, match(carry.transit, back.transit, 40, 2e-7, at_most=4000))
     sags = sagging.march(belt, drive, 3.0, sagging.grid_of(belt, 40))
     for motion in (straight, sags):
