@@ -96,6 +96,16 @@ def test_fits_that_are_apart_share_no_sample() -> None:
     assert (found.first[chosen[1:]] > found.last[chosen[:-1]]).all()
 
 
+def test_every_fit_of_a_stretch_counts_from_the_first_to_the_last() -> None:
+    """Stretches of a sample each; and some that overlap, of which the first in turn are taken."""
+    found = decode.fit(*corner(0.2))
+    each = np.arange(len(found.time))
+    assert replace(found, first=each, last=each).apart(3, 9).tolist() == [3, 4, 5, 6, 7, 8, 9]
+    some = replace(found, first=np.array([0, 0, 1, 3, 3, 5]), last=np.array([2, 2, 3, 4, 5, 5]))
+    assert some.apart(0, 5).tolist() == [0, 3, 5]
+    assert some.apart(1, 4).tolist() == [2]
+
+
 def test_the_torque_and_its_deviation_follow_from_its_derivatives() -> None:
     """M = J eps + w^2 J'/2; the deviation by central differences in w and eps and the covariance of both."""
     found = decode.fit(*corner(0.2))

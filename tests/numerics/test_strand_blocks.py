@@ -95,6 +95,27 @@ def test_a_belt_that_slips_and_sticks_within_a_block_goes_as_step_by_step(monkey
         assert one.drum_speed == pytest.approx(other.drum_speed, rel=1e-10, abs=1e-12)
 
 
+def meetings(
+    part: Strand, waves: np.ndarray, cells: int, steps: int, share: float, step: float
+) -> list[tuple[float, float, int]]:
+    """Tension, time and half cell from the start of every place at which a sample of either wave meets one of the
+    other, and of all nodes at the end of the window."""
+    p, n = waves
+    seen = []
+    for j in range(2 * cells + 1):
+        static = part.static(np.array([j / (2 * cells)]))[0]
+        count = steps + 1 - j % 2 - (share < 0.5 and j % 2)
+        tension = static + (p[(j + 1) // 2 :][:count] + n[cells - j // 2 :][:count]) / 2
+        if not j % 2:
+            if len(tension) < 3:
+                tension[-1] = tension[-2] + share * (tension[-1] - tension[-2])
+            else:
+                a, b, c = tension[-3:]
+                tension[-1] = b + share * (c - a) / 2 + share**2 * (c - 2 * b + a) / 2
+        seen += [(value, (i + j % 2 / 2) * step, j) for i, value in enumerate(tension)]
+    return seen
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("grip", [False, True])
 def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
@@ -106,19 +127,7 @@ def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
         (loop.carry, grid.carry, motion.waves[:2], motion.carry_max, motion.carry_min, loop.back.length),
         (loop.back, grid.back, motion.waves[2:], motion.back_max, motion.back_min, 0.0),
     ):
-        p, n = np.concatenate([np.zeros((2, cells)), pair], axis=1)
-        seen = []
-        for j in range(2 * cells + 1):
-            static = part.static(np.array([j / (2 * cells)]))[0]
-            count = steps + 1 - j % 2 - (share < 0.5 and j % 2)
-            tension = static + (p[(j + 1) // 2 :][:count] + n[cells - j // 2 :][:count]) / 2
-            if not j % 2:
-                if len(tension) < 3:
-                    tension[-1] = tension[-2] + share * (tension[-1] - tension[-2])
-                else:
-                    a, b, c = tension[-3:]
-                    tension[-1] = b + share * (c - a) / 2 + share**2 * (c - 2 * b + a) / 2
-            seen += [(value, (i + j % 2 / 2) * grid.step, j) for i, value in enumerate(tension)]
+        seen = meetings(part, np.concatenate([np.zeros((2, cells)), pair], axis=1), cells, steps, share, grid.step)
         values = np.array([one[0] for one in seen])
         rounding = 1e-12 * np.abs(values).max()
         for found, best in ((top, values.max()), (bottom, values.min())):
@@ -126,6 +135,25 @@ def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
             near = [one for one in seen if abs(one[0] - best) <= rounding]
             place = (found.position - ahead) / part.length * 2 * cells
             assert any(abs(when - found.time) < 1e-9 * window + 1e-12 and abs(j - place) < 1e-6 for _, when, j in near)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_extremes_of_waves_of_any_shape_are_those_of_all_pairs(seed: int) -> None:
+    """Drawn without any order, on a strand whose static tension rises or falls as much as they do."""
+    rng = np.random.default_rng(seed)
+    cells, steps, share = int(rng.integers(1, 9)), int(rng.integers(1, 30)), float(rng.uniform(0.01, 1.0))
+    part = Strand(100.0, 50.0, 1e7, *rng.uniform(-3.0, 3.0, 2))
+    loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
+    delays = strand._Delays(loop, Grid(0.01, cells, cells, 0.0), steps, share)
+    waves = delays.carry if seed % 2 else delays.back
+    waves[:, cells + 1 :] = rng.normal(size=(2, waves.shape[1] - cells - 1))
+    seen = meetings(part, waves[:, : cells + steps + 1], cells, steps, share, 0.01)
+    values = [one[0] for one in seen]
+    for found, best in zip(delays.extremes(part, bool(seed % 2)), (max(values), min(values)), strict=True):
+        assert found.value == pytest.approx(best, rel=0, abs=1e-12)
+        place = found.position / part.length * 2 * cells
+        near = [(when, j) for value, when, j in seen if abs(value - best) <= 1e-12]
+        assert any(abs(when - found.time) < 1e-9 and abs(j - place) < 1e-6 for when, j in near)
 
 
 def test_a_tension_that_rests_is_found_where_it_begins_to() -> None:
