@@ -502,6 +502,11 @@ LONGEST: dict[str, tuple[Haul, Rod | Hauled, float]] = {
         Hauled(1e-12, 1.0, 0.0, 0.0),
         math.sqrt(1e-3 / 3e-12),
     ),
+    "a rod that hardly pulls, without a drive": (
+        machine(motor_mass=0.0, drum_mass=0.0, load_mass=1e-3, stages=()),
+        Rod(1e-9, 1e-3),
+        1e-3 / 1e-6,
+    ),
     "a steep curve": (machine(stages=lines(2e6)), LIGHT, (MOTOR + DRUM) / 2e6),
     "a stiff control": (machine(stages=(Stage(Governed(NONE, 1e6, Q)),)), LIGHT, (MOTOR + DRUM) / 1e6),
 }

@@ -264,6 +264,21 @@ class TestSag:
         assert differences[-1] < 3e-3 * 9e3
         assert np.log2(differences[0] / differences[2]) / 2 > 0.85  # at the corners; second order between them
 
+    @pytest.mark.parametrize("tail", [0.0, 2e3])
+    def test_all_waves_agree_to_second_order_where_nothing_has_a_corner(self, tail: float) -> None:
+        """What leaves the drum, the tail on either side, and the run-off, of a straight belt by both methods."""
+        even = Loop(
+            Strand(500.0, 40.0, 4e7, 60e3, 70e3), Strand(500.0, 10.0, 4e7, 60e3, 60e3), 20e3, tail, fixed_length=True
+        )
+        smooth = Drive(force=lambda t: 9e3 * np.sin(np.pi / 4 * t) ** 4)
+        apart = []
+        for cells in (20, 40):
+            cut = match(0.5, 0.25, cells, 1e-9)
+            one, other = (method(even, smooth, 4.0, cut).waves for method in (march, sagging.march))
+            apart.append(np.abs(one - other).max(axis=1) / np.abs(one).max(axis=1))
+        assert np.all(apart[1] < 2e-3)
+        assert np.all(np.log2(apart[0] / apart[1]) > 1.8)
+
     def test_extremes_are_told_at_nodes_and_at_the_ends(self) -> None:
         """The force of a start is highest where the carrying strand runs on, 400 m behind and 400 m ahead of that."""
         line = loop(on=12e3, off=6e3, tail_tension=6e3, spans=(900.0, 450.0))
