@@ -254,6 +254,4 @@ def unbalance_amplification(frequency_ratio: ArrayLike, damping_ratio: ArrayLike
     """
     r, zeta = np.asarray(frequency_ratio, float), np.asarray(damping_ratio, float)
     below = np.minimum(r, 1.0)
-    return np.asarray(
-        np.where(r <= 1, below**2, 1.0) * amplification(np.where(r <= 1, r, 1 / np.maximum(r, 1.0)), zeta)
-    )
+    return np.asarray(below**2 * amplification(np.where(r <= 1, r, 1 / np.maximum(r, 1.0)), zeta))

@@ -194,5 +194,5 @@ def mean(y: FloatArray, deviation: FloatArray) -> tuple[float, float]:
 
 def _weights(y: FloatArray, deviation: FloatArray) -> FloatArray:
     """The inverse of the deviations, none of which is below rounding."""
-    rounding = max(float(np.max(np.abs(y))) * 1e-12, 1e-300)
+    rounding = max(float(np.max(np.abs(y))) * 1e-12, 1e-100)  # weights are squared
     return np.asarray(1 / np.maximum(deviation, rounding))

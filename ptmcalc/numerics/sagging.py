@@ -270,8 +270,8 @@ class _Speeds:
 
     before: FloatArray
     after: FloatArray
-    drum_before: float = 0.0
-    drum_after: float = 0.0
+    drum_before: float
+    drum_after: float
 
     def drum_energy(self, mass: float) -> float:
         """Of a drum of that mass [J], as `_Belt.stored`."""
@@ -291,7 +291,8 @@ class _History:
         self.rows: list[int] = []
         nothing = _Seen(-math.inf, 0, 0)
         self.back, self.carry = [nothing, nothing], [nothing, nothing]
-        self.first, self.last = _Speeds(belt.speed, belt.speed), _Speeds(belt.speed, belt.speed)
+        self.first: _Speeds
+        self.last: _Speeds
 
     def note_cells(self, n: int, tension: FloatArray) -> None:
         """Take in the tensions of sample n."""

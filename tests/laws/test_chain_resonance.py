@@ -202,6 +202,11 @@ class TestBandsAndWindows:
         assert chain_resonance.safe_windows(bands, 1.1, 1.2).shape == (0, 2)
         assert chain_resonance.nearest_safe_speeds(1.3, bands) == pytest.approx((0.9, 1.5))
 
+    def test_without_a_resonance_the_whole_range_is_safe(self) -> None:
+        bands = chain_resonance.exclusion_bands(np.zeros(0), np.zeros(0))
+        assert bands.shape == (0, 2)
+        assert chain_resonance.safe_windows(bands, 0.0, 2.0).tolist() == [[0.0, 2.0]]
+
     def test_a_band_from_rest(self) -> None:
         bands = chain_resonance.exclusion_bands(np.array([1.0]), np.array([1.4]))
         assert chain_resonance.nearest_safe_speeds(0.3, bands) == pytest.approx((0.0, 2.4))

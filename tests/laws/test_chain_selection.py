@@ -39,7 +39,7 @@ class TestLength:
         pitches = chain_selection.chain_pitches(c, PITCH, one, two)
         assert chain_selection.centre_distance(pitches, PITCH, one, two) == pytest.approx(c, rel=1e-7)
 
-    @pytest.mark.parametrize(("pitches", "even"), [(113.2, 114), (114.0, 114), (114.00000001, 114), (114.001, 116)])
+    @pytest.mark.parametrize(("pitches", "even"), [(113.2, 114), (114.0, 114), (114.00000001, 114), (114.000001, 116)])
     def test_even(self, pitches: float, even: int) -> None:
         assert chain_selection.even_pitches(pitches) == even
 

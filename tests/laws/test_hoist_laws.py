@@ -93,9 +93,9 @@ class TestDrum:
         expected = layers_turn_by_turn(length, 0.15875, step, 36, packing == "nested")
         assert (turns, layers) == (pytest.approx(expected[0], rel=1e-12), expected[1])
 
-    def test_a_micrometre_more_than_a_layer_begins_the_next(self) -> None:
+    def test_a_hundredth_of_a_micrometre_more_than_a_layer_begins_the_next(self) -> None:
         full = 36.0 * math.tau * (0.3 + 0.0175) / 2
-        for more, layers in ((-1e-6, 1), (0.0, 1), (1e-6, 2)):
+        for more, layers in ((-1e-8, 1), (0.0, 1), (1e-8, 2)):
             assert rope_drum.turns_for_length(full + more, 0.3, 0.0175, 36.0, 0.0152, "nested")[1] == layers
 
     @pytest.mark.parametrize("layers", [1.5, 2.5, 5.9, 8.0])

@@ -288,6 +288,7 @@ class TestRheostat:
             factors = motor.rheostat_factors(0.1, 0.1 ** (1 + 1 / steps))
             assert len(factors) == steps
             assert factors == pytest.approx(10.0 ** (1 - np.arange(steps) / steps), rel=1e-12)
+            assert len(motor.rheostat_factors(0.1, 0.1 ** (1 + (1 - 1e-6) / steps))) == steps + 1
 
 
 class TestLinear:

@@ -215,6 +215,15 @@ class TestSmallAngles:
             used.append(missed / bound)
         assert max(used) > 1 / 3
 
+    @pytest.mark.parametrize("reach", [0.05, 0.5, 1.5])
+    def test_the_smaller_root_up_to_where_both_are_one(self, reach: float) -> None:
+        """Without a push H^3 - 3 r^2 H + 3 r^2 A = 0, phase = 2/r^2: H = 2 r sin(arcsin(3 A/2 r)/3)."""
+        for share in (0.3, 0.99, 1 - 1e-5, 1 - 1e-8):
+            angle = 2 / 3 * reach * share
+            root = 2 * reach * math.sin(math.asin(share) / 3)
+            assert pendulum.small_angle_error(angle, 2 / reach**2, 0.0) == pytest.approx(root - angle, rel=1e-9)
+        assert pendulum.small_angle_error(2 / 3 * reach * (1 + 1e-8), 2 / reach**2, 0.0) == math.inf
+
     def test_no_bound_for_large_angles(self) -> None:
         assert pendulum.small_angle_error(1.0, 50.0, 3.0) == math.inf
         assert pendulum.small_angle_error(0.0, 50.0, 3.0) == 0.0

@@ -115,6 +115,8 @@ def test_no_start_throws_a_load_beyond_its_reach(seed: int) -> None:
 
         furthest = brentq(beyond, radius, radius + rope, xtol=1e-14, rtol=1e-14)
         assert furthest * (1 - 1e-12) <= reach <= furthest * (1 + 1e-8)
+        steepest = math.acos(1 - speed**2 * (furthest**2 + jib / mass) / (2 * 9.81 * rope))
+        assert steepest * (1 - 1e-12) <= angle <= steepest * (1 + 1e-7) + 1e-8
     assert reach >= radius + rope * math.sin(angle) * (1 - 1e-6)
     left = speed**2 * (reach**2 + jib / mass) / 2 - 9.81 * rope * (1 - math.cos(angle))
     assert left <= 1e-6 * speed**2 * (reach**2 + jib / mass)

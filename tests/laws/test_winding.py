@@ -107,3 +107,17 @@ class TestRadius:
     def test_nested_turns_rise_by_what_the_step_lacks(self) -> None:
         d = 0.0175
         assert winding.crossover_rise(d, d * math.sqrt(3) / 2) == pytest.approx(0.134 * d, rel=1e-3)
+
+
+@pytest.mark.parametrize(("turns", "bumps"), [(0.2, 0), (0.5, 0), (0.51, 1), (1.0, 1), (2.2, 4)])
+def test_a_climb_and_the_crossovers_behind_it_corner_by_corner(turns: float, bumps: int) -> None:
+    """Two crossovers a turn, each over 60 deg; the first is the climb. Even up to where the next one would be."""
+    arc = math.pi / 3
+    found = winding.winding_radius(0.15, 0.015, 2e-3, 2, arc, turns)
+    expected = [(0.0, 0.15), (arc / 2, 0.15), (1.5 * arc, 0.165)]
+    for k in range(1, bumps + 1):
+        expected += [(arc / 2 + k * math.pi + part * arc / 2, 0.165 + (part == 1) * 2e-3) for part in range(3)]
+    expected.append((arc / 2 + (bumps + 1) * math.pi, 0.165))
+    assert found == pytest.approx(np.array(expected), rel=1e-14)
+    flat = winding.winding_radius(0.15, 0.015, 0.0, 2, arc, turns)
+    assert flat == pytest.approx(np.array([*expected[:3], expected[-1]]), rel=1e-14)

@@ -5,6 +5,8 @@ step, elements at whole steps. What they differ by falls with the step. The fric
 """
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,3 +79,80 @@ def test_both_methods_slip_alike(rigid: bool, back: bool, imposed: bool, jump: b
         assert ratio.max() <= math.exp(EXPONENT) * (1 + 1e-9)
     assert max(away[1]) < 0.03, away
     assert sum(away[1]) < 0.75 * sum(away[0])
+
+
+METHODS = pytest.mark.parametrize("method", [strand.march, sagging.march], ids=["straight", "sagging"])
+
+
+def in_units(loop: Loop, mass: float, length: float) -> Loop:
+    """The same loop told in other units, so many of which are a kilogram and a metre."""
+    force, line_mass = mass * length, mass / length
+    strands = (
+        Strand(
+            one.length * length,
+            one.line_mass * line_mass,
+            one.stiffness * force,
+            one.static_start * force,
+            one.static_end * force,
+            one.span_weight * force,
+        )
+        for one in (loop.carry, loop.back)
+    )
+    assert loop.grip is not None
+    grip = Grip(loop.grip.exponent, loop.grip.belt_line_mass * line_mass)
+    ends = loop.drum_mass * mass, loop.tail_mass * mass
+    return Loop(*strands, *ends, loop.fixed_length, grip, loop.impedance_jump)
+
+
+@METHODS
+@pytest.mark.parametrize("imposed", [False, True], ids=["force", "speed"])
+@pytest.mark.parametrize("back", [False, True], ids=["drives", "brakes"])
+@pytest.mark.parametrize("rigid", [False, True], ids=["takeup", "fixed"])
+def test_units_of_mass_and_length_do_not_matter(
+    method: Callable[..., Motion], rigid: bool, back: bool, imposed: bool
+) -> None:
+    """Powers of two change no digit, whatever slips, sticks again or sags."""
+    weight = 300.0 if method is sagging.march else 0.0
+    loop = line(rigid, back)
+    loop = replace(loop, carry=replace(loop.carry, span_weight=weight), back=replace(loop.back, span_weight=weight / 2))
+    drive = (speed if imposed else force)(back)
+    cut = match(loop.carry.transit, loop.back.transit, 20, 1e-9)
+    found = method(loop, drive, 2.6, cut)
+    assert found.slipped
+    for mass, length in ((2.0**-24, 1.0), (2.0**20, 2.0**-9)):
+        one = Drive(
+            force=None if imposed else lambda t, unit=mass * length: unit * drive.force(t),
+            speed=(lambda t, unit=length: unit * drive.speed(t)) if imposed else None,
+        )
+        other = method(in_units(loop, mass, length), one, 2.6, cut)
+        for name, unit in (
+            ("waves", mass * length), ("run_on", mass * length), ("run_off", mass * length),
+            ("belt_speed", length), ("drum_speed", length), ("energy_residual", 1.0),
+            ("slipped", 1), ("reversed", 1), ("cell_updates", 1),
+        ):  # fmt: skip
+            assert np.array_equal(getattr(found, name) * unit, getattr(other, name)), name
+        for name in ("carry_max", "carry_min", "back_max", "back_min"):
+            here, there = getattr(found, name), getattr(other, name)
+            assert there == replace(
+                here,
+                value=here.value * mass * length,
+                position=here.position * length,
+                missed=here.missed * mass * length,
+            )
+
+
+@METHODS
+def test_a_belt_that_slips_at_rest_stays_there(method: Callable[..., Motion]) -> None:
+    """Its static tensions are beyond its grip and the drum is held: the idlers hold it, nothing moves."""
+    loop = line(False, False)
+    loop = replace(loop, carry=replace(loop.carry, static_end=90e3))
+    motion = method(
+        loop,
+        Drive(speed=lambda t: 0.0 * t),
+        1.0,
+        match(loop.carry.transit, loop.back.transit, 20, 1e-9),
+    )
+    assert motion.slipped
+    assert not motion.belt_speed.any()
+    assert motion.run_on == pytest.approx(np.full(len(motion.times), 90e3), rel=1e-12)
+    assert motion.energy_residual == 0.0

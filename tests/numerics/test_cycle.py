@@ -51,6 +51,19 @@ def grid(stretches: int, order: int = 12) -> Grid:
 
 
 class TestKnownMotions:
+    @pytest.mark.parametrize("size", [1e-9, 0.01, 3e6])
+    def test_the_unit_of_energy_does_not_matter(self, size: float) -> None:
+        """The cycle of below, so many times as large, and its extremes to the last digits."""
+        k, g = 0.7, grid(8)
+        rates = lambda e: (-k * (e - 5 * size) + size * np.cos(g.angles), np.full(e.shape, -k))  # noqa: E731
+        swing = 1 / math.sqrt(1 + k * k)
+        for start in (None, size * (5 + k / (1 + k * k))):
+            orbit = solve(g, rates, np.full(g.angles.shape, 0.6 * size), start)
+            assert orbit is not None
+            (low, _), (high, at_high) = orbit.extremes()
+            assert (low / size, high / size) == pytest.approx((5 - swing, 5 + swing), rel=1e-13)
+            assert at_high == pytest.approx(math.atan2(1, k), abs=1e-6)
+
     def test_a_linear_equation_closes_on_its_known_cycle(self) -> None:
         """de/dphi = -k (e - 5) + cos phi: e = 5 + (k cos phi + sin phi)/(1 + k^2)."""
         k, g = 0.7, grid(8)

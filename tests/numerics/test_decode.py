@@ -96,6 +96,16 @@ def test_fits_that_are_apart_share_no_sample() -> None:
     assert (found.first[chosen[1:]] > found.last[chosen[:-1]]).all()
 
 
+def test_every_fit_of_a_stretch_counts_from_the_first_to_the_last() -> None:
+    """Stretches of a sample each; and some that overlap, of which the first in turn are taken."""
+    found = decode.fit(*corner(0.2))
+    each = np.arange(len(found.time))
+    assert replace(found, first=each, last=each).apart(3, 9).tolist() == [3, 4, 5, 6, 7, 8, 9]
+    some = replace(found, first=np.array([0, 0, 1, 3, 3, 5]), last=np.array([2, 2, 3, 4, 5, 5]))
+    assert some.apart(0, 5).tolist() == [0, 3, 5]
+    assert some.apart(1, 4).tolist() == [2]
+
+
 def test_the_torque_and_its_deviation_follow_from_its_derivatives() -> None:
     """M = J eps + w^2 J'/2; the deviation by central differences in w and eps and the covariance of both."""
     found = decode.fit(*corner(0.2))
@@ -145,6 +155,26 @@ class TestLine:
         y = 3.0 + scatter * self.DEVIATION * np.array([1, -1, 1, -1, 1])
         fitted, covariance = np.polyfit(self.X, y, 0, w=1 / self.DEVIATION, cov=True if scatter > 1 else "unscaled")
         assert decode.mean(y, self.DEVIATION) == pytest.approx((fitted[0], np.sqrt(covariance[0, 0])), rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-60, 1.0, 1e60])
+def test_a_deviation_counts_down_to_a_millionth_of_a_millionth(size: float) -> None:
+    """Of the largest value; where all of them say nothing, they weigh alike."""
+    y = size * np.array([1.0, 1.0, 1.0, 1.0])
+    for deviation, counts in ((1e-10, 1e-10), (1e-11, 1e-11), (1e-14, 1e-12), (0.0, 1e-12)):
+        value, spread = decode.mean(y, np.full(4, deviation * size))
+        assert value == pytest.approx(size, rel=1e-14)
+        assert spread == pytest.approx(counts * size / 2, rel=1e-12)
+
+
+def test_a_shaft_that_turns_evenly_has_no_torque() -> None:
+    """To the last digit: neither its torques nor their deviations are anything but 0."""
+    found = decode.fit(np.linspace(0.0, 1.0, 50), np.full(50, 3.0))
+    value, deviation = decode.torque(found, np.full(50, 2.0), np.zeros(50))
+    assert decode.mean(value, deviation)[0] == 0.0
+    line = decode.line(np.arange(50.0), value, deviation)
+    assert (line.offset, line.slope) == (0.0, 0.0)
+    assert 0 <= line.slope_deviation < 1e-90
 
 
 @pytest.mark.parametrize(("apart", "taken"), [(3.99, 1), (4.01, 0)])

@@ -55,9 +55,21 @@ def test_evenly_spaced_times_are_a_rotation(rate: complex, count: int, first: fl
     assert np.all(np.abs(grown(rate, times) - expected) <= allowed * np.abs(expected))
 
 
-def test_uneven_times_have_exponentials_of_their_own() -> None:
-    times = np.cumsum(np.linspace(1e-3, 2e-3, 600))
-    assert np.array_equal(grown(3j, times), np.exp(3j * times))
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+def test_uneven_times_have_exponentials_of_their_own(unit: float) -> None:
+    times = np.cumsum(np.linspace(1e-3, 2e-3, 600)) * unit
+    assert np.array_equal(grown(3j / unit, times), np.exp(3j / unit * times))
+
+
+@pytest.mark.parametrize("name", POINTS)
+@pytest.mark.parametrize("unit", [2.0**-20, 2.0**20])
+@pytest.mark.parametrize("count", [7, 600])
+def test_the_unit_of_time_does_not_matter(name: str, unit: float, count: int) -> None:
+    """A power of two changes no digit: the points are exponents only with their times."""
+    times = TIMES if count == 7 else np.linspace(0.0, 4.0, count)
+    points = tuple(one / unit for one in POINTS[name])
+    for one, other in zip(differences(POINTS[name], SETS, times), differences(points, SETS, times * unit), strict=True):
+        assert np.array_equal(one, other)
 
 
 def test_late_times_are_one_sum_of_the_same_value() -> None:

@@ -125,12 +125,14 @@ class TestCost:
         assert found.steps <= 1500
         assert found.bottom.values[0] == pytest.approx(-SLOW - FAST, rel=3e8 * 2.3e-16)  # rounding of every radian
 
-    def test_a_curve_over_time_shows_what_rings(self) -> None:
-        found = march(two_swings(500.0, 0.0), "swing", START, 10.0, keep=True)
+    @pytest.mark.parametrize("size", [1e-5, 1.0, 1e5])
+    def test_a_curve_over_time_shows_what_rings(self, size: float) -> None:
+        start, scale = START * [size, size, size, size, 1.0], (size, size, size, size, 1.0)
+        system = replace(two_swings(500.0, 0.0), sizes=scale)
+        found = march(system, "swing", start, 10.0, keep=True)
         assert found.samples is not None
         times = np.concatenate(found.samples.times)
         assert np.diff(times).max() <= 0.8 / 500.0  # not one of its radians is left out
-        system = two_swings(500.0, 0.0)
         seen_faintly = replace(system, watch=system.watch[:1], products=())
-        faint = march(seen_faintly, "swing", np.array([1.0, 0, 1e-6, 0, 1.0]), 10.0, keep=True)
+        faint = march(seen_faintly, "swing", np.array([size, 0, 1e-6 * size, 0, 1.0]), 10.0, keep=True)
         assert faint.steps < found.steps / 4

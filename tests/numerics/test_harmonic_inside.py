@@ -8,7 +8,7 @@ import pytest
 from scipy.linalg import solve
 from support import chain_fem
 
-from ptmcalc.numerics.harmonic.inside import joint_response
+from ptmcalc.numerics.harmonic.inside import joint_forces, joint_response
 from ptmcalc.numerics.harmonic.parts import Chain, Damping, Excitation, Line
 
 WORKING, EMPTY = Line(40.0, 200.0, 3e8), Line(44.0, 80.0, 3e8)
@@ -103,6 +103,41 @@ def test_the_told_error_holds_what_more_harmonics_find(count: int) -> None:
         assert np.all(np.abs(rough.smallest - exact.smallest) <= rough.error + exact.error)
         assert np.all(np.maximum(exact.largest, -exact.smallest) <= rough.bound)
         assert np.all(rough.error[1:] < 0.02 * exact.largest[1:])
+
+
+@pytest.mark.parametrize("law", DAMPINGS)
+@pytest.mark.parametrize("count", [100, 128, 130])
+def test_errors_are_told_as_derived(law: str, count: int) -> None:
+    """Behind the last harmonic N the joint's motion is no more than |b_N| N/(n^3 w_1^2), a wave of it no more than z w
+    (2/(1 - q))^2 X_1 in force, and with the root of the frequency by which z may grow the sum no more than twice its
+    integral. Between samples h apart a sum of sines stays within (h/2)^2/2 of its second derivative."""
+    chain = replace(CHAINS[1], damping=DAMPINGS[law])
+    orders = np.arange(1, count + 1)
+    near, far = Excitation(0.7 * (-1.0) ** orders / orders), Excitation(-0.3 / orders**1.5, place=0.3)
+    speeds = np.array([20.0, 55.0])
+    for second in (None, far):
+        first, back, left = joint_forces(chain, speeds, near, second)
+        told = joint_response(chain, speeds, near, second)
+        for k, speed in enumerate(speeds.tolist()):
+            root = complex(np.sqrt(modulus(chain.damping, speed * count)))
+            fades = [
+                abs(np.exp(-1j * speed * count * line.length * math.sqrt(line.line_mass / line.stiffness) / root))
+                for line in chain.lines
+            ]
+            stiffest = max(math.sqrt(line.line_mass * line.stiffness) for line in chain.lines)
+            wave = stiffest * abs(root) * (2 / (1 - max(fades) ** 2)) ** 2 * fades[0]
+            last = abs(near.harmonics[-1]) + (abs(far.harmonics[-1]) if second else 0.0)
+            assert left[k] == pytest.approx(2 * wave * last / speed, rel=1e-12)
+            samples = max(1024, 2 ** math.ceil(math.log2(8 * count)))
+            for forces, one in zip((first, back), told, strict=True):
+                curved = sum(abs(forces[k]) * (2 * math.pi * orders) ** 2) * (0.5 / samples) ** 2 / 2
+                assert one.error[k] == pytest.approx(left[k] + curved, rel=1e-12)
+                assert one.bound[k] == pytest.approx(left[k] + sum(abs(forces[k])), rel=1e-12)
+
+
+def test_a_strand_that_hardly_fades_bounds_nothing() -> None:
+    light = replace(CHAINS[1], damping=Damping("hysteretic", share=1e-19))
+    assert math.isinf(joint_forces(light, np.array([20.0]), Excitation(np.ones(3)))[2][0])
 
 
 def test_a_resonance_without_damping_has_no_bound() -> None:

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import sagging, strand
-from ptmcalc.numerics.loop import MOST_STEPS, Drive, Grid, Loop, Strand, match, panelled, refined, steps_of
+from ptmcalc.numerics.loop import MOST_STEPS, Drive, Extreme, Grid, Loop, Strand, match, panelled, refined, steps_of
 
 CARRY, BACK = Strand(700.0, 130.0, 3.1e7, 2.1e4, 9.3e4), Strand(640.0, 41.0, 2.2e7, 1.4e4, 2.1e4)
 
@@ -38,7 +38,14 @@ def test_an_exchange_of_1e_8_of_the_tensions_is_rounding() -> None:
 
 @pytest.mark.parametrize(
     ("window", "steps", "share"),
-    [(0.07, 7, 1.0), (0.0705, 8, 0.05), (0.0699999, 7, 0.99999), (0.004, 1, 0.4), (0.07 * (1 + 1e-12), 7, 1.0)],
+    [
+        (0.07, 7, 1.0),
+        (0.0705, 8, 0.05),
+        (0.0699999, 7, 0.99999),
+        (0.07000005, 8, 5e-6),
+        (0.004, 1, 0.4),
+        (0.07 * (1 + 1e-12), 7, 1.0),
+    ],
 )
 def test_a_window_ends_within_its_last_step(window: float, steps: int, share: float) -> None:
     found = steps_of(window, Grid(0.01, 10, 10, 0.0))
@@ -74,12 +81,20 @@ def test_the_mismatch_is_that_of_the_worse_strand() -> None:
     assert match(1.0, 1e-9, 5, 1.0).back == 1
 
 
+def test_an_extreme_misses_nothing_unless_it_says_so() -> None:
+    assert Extreme(7.0, 2.0, 3.0).moved(400.0) == Extreme(7.0, 2.0, 403.0, 0.0)
+    assert Extreme(7.0, 2.0, 3.0, 0.5).moved(400.0) == Extreme(7.0, 2.0, 403.0, 0.5)
+
+
 @pytest.mark.parametrize(("share", "turned"), [(-1e-8, False), (-1e-4, True), (1e-4, False)])
-def test_a_belt_turns_back_where_it_goes_a_millionth_of_its_speed_that_way(share: float, turned: bool) -> None:
+@pytest.mark.parametrize("pull", [6e4, 6e7])
+def test_a_belt_turns_back_where_it_goes_a_millionth_of_its_speed_that_way(
+    share: float, turned: bool, pull: float
+) -> None:
     """Pulled back by a little first and forward then, by both marches: the motion is linear in the pull."""
     carry, back = Strand(1000.0, 245.0, 138e6, 5e5, 5e5), Strand(1000.0, 39.2, 138e6, 5e5, 5e5)
     belt = Loop(carry, back, 45_120.0, 0.0, fixed_length=False)
-    drive = Drive(force=lambda t: 6e4 * np.where(t < 1.0, share, np.minimum(t - 1.0, 1.0)))
+    drive = Drive(force=lambda t: pull * np.where(t < 1.0, share, np.minimum(t - 1.0, 1.0)))
     straight = strand.march(belt, drive, 3.0, match(carry.transit, back.transit, 40, 2e-7, at_most=4000))
     sags = sagging.march(belt, drive, 3.0, sagging.grid_of(belt, 40))
     for motion in (straight, sags):

@@ -170,6 +170,15 @@ def test_too_long_a_window_says_so() -> None:
         mode_sum(one, COURSES["straight"], 1e6)
 
 
+def test_four_million_samples_are_the_most() -> None:
+    """Half a radian of the fastest mode apart; a swing that has faded needs only the first of them."""
+    one = Modes(np.array([2.0]), np.array([0.1]), np.ones((1, 1)), np.ones(1), np.zeros(1))
+    most = 0.25 * (4_000_000 - 1)
+    assert mode_sum(one, Course.step(), most * (1 - 1e-12)).samples < 5000
+    with pytest.raises(NumericsError, match="4000001 samples"):
+        mode_sum(one, Course.step(), most * (1 + 1e-12))
+
+
 class TestBetweenSamples:
     """Numbers between which a sum lies, where all that is missed can be told by hand."""
 

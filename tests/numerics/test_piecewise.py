@@ -1,5 +1,6 @@
 """Small systems with guards against closed forms: roots of every kind, breaks, faded components, curves."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -225,6 +226,32 @@ class TestModes:
             march(Modes(parts, np.eye(3), 2), "a", np.array([0.0, 1.0, 1.0]), 10.0)
         assert raised.value.code == "NUM101"
 
+    @pytest.mark.parametrize(("count", "stands"), [(200, False), (201, True)])
+    def test_two_hundred_changes_at_once_and_no_more(self, count: int, stands: bool) -> None:
+        """x' = 1 from -1 reaches 0 once; there so many modes hand it on, each out of its own at once."""
+        rate = with_one(np.zeros((1, 1)), np.ones(1))
+        reached = np.array([-1.0, 0.0])
+        names = ["on the way", *(f"at once {k}" for k in range(count)), "beyond"]
+        parts = {name: Part(rate, ((reached, after),)) for name, after in itertools.pairwise(names)}
+        system = Modes(parts | {"beyond": Part(rate)}, np.eye(2)[:1], 1)
+        if stands:
+            with pytest.raises(NumericsError, match="without end"):
+                march(system, "on the way", np.array([-1.0, 1.0]), 3.0)
+            return
+        found = march(system, "on the way", np.array([-1.0, 1.0]), 3.0)
+        assert [event.time for event in found.events] == pytest.approx([1.0] * (count + 1), rel=1e-14)
+        assert found.crossings == count + 1
+        assert found.last[0] == pytest.approx(2.0, rel=1e-13)
+
+    @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+    def test_so_much_work_and_no_more(self, size: float) -> None:
+        """A hundred panels of half a second in 8, 16, 32, 32 and 12 at once, and the look at each of these as ten."""
+        system, start = oscillator(1.0), np.array([size, 0.0, 1.0])
+        found = march(system, "swing", start, 50.0, most_work=100 + 5 * 10)
+        assert (found.steps, found.long, found.crossings, found.work) == (100, 0, 0, 100)
+        with pytest.raises(NumericsError, match="given up"):
+            march(system, "swing", start, 50.0, most_work=100 + 5 * 10 - 0.001)
+
 
 class TestFastComponents:
     @pytest.mark.parametrize("fast", [1e3, 1e6, 1e9, 1e12])
@@ -291,6 +318,12 @@ class TestCurves:
         ]
         assert steps == sorted(steps)
         assert steps[-1] < 2000
+
+    def test_nine_digits_where_none_are_asked_for(self) -> None:
+        system = Modes({"fall": Part(np.zeros((1, 1)), gain=np.ones((1, 1)), curves=(cube(),))}, np.eye(1), 1)
+        plain, asked = march(system, "fall", np.ones(1), 50.0), march(system, "fall", np.ones(1), 50.0, tolerance=1e-9)
+        assert (plain.steps, plain.last[0]) == (asked.steps, asked.last[0])
+        assert plain.last[0] == pytest.approx(1 / math.sqrt(101.0), rel=3e-8)
 
     def test_a_guard_along_a_curve(self) -> None:
         """x = 1/sqrt(1 + 2t) falls to 1/3 at t = 4."""

@@ -502,6 +502,11 @@ LONGEST: dict[str, tuple[Haul, Rod | Hauled, float]] = {
         Hauled(1e-12, 1.0, 0.0, 0.0),
         math.sqrt(1e-3 / 3e-12),
     ),
+    "a rod that hardly pulls, without a drive": (
+        machine(motor_mass=0.0, drum_mass=0.0, load_mass=1e-3, stages=()),
+        Rod(1e-9, 1e-3),
+        1e-3 / 1e-6,
+    ),
     "a steep curve": (machine(stages=lines(2e6)), LIGHT, (MOTOR + DRUM) / 2e6),
     "a stiff control": (machine(stages=(Stage(Governed(NONE, 1e6, Q)),)), LIGHT, (MOTOR + DRUM) / 1e6),
 }
@@ -560,6 +565,27 @@ def test_so_many_panels_and_no_more() -> None:
     assert found.time == end
     with pytest.raises(NumericsError, match="more than 5 steps"):
         March(haul, HAULED).play(end, count - 1)
+
+
+@pytest.mark.parametrize("share", [1e-6, 1e-9, 1e-12])
+def test_the_last_of_a_march_is_played_however_short(share: float) -> None:
+    """A brake changes just before the end."""
+    end = 0.02
+    breaks = Course((0.0, end * (1 - share)), (0.0, 0.1 * Q), (0.0, 0.0))
+    found = March(machine(motor_brake=Tripped(breaks), drum_brake=Tripped()), HAULED).play(end)
+    assert found.time == end
+    assert sum(panel.length for panel in found.panels) == pytest.approx(end, rel=1e-14)
+    assert found.panels[-1].length == pytest.approx(share * end, rel=1e-3)
+
+
+def test_what_ends_as_soon_as_it_begins_does_nothing() -> None:
+    """A brake that would stop the drive at once, for a millionth of a millionth of a second."""
+    blow = Course((0.0, 0.02, 0.02 + 1e-12), (0.0, 90 * Q, 0.0), (0.0, 0.0, 0.0))
+    bare, struck = (
+        March(machine(motor_brake=Tripped(one), drum_brake=Tripped()), HAULED).play(0.05) for one in (NONE, blow)
+    )
+    assert struck.events == bare.events
+    assert struck.state == pytest.approx(bare.state, rel=1e-8, abs=1e-12)
 
 
 def test_forty_events_at_once_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,6 +27,21 @@ def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(hits: int, size:
     assert share_interval(hits, size, confidence) == pytest.approx((expected.low, expected.high), rel=1e-7, abs=1e-12)
 
 
+@pytest.mark.parametrize("size", [1, 6, 13])
+def test_small_samples_to_their_last_digits(size: int) -> None:
+    """I_x(k, n - k + 1) is a sum of binomials; and the ends of an interval leave out what they say."""
+
+    def at_least(hits: int, p: float) -> float:
+        return math.fsum(math.comb(size, k) * p**k * (1 - p) ** (size - k) for k in range(hits, size + 1))
+
+    for hits in range(1, size + 1):
+        for p in (0.003, 0.2, 0.47, 0.9):
+            assert beta_share(p, hits, size - hits + 1) == pytest.approx(at_least(hits, p), rel=3e-13)
+        low, high = share_interval(hits, size, 0.9)
+        assert at_least(hits, low) == pytest.approx(0.05, rel=1e-10)
+        assert 1 - at_least(hits + 1, high) == pytest.approx(0.05 if hits < size else 1.0, rel=1e-10)
+
+
 def test_an_interval_of_a_share_holds_it_as_often_as_it_says() -> None:
     """Summed over all numbers of hits, for many probabilities: never less often. Wilson's does, somewhere."""
     size, hits = 30, np.arange(31)

@@ -1,5 +1,7 @@
 """A loop advanced in blocks and panels: against one step after the other, all pairs of samples, the echo series."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support import echoes
@@ -51,13 +53,14 @@ def by_steps(loop: Loop, drive: Drive, steps: int, grid: Grid) -> np.ndarray:
     waves = np.zeros((4, steps + 1))
     belt = tail = tail_before = 0.0
     force = drive.force(times) if drive.force else 0 * times
+    speeds = drive.speed(times) if drive.speed else None
     drum_before = force[0]
     for k in range(1, steps + 1):
         n_on, p_tail = (waves[i, k - grid.carry] if k >= grid.carry else 0.0 for i in (1, 0))
         p_off, n_tail = (waves[i, k - grid.back] if k >= grid.back else 0.0 for i in (2, 3))
         pushed = force[k] - n_on + (p_off if loop.fixed_length else 0.0)
-        if drive.speed:
-            belt = drive.speed(times)[k]
+        if speeds is not None:
+            belt = speeds[k]
         else:
             belt = node(loop.drum_mass, z_carry + z_off, belt, drum_before, pushed)
         tail = node(loop.tail_mass, z_carry + z_back, tail, tail_before, p_tail - n_tail)
@@ -92,6 +95,27 @@ def test_a_belt_that_slips_and_sticks_within_a_block_goes_as_step_by_step(monkey
         assert one.drum_speed == pytest.approx(other.drum_speed, rel=1e-10, abs=1e-12)
 
 
+def meetings(
+    part: Strand, waves: np.ndarray, cells: int, steps: int, share: float, step: float
+) -> list[tuple[float, float, int]]:
+    """Tension, time and half cell from the start of every place at which a sample of either wave meets one of the
+    other, and of all nodes at the end of the window."""
+    p, n = waves
+    seen = []
+    for j in range(2 * cells + 1):
+        static = part.static(np.array([j / (2 * cells)]))[0]
+        count = steps + 1 - j % 2 - (share < 0.5 and j % 2)
+        tension = static + (p[(j + 1) // 2 :][:count] + n[cells - j // 2 :][:count]) / 2
+        if not j % 2:
+            if len(tension) < 3:
+                tension[-1] = tension[-2] + share * (tension[-1] - tension[-2])
+            else:
+                a, b, c = tension[-3:]
+                tension[-1] = b + share * (c - a) / 2 + share**2 * (c - 2 * b + a) / 2
+        seen += [(value, (i + j % 2 / 2) * step, j) for i, value in enumerate(tension)]
+    return seen
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("grip", [False, True])
 def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
@@ -103,19 +127,7 @@ def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
         (loop.carry, grid.carry, motion.waves[:2], motion.carry_max, motion.carry_min, loop.back.length),
         (loop.back, grid.back, motion.waves[2:], motion.back_max, motion.back_min, 0.0),
     ):
-        p, n = np.concatenate([np.zeros((2, cells)), pair], axis=1)
-        seen = []
-        for j in range(2 * cells + 1):
-            static = part.static(np.array([j / (2 * cells)]))[0]
-            count = steps + 1 - j % 2 - (share < 0.5 and j % 2)
-            tension = static + (p[(j + 1) // 2 :][:count] + n[cells - j // 2 :][:count]) / 2
-            if not j % 2:
-                if len(tension) < 3:
-                    tension[-1] = tension[-2] + share * (tension[-1] - tension[-2])
-                else:
-                    a, b, c = tension[-3:]
-                    tension[-1] = b + share * (c - a) / 2 + share**2 * (c - 2 * b + a) / 2
-            seen += [(value, (i + j % 2 / 2) * grid.step, j) for i, value in enumerate(tension)]
+        seen = meetings(part, np.concatenate([np.zeros((2, cells)), pair], axis=1), cells, steps, share, grid.step)
         values = np.array([one[0] for one in seen])
         rounding = 1e-12 * np.abs(values).max()
         for found, best in ((top, values.max()), (bottom, values.min())):
@@ -123,6 +135,25 @@ def test_extremes_are_those_of_all_pairs(seed: int, grip: bool) -> None:
             near = [one for one in seen if abs(one[0] - best) <= rounding]
             place = (found.position - ahead) / part.length * 2 * cells
             assert any(abs(when - found.time) < 1e-9 * window + 1e-12 and abs(j - place) < 1e-6 for _, when, j in near)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_extremes_of_waves_of_any_shape_are_those_of_all_pairs(seed: int) -> None:
+    """Drawn without any order, on a strand whose static tension rises or falls as much as they do."""
+    rng = np.random.default_rng(seed)
+    cells, steps, share = int(rng.integers(1, 9)), int(rng.integers(1, 30)), float(rng.uniform(0.01, 1.0))
+    part = Strand(100.0, 50.0, 1e7, *rng.uniform(-3.0, 3.0, 2))
+    loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
+    delays = strand._Delays(loop, Grid(0.01, cells, cells, 0.0), steps, share)
+    waves = delays.carry if seed % 2 else delays.back
+    waves[:, cells + 1 :] = rng.normal(size=(2, waves.shape[1] - cells - 1))
+    seen = meetings(part, waves[:, : cells + steps + 1], cells, steps, share, 0.01)
+    values = [one[0] for one in seen]
+    for found, best in zip(delays.extremes(part, bool(seed % 2)), (max(values), min(values)), strict=True):
+        assert found.value == pytest.approx(best, rel=0, abs=1e-12)
+        place = found.position / part.length * 2 * cells
+        near = [(when, j) for value, when, j in seen if abs(value - best) <= 1e-12]
+        assert any(abs(when - found.time) < 1e-9 and abs(j - place) < 1e-6 for when, j in near)
 
 
 def test_a_tension_that_rests_is_found_where_it_begins_to() -> None:
@@ -168,6 +199,22 @@ class TestPanels:
             exact = echoes.run_on(6e4, loop.impedances, 45_120.0, (carry.transit, back.transit), motion.times)
             errors.append(float(np.abs(motion.run_on - 5e5 - exact)[:-1].max()))
         assert np.log2(errors[0] / errors[1]) > order
+
+    @pytest.mark.parametrize("fixed", [False, True])
+    @pytest.mark.parametrize("longer", ["carry", "back"])
+    def test_masses_at_both_ends_move_as_by_small_steps(self, longer: str, fixed: bool) -> None:
+        """Panels of four steps against one step after the other, twenty times as short."""
+        carry, back = Strand(500.0, 80.0, 2e7, 5e4, 5e4), Strand(500.0, 20.0, 2e7, 5e4, 5e4)
+        if longer == "back":
+            carry, back = back, carry
+        loop = Loop(carry, back, 9e3, 4e3, fixed_length=fixed)
+        drive = Drive(force=lambda t: 3e4 * np.sin(2.0 * t))
+        grid = panelled(match(carry.transit, back.transit, 8, 1e-12, at_most=16), 4)
+        motion = strand.march(loop, drive, 5.0, grid)
+        fine = replace(grid, step=grid.step / 20, carry=20 * grid.carry, back=20 * grid.back, panel=1)
+        steps = len(motion.times) - 1
+        expected = by_steps(loop, drive, 20 * steps, fine)[:, ::20]
+        assert motion.waves == pytest.approx(expected, rel=0, abs=2e-4 * np.abs(expected).max())
 
     def test_a_history_between_its_samples(self) -> None:
         when = np.linspace(0.0, 1.3, 77)

@@ -107,6 +107,41 @@ def test_the_work_is_the_places_looked_at_of_every_mode(group: int, monkeypatch:
     assert inside == pytest.approx((edges()[1:] + edges()[:-1]) / 2, rel=1e-14)
 
 
+@pytest.mark.parametrize(("turn", "stretches"), [(3.0, 8), (15.9, 8), (16.1, 9), (100.0, 50), (100.1, 51)])
+@pytest.mark.parametrize("zeta", [0.02, 1.5])
+def test_the_fastest_mode_turns_or_fades_by_2_over_a_stretch_and_eight_are_the_fewest(
+    turn: float, stretches: int, zeta: float
+) -> None:
+    """Told by the work: the places looked at of both modes."""
+    w = turn / max(1.0, 2 * zeta)
+    one = tooth_passes(
+        np.array([0.0, 1.0]), lambda t, _: np.ones((*t.shape, 2)), np.array([w, 0.1]), np.array([zeta, 0.0]), np.eye(2)
+    )
+    assert one.work == 2 * (stretches + 1)
+
+
+def test_what_may_rise_above_a_sample_is_twice_what_a_parabola_does() -> None:
+    """That rises by a quarter of its bend where its summit lies half way between two of them; at the ends of a pass the
+    bend is that of the samples beside."""
+    x = np.arange(9.0)
+    bends = np.array([0.7, 3.0])
+    sums = np.stack([-bends * (x[:, None] - 4.5) ** 2, 5 - bends * (x[:, None] - 4.5) ** 2])
+    for where in (np.array([4, 5]), np.array([9 + 4, 9 + 5]), np.array([0, 17])):
+        assert module._risen(sums, where) == pytest.approx(2 * bends * 0.5**2, rel=1e-12)
+
+
+def test_kinks_that_are_one_but_for_rounding_are_one() -> None:
+    assert len(passes(4.0, np.array([1.0, 1.0 + 1e-11, 3.0]))) == 5
+    assert len(passes(4.0, np.array([1.0, 1.0 + 1e-13, 3.0]))) == 4
+    assert passes(4.0, np.array([-1.0, 5.0])).tolist() == [0.0, 4.0]
+
+
+def test_twenty_thousand_teeth_are_the_most() -> None:
+    assert len(engagements(lambda t: 2000.0 * t, 10.0, 0.0)) == 20_000
+    with pytest.raises(NumericsError, match="20001 tooth passes"):
+        engagements(lambda t: 2000.0 * t, 10.0, 1.0)
+
+
 def test_too_many_teeth_say_so() -> None:
     with pytest.raises(NumericsError, match="tooth passes"):
         engagements(lambda t: 1e9 * t, 10.0, 0.0)
