@@ -24,6 +24,7 @@ FEWEST = 2
 _COARSE = 2
 """Times as many elements as those a bar is found with."""
 _ROUNDING = 4 * float(np.finfo(float).eps)
+_NO_STIFFNESS = "the column buckles under the weights on it, or two places on it are too near each other to tell it"
 _BAR = 1.0
 """Share of the difference to half as many elements that a frequency may be wrong by; the fourth power says 1/15."""
 
@@ -78,12 +79,12 @@ def _factor(stiffness: FloatArray) -> FloatArray:
     """F with F^T F = K^-1."""
     diagonal = np.diag(stiffness)
     if not (diagonal > 0).all():
-        raise NumericsError("NUM102", "the column buckles under the weights on it")
+        raise NumericsError("NUM102", _NO_STIFFNESS)
     size = 1 / np.sqrt(diagonal)
     try:
         lower = np.linalg.cholesky(stiffness * size * size[:, None])
     except np.linalg.LinAlgError:
-        raise NumericsError("NUM102", "the column buckles under the weights on it") from None
+        raise NumericsError("NUM102", _NO_STIFFNESS) from None
     return np.asarray(np.linalg.inv(lower) * size)
 
 

@@ -21,7 +21,7 @@ from ptmcalc.numerics.mast.system import Case
 SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""
 _DOUBLINGS = 5
-_MOST_WORK = 2e5
+_MOST_WORK = 2e4
 """Panels of a run that nobody looks at: a column that rings a hundred thousand times before it lets its base rest is
 left to the others, and bounds nothing."""
 

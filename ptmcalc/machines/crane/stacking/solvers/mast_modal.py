@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base import units
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -347,7 +348,10 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
         return 0.02
     moves = march.happening(spec, scene, gravity=False)
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
-    modes = followed(moves, level)
+    try:
+        modes = followed(moves, level)
+    except NumericsError:  # the run will say so
+        return 0.04
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
     return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
