@@ -4,7 +4,6 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
-from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
@@ -600,13 +599,3 @@ def test_the_ledger_of_a_taut_loop_closes_however_few_steps_it_has(steps: int, s
     motion = sagging.march(line, drive, steps * parts.step, parts)
     assert len(motion.times) == steps + 1
     assert motion.energy_residual < 1e-9
-
-
-@pytest.mark.parametrize("x", [1e-9, 1e-4, 9.9e-4, 1.01e-3, 0.3, 40.0])
-def test_weights_of_a_step_hold_all_digits(x: float) -> None:
-    """exp(-x) and the two weights, by forty digits of decimal arithmetic: next to 0 their formulas would cancel."""
-    with localcontext(prec=60):
-        decay = (-Decimal(x)).exp()
-        after = 1 - (1 - decay) / Decimal(x)
-        exact = [float(one) for one in (decay, 1 - decay - after, after)]
-    assert list(strand.weights(x)) == pytest.approx(exact, rel=2e-14 if x < 1e-3 else 2e-13, abs=0)

@@ -22,8 +22,8 @@ SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""
 _DOUBLINGS = 5
 _MOST_WORK = 2e4
-"""Panels of a run that nobody looks at: a column that rings a hundred thousand times before it lets its base rest is
-left to the others, and bounds nothing."""
+"""Panels of a run that nobody looks at: a column that rings some thousand times before it lets its base rest is left to
+the others, and bounds nothing."""
 
 
 def lumped(spec: Stacker, scene: StackerScene, moves: Happening, gravity: bool, heavier: float = 1.0) -> Mast:

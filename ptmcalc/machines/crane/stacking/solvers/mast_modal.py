@@ -350,7 +350,7 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     try:
         modes = followed(moves, level)
-    except NumericsError:  # the run will say so
+    except NumericsError:  # it has no modes, as its run will say at once
         return 0.04
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
