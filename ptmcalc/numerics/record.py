@@ -22,6 +22,13 @@ _PARTS = 4
 _LOOKS_ONE_BY_ONE, _MOST_LOOKS, _ROUND = 4_000, 1_000_000, 40
 PANEL, LONG, CROSSING = 4e-6, 15.0, 60.0
 """Seconds of a panel; how many of them a long panel and a crossing take."""
+_LEAST_WORK, _MOST_TIMES = 2e4, 5.0
+"""Panels that any run may take, and how many times the predicted ones."""
+
+
+def most_work(seconds: float) -> float:
+    """Panels after which a run is given up: many times what was predicted, so that no run takes far longer."""
+    return _LEAST_WORK + _MOST_TIMES * seconds / PANEL
 
 
 @dataclass(frozen=True, slots=True)

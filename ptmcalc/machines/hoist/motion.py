@@ -30,7 +30,7 @@ from ptmcalc.machines.hoist.moving import (
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import LONG, PANEL, Record
+from ptmcalc.numerics.record import LONG, PANEL, Record, most_work
 from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
@@ -44,8 +44,6 @@ _UNSEEN = FADED + 3e-12
 _CLOSES = 1e-9
 _MOST_EVENTS = 2000
 """Events after which a load or a gear is said to chatter: without damping it never ends."""
-_LEAST_WORK, _MOST_TIMES = 2e4, 5.0
-"""Panels that any run may take, and how many times the predicted ones."""
 _LONGER = 4
 """How often a stop that is not over is looked at twice as long."""
 _FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
@@ -81,7 +79,7 @@ def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0
     """One run of a case, over its window or to another end."""
     system = TrainSystem(case.train)
     start = system.start()
-    end, most = end or case.window, _most_work(case, tolerance)
+    end, most = end or case.window, most_work(cost(case, TOLERANCES.index(tolerance)))
     record = march(
         system,
         *start,
@@ -304,11 +302,6 @@ def cost(case: Case, level: int) -> float:
         ringing = price.RADIAN * price.radians(case.train, case.window)
         return 4e-3 + 2 * (ringing + 5e-3) * (1 + level / 2)
     return 4e-3 + 2 * (price.linear(case.train, case.window) + 5e-3)
-
-
-def _most_work(case: Case, tolerance: float) -> float:
-    """Panels after which a run is given up: many times what was predicted, so that no run takes far longer."""
-    return _LEAST_WORK + _MOST_TIMES * cost(case, TOLERANCES.index(tolerance)) / PANEL
 
 
 def spent(course: Course) -> float:

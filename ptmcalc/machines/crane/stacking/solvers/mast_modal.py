@@ -23,6 +23,7 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.run import Course, play
+from ptmcalc.numerics.record import most_work
 from ptmcalc.spec.scene import Scene
 
 ALWAYS = frozenset({FLEXIBLE, MASS})
@@ -79,8 +80,9 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
         return Result(_of_the_column(march.built(spec, scene, gravity=gravity), math.inf), work=_FREQUENCIES)
     moves = march.happening(spec, scene, gravity=gravity)
     modes = followed(moves, level)
-    course = _play(spec, scene, moves, modes)
-    other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED)
+    most = most_work(_seconds(scene, moves, modes, level))
+    course = _play(spec, scene, moves, modes, most=most)
+    other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED, most=most)
     fine, coarse = Played(moves, course), Played(moves, other)
     found = _of_the_column(moves.column, moves.rolling)
     if isinstance(scene, ObstacleScene):
@@ -131,23 +133,25 @@ def _play(
     refined: float = 1.0,
     *,
     keep: bool = False,
+    most: float = math.inf,
 ) -> Course:
-    """One run: to an end that is given, or until the event is over and some swings after it."""
+    """One run: to an end that is given, or until the event is over and some swings after it; given up after so many
+    panels."""
     case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
     if end:
-        return play(case, end, refined, keep=keep)
+        return play(case, end, refined, keep=keep, most_work=most)
     swing = 2 * math.pi / float(case.mast.frequencies[0])
     if isinstance(scene, ObstacleScene):
         stiffness = moves.column.stiffness
-        return play(case, _BLOW * 2 * math.pi * math.sqrt(moves.column.total / stiffness), refined)
+        return play(case, _BLOW * 2 * math.pi * math.sqrt(moves.column.total / stiffness), refined, most_work=most)
     end = moves.lasts + _SWINGS * swing
-    course = play(case, end, refined)
+    course = play(case, end, refined, most_work=most)
     for _ in range(_DOUBLINGS):
         since = course.held_since
         if since + _SWINGS * swing <= course.record.time * (1 + 1e-9):
             break
         end = since + _SWINGS * swing if math.isfinite(since) else 2 * end
-        course = play(case, end, refined)
+        course = play(case, end, refined, most_work=most)
     return course
 
 
@@ -342,16 +346,21 @@ def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int,
 
 
 def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> float:
-    """Seconds by the swings of the modes in the time that is looked at: fast ones are passed over by long panels; a
-    point that stops dead is struck again by every mode."""
+    """Seconds of a run and of the one its bars are found with."""
     if isinstance(scene, Stand):
         return 0.02
     moves = march.happening(spec, scene, gravity=False)
-    slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     try:
         modes = followed(moves, level)
     except NumericsError:  # it has no modes, as its run will say at once
         return 0.04
+    return _seconds(scene, moves, modes, level)
+
+
+def _seconds(scene: StackerScene, moves: Happening, modes: int, level: int) -> float:
+    """By the swings of the modes in the time that is looked at: fast ones are passed over by long panels; a point that
+    stops dead is struck again by every mode."""
+    slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
     return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
