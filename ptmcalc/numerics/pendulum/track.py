@@ -2,8 +2,9 @@
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,15 @@ def _states(steps: list[Step], share: FloatArray) -> FloatArray:
     return np.concatenate(began[:, :, None] + length * moved, axis=1)
 
 
+def _states_at(steps: Sequence[Step], which: NDArray[np.intp], times: FloatArray) -> FloatArray:
+    """States at times that lie each in one of several steps, shape (states, times)."""
+    begins, length, used = np.array([(step.start, step.length, step.used) for step in steps]).T[:, which]
+    share = np.divide(times - begins, length, out=np.zeros(len(times)), where=length > 0)
+    basis = integrals(steps[0].row.shape[1], np.clip(share, 0.0, used))
+    moved = np.einsum("tsn,tn->st", np.stack([step.row for step in steps])[which], basis)
+    return np.asarray(np.stack([step.state for step in steps])[which].T + length * moved)
+
+
 @dataclass(frozen=True, slots=True)
 class Track:
     """One run."""
@@ -79,11 +89,12 @@ class Track:
         """Signals at times, shape (names, times); the later side at an event."""
         result = np.empty((len(names), len(times)))
         where = np.maximum(np.searchsorted(self._starts, times, "right") - 1, 0)
-        for index in np.unique(where):
-            step, inside = self.steps[index], where == index
-            share = (times[inside] - step.start) / step.length if step.length else np.zeros(int(inside.sum()))
-            states = step.states(np.clip(share, 0.0, step.used))
-            result[:, inside] = step.leg.signals(names, times[inside], states)
+        used, which = np.unique(where, return_inverse=True)
+        for _, alike in groupby(enumerate(self.steps[k] for k in used), lambda one: id(one[1].leg)):
+            numbers, steps = zip(*alike, strict=True)
+            inside = (numbers[0] <= which) & (which <= numbers[-1])
+            states = _states_at(steps, which[inside] - numbers[0], times[inside])
+            result[:, inside] = steps[0].leg.signals(names, times[inside], states)
         return result
 
     def extreme(self, name: str, sign: int, since: float, until: float) -> tuple[float, float, float]:
