@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.pendulum.equations import Leg
+from ptmcalc.numerics.collocation import radau
+from ptmcalc.numerics.pendulum.equations import KEEP, STATES, Leg, Mode
 from ptmcalc.numerics.pendulum.linear import LinearCase, _growth, _series, linear_swing
 from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
@@ -217,3 +218,31 @@ class TestWork:
         assert counted["tries"] <= 80
         assert counted["rates"] <= 540
         assert counted["inverses"] <= 75
+
+    @pytest.mark.parametrize(("rounds", "grown"), [(9, 2.5), (10, 1.0), (14, 1.0)])
+    def test_of_newtons_method_that_hardly_ends(self, rounds: int, grown: float) -> None:
+        """A longer step would not end at all; and a Jacobian that served badly is no use to the next one."""
+        case = Case(G, Rail(), Axis(1.0, Follow(Pieces())), HANGING)
+        leg = Leg(case, Mode(KEEP, 0, 0, True, ()), 0.0, (), None)
+        stepper, row = Stepper(radau(4), 1e-9, np.ones(STATES), 1.0), np.zeros((STATES, 4))
+        stepper._solve = lambda *_: (row, 0.0, rounds)  # type: ignore[method-assign]
+        stepper.inverse = leg, 0.3, np.eye(4 * STATES)
+        first = stepper.step(leg, 0.0, np.zeros(STATES), 10.0)
+        assert stepper.step(leg, first.end, first.last(), 10.0).length == pytest.approx(grown * first.length)
+        assert (stepper.inverse is None) == (grown == 1.0)
+
+
+class TestBothSides:
+    """What is read at a jump."""
+
+    @pytest.mark.parametrize("ulps", [-3, -2, -1, 0, 1, 2, 3])
+    @pytest.mark.parametrize("later", [False, True])
+    def test_of_a_stop_are_found_from_a_rounded_time(self, ulps: int, later: bool) -> None:
+        """A trolley that friction brings to rest: 2 m/s^2 until then, none after; the pull of its rope is another."""
+        stopping = Axis(4.0, friction=8.0, speed=1.0)
+        track = swing(Case(G, Rail(), stopping, Load(1e-9, Pieces.constant(1.0))), 3.0)._fine
+        (stop,) = (event.time for event in track.events if event.after == "rest")
+        wanted = 0.0 if later else -2.0
+        found = track.polished("acceleration", wanted, stop + ulps * np.spacing(stop), 0.0, 3.0)
+        assert stop == pytest.approx(0.5)
+        assert found == pytest.approx(wanted, abs=1e-8)

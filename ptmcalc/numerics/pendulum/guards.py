@@ -35,7 +35,7 @@ class Guards:
 
     def first(self, step: Step) -> tuple[float, str] | None:
         """Share of a step at which the first guard crosses, and which one."""
-        names, values = self.values(step.leg, step.start + step.length * PLACES, step.states(PLACES))
+        names, values = self.values(step.leg, step.start + step.length * PLACES, step.looked_at())
         noise = NOISE * np.maximum(np.abs(values).max(axis=1), self._sizes(names))
         by_panel = values.reshape(len(names), HALVES, panels.COUNT)
         low = (by_panel @ panels.TO_BERNSTEIN.T < -noise[:, None, None]).any(axis=2)

@@ -76,7 +76,7 @@ class March:
                 raise NumericsError("NUM101", f"contacts change without end at {time:.6g} s")
             reached = step.used == 1.0 and time + step.length >= stop
             time = stop if reached and fired is None else step.end
-            state = step.states(np.array([step.used]))[:, 0]
+            state = step.last()
             self._normalise(state)
             if fired == "solid":
                 finished = fired

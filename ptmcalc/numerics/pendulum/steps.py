@@ -16,6 +16,8 @@ _FIRST, _SHORTEST = 0.3, 1e-12
 """Share of 1/omega that is tried first; shortest step over 1/omega."""
 _LONGEST = 4.0
 _MOST_ITERATIONS = 14
+_MANY = 10
+"""Iterations of Newton's method from which on the next step is no longer, and its Jacobian a new one."""
 _FURTHER = 0.9
 
 
@@ -37,7 +39,9 @@ class Stepper:
         if left <= 1.3 * length:
             length = left
         while True:
-            row, tail = self._solve(leg, time, state, length)
+            row, tail, iterations = self._solve(leg, time, state, length)
+            if iterations >= _MANY:
+                self.inverse = None
             if row is not None and tail <= self.tolerance:
                 break
             shrink = _FURTHER * (self.tolerance / tail) ** (1 / rule.order) if row is not None else 0.4
@@ -46,34 +50,34 @@ class Stepper:
                 raise NumericsError("NUM101", f"the motion could not be resolved by any step at {time:.6g} s")
         assert row is not None
         grow = _FURTHER * (self.tolerance / max(tail, 1e-30)) ** (1 / rule.order)
-        reach = length * min(max(grow, 0.3), 2.5)
+        reach = length * min(max(grow, 0.3), 2.5 if iterations < _MANY else 1.0)
         if length < left or reach < self.reach:
             self.reach = reach
         return Step(leg, time, length, 1.0, state, row)
 
-    def _solve(self, leg: Leg, time: float, state: FloatArray, length: float) -> tuple[FloatArray | None, float]:
-        """Legendre coefficients of the derivative over a step, and its tail."""
+    def _solve(self, leg: Leg, time: float, state: FloatArray, length: float) -> tuple[FloatArray | None, float, int]:
+        """Legendre coefficients of the derivative over a step, its tail, and the iterations they took."""
         rule, scale = self.rule, self.scale[:, None]
         times = time + length * rule.nodes
         first = leg.rate(np.array([time]), state[:, None])
         slopes = np.repeat(first, rule.order, axis=1)
         inverse = self._inverse(leg, time, state, length, first)
         before = math.inf
-        for _ in range(_MOST_ITERATIONS):
+        for iteration in range(1, _MOST_ITERATIONS + 1):
             states = state[:, None] + length * (slopes @ rule.integral.T)
             miss = leg.rate(times, states) - slopes
             change = (inverse @ (miss / scale).ravel()).reshape(miss.shape) * scale
             slopes = slopes + change
             size = float(np.abs(change / scale).max()) * length
             if not math.isfinite(size) or size > 1e3:
-                return None, math.inf
+                return None, math.inf, iteration
             if size <= 1e-3 * self.tolerance or (size >= 0.5 * before and size <= 0.1 * self.tolerance):
                 row = slopes @ rule.to_legendre.T
-                return row, float(rule.tail(row / scale).max()) * length
+                return row, float(rule.tail(row / scale).max()) * length, iteration
             if size > 2 * before and size > self.tolerance:
-                return None, math.inf
+                return None, math.inf, iteration
             before = size
-        return None, math.inf
+        return None, math.inf, _MOST_ITERATIONS
 
     def _inverse(self, leg: Leg, time: float, state: FloatArray, length: float, first: FloatArray) -> FloatArray:
         """Of I - h A J in scaled variables, J by differences at the start; kept while the step stays."""

@@ -18,7 +18,7 @@ from ptmcalc.numerics.pendulum.equations import SIGNALS, WORKS
 from ptmcalc.numerics.pendulum.march import March
 from ptmcalc.numerics.pendulum.parts import CONSTANT, LINEAR, ORIFICE, Case, Follow, Jib, Peak, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
-from ptmcalc.numerics.pendulum.track import PLACES, Track
+from ptmcalc.numerics.pendulum.track import PLACES, Step, Track, states_of
 from ptmcalc.numerics.record import Event
 
 FloatArray = NDArray[np.float64]
@@ -71,7 +71,11 @@ class Swing:
     def at(self, name: str, time: ArrayLike) -> FloatArray:
         """A signal at times from 0 to the end, any shape."""
         t = np.asarray(time, float)
-        return np.asarray(self._fine.at((name,), t.ravel())[0].reshape(t.shape))
+        return np.asarray(self.signals((name,), t.ravel())[0].reshape(t.shape))
+
+    def signals(self, names: tuple[str, ...], times: FloatArray) -> FloatArray:
+        """Several signals at times from 0 to the end, shape (names, times)."""
+        return self._fine.at(names, times)
 
     def known(self, name: str, time: float) -> Peak:
         """A signal at a time, with its bar."""
@@ -105,8 +109,7 @@ class Swing:
         """Times of all places that were looked at, and signals there, shape (names, times)."""
         times, values = [], []
         for leg, steps in self._fine.runs(0.0, self.end):
-            t = np.concatenate([step.start + step.used * step.length * PLACES for step in steps])
-            z = np.concatenate([step.states(step.used * PLACES) for step in steps], axis=1)
+            t, z, _ = _spread(steps, PLACES)
             times.append(t)
             values.append(leg.signals(names, t, z))
         return np.concatenate(times), np.concatenate(values, axis=1)
@@ -116,17 +119,15 @@ class Swing:
         nodes, weights = gauss(_GAUSS)
         total, turned = np.zeros(len(WORKS)), np.zeros(len(WORKS))
         for leg, steps in self._fine.runs(0.0, self.end):
-            t = np.concatenate([step.start + step.used * step.length * nodes for step in steps])
-            z = np.concatenate([step.states(step.used * nodes) for step in steps], axis=1)
-            spans = np.repeat([step.used * step.length for step in steps], _GAUSS)
-            power = leg.powers(t, z) * spans * np.tile(weights, len(steps))
+            t, z, spans = _spread(steps, nodes)
+            power = leg.powers(t, z) * (spans[:, None] * weights).ravel()
             total += power.sum(axis=1)
             turned += np.abs(power).sum(axis=1)
         sudden = np.array([self._fine.jerks[name] for name in WORKS])
         total, turned = total + sudden, turned + np.abs(sudden)
         first, last = self._fine.steps[0], self._fine.steps[-1]
         begins = first.leg.stored(np.array([first.start]), first.states(np.zeros(1)))
-        ends = last.leg.stored(np.array([last.end]), last.states(np.array([last.used])))
+        ends = last.leg.stored(np.array([last.end]), last.last()[:, None])
         moving = max(float(begins[0][0]), float(ends[0][0]))
         change = float(ends[0][0] + ends[1][0] - begins[0][0] - begins[1][0])
         scale = max(float(turned.max()), moving, 1e-300)
@@ -142,6 +143,14 @@ class Swing:
             values.append((track.polished(name, value, time, since, until), time, size))
         (one, time, size), (two, _, _) = values
         return Peak(one, time, abs(one - two) + _DUST * size)
+
+
+def _spread(steps: list[Step], places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Times and states at places of what each step was used for, and how long that was."""
+    begin, length, used = np.array([(step.start, step.length, step.used) for step in steps]).T
+    spans = used * length
+    times = begin[:, None] + spans[:, None] * places
+    return times.ravel(), states_of(steps, used[:, None] * places), spans
 
 
 def swing(case: Case, end: float, *, tolerance: float = TOLERANCE, most_steps: int = MOST_STEPS) -> Swing:

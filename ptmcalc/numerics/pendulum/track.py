@@ -4,6 +4,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import groupby
 
 import numpy as np
@@ -39,11 +40,29 @@ class Step:
 
     def states(self, share: FloatArray) -> FloatArray:
         """States at shares of the step, shape (states, shares)."""
-        moved = self.row @ integrals(self.row.shape[1], share).T
-        return np.asarray(self.state[:, None] + self.length * moved)
+        return self._moved(integrals(self.row.shape[1], share))
+
+    def looked_at(self) -> FloatArray:
+        """States at the places of all panels of the step, shape (states, places)."""
+        return self._moved(_basis(self.row.shape[1]))
+
+    def last(self) -> FloatArray:
+        """State where it ends: over a whole step all polynomials but the first integrate to nothing."""
+        if self.used == 1.0:
+            return np.asarray(self.state + self.length * self.row[:, 0])
+        return self.states(np.array([self.used]))[:, 0]
+
+    def _moved(self, basis: FloatArray) -> FloatArray:
+        return np.asarray(self.state[:, None] + self.length * (self.row @ basis.T))
 
 
-def _states(steps: list[Step], share: FloatArray) -> FloatArray:
+@lru_cache
+def _basis(order: int) -> FloatArray:
+    """`integrals` at the places of all panels: the same in every step."""
+    return integrals(order, PLACES)
+
+
+def states_of(steps: Sequence[Step], share: FloatArray) -> FloatArray:
     """States at shares of each of several steps, shape (states, steps * shares): all at once, as there are many."""
     rows, began = np.stack([step.row for step in steps]), np.stack([step.state for step in steps])
     length = np.array([step.length for step in steps])[:, None, None]
@@ -109,7 +128,7 @@ class Track:
             passed = (low - begin)[:, None] + (high - low)[:, None] * PLACES
             share = np.clip(passed / np.where(length > 0, length, math.inf)[:, None], 0.0, used[:, None])
             times = low[:, None] + (high - low)[:, None] * PLACES
-            values = leg.signals((name,), times.ravel(), _states(inside, share))[0]
+            values = leg.signals((name,), times.ravel(), states_of(inside, share))[0]
             size = max(size, float(np.abs(values).max()))
             span = (high - low) / HALVES
             starts = low[:, None] + span[:, None] * np.arange(HALVES)
@@ -139,11 +158,14 @@ class Track:
 
     def polished(self, name: str, value: float, time: float, since: float, until: float) -> float:
         """The signal itself at the place of a peak, from whichever side is nearer to what was seen."""
-        best = math.inf, value
-        for index in {self.index(time), self.index(np.nextafter(time, -math.inf))}:
+        best, near = (
+            (math.inf, value),
+            4 * float(np.spacing(time)),
+        )  # a peak's place and its step's end are rounded
+        for index in {self.index(time - near), self.index(time + near)}:
             step = self.steps[index]
-            if step.start <= time <= step.end and since <= time <= until and step.length:
-                share = np.array([min((time - step.start) / step.length, step.used)])
+            if since <= time <= until and step.length:
+                share = np.clip(np.array([(time - step.start) / step.length]), 0.0, step.used)
                 seen = float(step.leg.signals((name,), np.array([time]), step.states(share))[0, 0])
                 best = min(best, (abs(seen - value), seen))
         return best[1]

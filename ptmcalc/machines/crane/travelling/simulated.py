@@ -370,7 +370,7 @@ def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray
         looks = distinct(np.clip(np.concatenate([looks, np.array(edges)]), 0.0, leg.lasts))
         looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
         times.append(leg.start + looks)
-        parts.append(np.stack([leg.swing.at(name, looks) for name in SIGNALS]))
+        parts.append(leg.swing.signals(SIGNALS, looks))
     time, (acceleration, along, tension) = np.concatenate(times), np.concatenate(parts, axis=1)
     pull = -along
     weight = np.sqrt(np.maximum(tension**2 - along**2, 0.0))
