@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.linalg import expm
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.decay_pulse import DecayPulse, Summit
+from ptmcalc.numerics.decay_pulse import DecayPulse, Summit, _spread
 
 PAPER = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 5.0)
 SHORT = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 0.2)
@@ -162,7 +162,7 @@ class TestLargest:
         waves = np.exp(-slow * times) * (p * np.cos(damped * times) + q * np.sin(damped * times))
         expected = float((1 - settles * np.exp(-rate * times) + waves).max())
         assert summit.value == pytest.approx(expected, rel=1e-9)
-        for natural in (1e-3, 50.0):  # the same in other units of time
+        for natural in (1e-3, 1e5):  # the same in other units of time
             other = DecayPulse(natural, zeta, 0.0, rate * natural, natural**2, 2000.0 / natural).largest()
             assert other.value == pytest.approx(summit.value, rel=1e-9)
 
@@ -211,7 +211,53 @@ class TestLargest:
             summit = DecayPulse(w, 0.0, slow, fast, sign, 1e5).largest()
             assert sign * summit.value == pytest.approx(force + slope, rel=1e-9)
             assert summit.time == pytest.approx(crest, abs=4.0)
-            assert summit.error <= 5 * slope
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    @pytest.mark.parametrize("zeta", [0.0, 0.2, 0.7])
+    @pytest.mark.parametrize("w", [0.5, 1.0, 30.0])
+    def test_where_the_search_stops_the_bound_at_any_time_is_told(self, w: float, zeta: float, sign: float) -> None:
+        """w^2 |x| <= max f + 4 (1 + 4 z) |f'(0)|/w, 15 000 periods on, less what was found."""
+        slow, fast = 1e-5 * w, 1.1e-5 * w
+        crest = math.log(1.1) / (fast - slow)
+        most = math.exp(-slow * crest) - math.exp(-fast * crest)
+        bound = (most + 4 * (1 + 4 * zeta) * (fast - slow) / w) / w**2
+        for one in (DecayPulse(w, zeta, slow, fast, sign, 1e5 / w), DecayPulse(w, zeta, fast, slow, -sign, 1e5 / w)):
+            summit = one.largest()
+            assert summit.error == pytest.approx(bound - sign * summit.value, rel=1e-4)
+
+    @pytest.mark.parametrize("zeta", [30.0, 1e4])
+    @pytest.mark.parametrize(("slow", "fast"), [(3.0, 96.0), (500.0, 4e3)])
+    @pytest.mark.parametrize("duration", [300.0, 1e6])
+    def test_a_summit_long_before_an_overdamped_mass_has_come_back(
+        self, zeta: float, duration: float, slow: float, fast: float
+    ) -> None:
+        """By a matrix exponential, from looks over five decades."""
+        pulse = DecayPulse(1.0, zeta, slow, fast, 1.0, duration)
+        summit = pulse.largest()
+        times = np.geomspace(3e-3, 300.0, 41)
+        at = [float(witness(pulse, t)[0]) for t in times]
+        top = int(np.argmax(at))
+        time = brentq(lambda t: float(witness(pulse, t)[1]), times[top - 1], times[top + 1], rtol=1e-14)
+        assert summit.value == pytest.approx(float(witness(pulse, time)[0]), rel=1e-11)
+        assert summit.time == pytest.approx(time, abs=2e-9 * zeta), "a billionth of the time of the way back, 2 z"
+
+    @pytest.mark.parametrize("zeta", [0.1, 4.0])
+    def test_a_mass_that_turns_just_after_the_pulse_is_seen(self, zeta: float) -> None:
+        """A thousandth of a second before it would have turned by itself the force is gone."""
+        pulse = DecayPulse(0.1, zeta, 0.3, 9.0, 1.0, 500.0)
+        turns = pulse.largest().time
+        short = replace(pulse, duration=turns - 1e-3)
+        time = brentq(lambda t: float(witness(short, t)[1]), short.duration, turns, xtol=1e-12)
+        summit = short.largest()
+        assert summit.time == pytest.approx(time, abs=1e-6)
+        assert summit.value == pytest.approx(float(witness(short, time)[0]), rel=1e-12)
+        assert short.duration < summit.time < turns
+
+    def test_places_over_decades_are_eight_in_each_or_more(self) -> None:
+        for first, last in ((1e-30, 1e10), (1e-12, 1e30), (1.0, 10.0)):
+            steps = np.diff(np.log10(_spread(first, last)))
+            assert 0 < steps.min() <= steps.max() <= 1 / 8 * (1 + 1e-2)
+            assert _spread(first, last)[[0, -1]] == pytest.approx([first, last], rel=1e-14)
 
     def test_rounding_of_a_late_summit_grows_with_its_phase(self) -> None:
         """A million radians of a stiff spring: each may be off by a last digit."""
