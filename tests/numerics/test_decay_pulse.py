@@ -145,10 +145,12 @@ class TestLargest:
             summit, value=-summit.value
         )
 
-    def test_a_summit_many_waves_after_the_jump_is_found(self) -> None:
+    @pytest.mark.parametrize("rate", [0.02, 0.08])
+    def test_a_summit_many_waves_after_the_jump_is_found(self, rate: float) -> None:
         """A force that comes and stays, f = 1 - exp(-l t): what follows it still rises by l exp(-l t) where its waves
-        fade by z l exp(-z w t), so the highest wave is the one beside w t = ln(1/z)/(l/w - z), here the 58th."""
-        zeta, rate = 1e-3, 0.02
+        fade by z l exp(-z w t), so the highest wave is the one beside w t = ln(1/z)/(l/w - z), here the 58th or
+        the 14th."""
+        zeta = 1e-3
         pulse = DecayPulse(1.0, zeta, 0.0, rate, 1.0, 2000.0)
         summit = pulse.largest()
         late = math.log(1 / zeta) / (rate - zeta)
