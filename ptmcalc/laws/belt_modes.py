@@ -79,7 +79,8 @@ def _frequency(loop: LoopMasses, waves: _Waves, quarter: float, order: int) -> f
     while at_low.below >= order:
         low, high, at_high = low / 2, low, at_low.line
         at_low = _seen(loop, waves, quarter, low)
-    lower, upper, was_below = at_low.line, at_high, False
+    lower, upper = at_low.line, at_high
+    was_below: bool | None = None
     for step in itertools.count(1):
         margin = _CLOSE * high
         if high - low <= 2 * margin:
@@ -89,7 +90,7 @@ def _frequency(loop: LoopMasses, waves: _Waves, quarter: float, order: int) -> f
             middle = min(max((low * upper - high * lower) / (upper - lower), low + margin), high - margin)
         seen = _seen(loop, waves, quarter, middle)
         below = seen.below < order
-        again = step > 1 and below == was_below
+        again = below == was_below
         if below:
             low, lower, upper = middle, seen.line, upper / 2 if again else upper
         else:

@@ -105,7 +105,7 @@ def mast_frequency(mast: Mast, mode: int) -> float:
     while low == high or (low > _LEAST and _count(mast, low * scale) >= wanted):
         low, high = low / 2, low
     for _ in range(_HALVINGS):
-        middle = math.sqrt(low) * math.sqrt(high) if high > 2 * low else (low + high) / 2
+        middle = (low + high) / 2
         if not low < middle < high or high - low <= _ROUNDING * high:
             break
         low, high = (low, middle) if _count(mast, middle * scale) >= wanted else (middle, high)

@@ -180,17 +180,17 @@ def worst_stretch(load_pulls: FloatArray, sense: str) -> FloatArray:
     Raises:
         ValueError: for another sense.
     """
-    best = (0.0, 0, 0)
+    most, stretch = 0.0, slice(0)
     run, begin = 0.0, 0
     signed = _signed(load_pulls, sense)
     for k, pull in enumerate(signed.tolist()):
         if run <= 0:
             run, begin = 0.0, k
         run += pull
-        if run > best[0]:
-            best = (run, begin, k + 1)
+        if run > most:
+            most, stretch = run, slice(begin, k + 1)
     share = np.zeros(len(signed))
-    share[best[1] : best[2]] = 1.0
+    share[stretch] = 1.0
     return share
 
 

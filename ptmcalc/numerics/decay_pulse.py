@@ -89,8 +89,7 @@ class DecayPulse:
         if count == len(rising):
             x, v = self._during(rising)
         else:
-            there = count > 0 and rising[count - 1] == self.duration
-            before = self._during(rising[:count] if there else np.append(rising[:count], self.duration))
+            before = self._during(np.append(rising[:count], self.duration))
             after = self._after(float(before[0][-1]), float(before[1][-1]), rising[count:] - self.duration)
             x, v = (np.concatenate([one[:count], other]) for one, other in zip(before, after, strict=True))
         if order is not None:
@@ -155,10 +154,8 @@ class DecayPulse:
 
     @property
     def _decades(self) -> FloatArray:
-        """Places of the pulse over all its time scales."""
-        fastest = max(self.slow, self.fast, self.natural_frequency * max(1.0, 2 * self.damping_ratio))
-        first = min(1e-2 / fastest, 1e-2 * self.duration)
-        return np.concatenate([[0.0], _spread(first, self.duration)])
+        """Places of the pulse over all its time scales: a mass without waves turns no sooner than the force."""
+        return _spread(min(1e-2 / max(self.slow, self.fast), 1e-2 * self.duration), self.duration)
 
     @property
     def _afterwards(self) -> FloatArray:

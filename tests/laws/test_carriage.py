@@ -22,6 +22,10 @@ def test_the_reaction_and_the_pull_solve_the_balance_of_the_carriage(factor: flo
     assert float(carriage.rope_pull(load + own, factor, resistance, 1, 1.0, True)) == pytest.approx(pull, rel=1e-12)
 
 
+def test_without_an_acceleration_the_weights_are_what_they_are() -> None:
+    assert carriage.roller_reaction([1.2e4, -1.2e4], 1.5).tolist() == [8e3, 8e3]
+
+
 def test_the_ratio_of_jamming_is_1_where_the_rope_goes_slack() -> None:
     weight, height = 15e3, 1.2
     arm = height / (2 * 0.3)

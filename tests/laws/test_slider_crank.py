@@ -113,6 +113,27 @@ class TestInertia:
             found = float(slider_crank.reduced_inertia_slope(angle, *shape, *MASSES))
             assert found == pytest.approx(slope(value, angle).real, abs=1e-6 * scale)
 
+    @pytest.mark.parametrize("masses", [(180.0, 0.0, 0.3, 0.0), (0.0, 35.0, 0.3, 0.0), (0.0, 0.0, 0.3, 0.6)])
+    def test_each_part_has_the_slope_of_its_own_inertia(
+        self, shape: tuple[float, float, float], masses: tuple[float, float, float, float]
+    ) -> None:
+        """By where slider, rod centre and rod are, in 3 + 3 differences."""
+        m_slider, m_rod, centre, about = masses
+
+        def place(phi: float) -> complex:
+            across = slider(phi, shape) - pin(phi, shape)
+            if about:
+                return complex(math.atan2(across.imag, across.real), 0)
+            return slider(phi, shape) if m_slider else pin(phi, shape) + centre * across
+
+        def inertia(phi: float) -> complex:
+            return complex((m_slider + m_rod + about) * abs(slope(place, phi)) ** 2, 0)
+
+        scale = max(abs(inertia(phi)) for phi in ANGLES)
+        for angle in ANGLES:
+            found = float(slider_crank.reduced_inertia_slope(angle, *shape, *masses))
+            assert found == pytest.approx(slope(inertia, angle).real, abs=1e-5 * scale)
+
     @pytest.mark.parametrize("inclination", [0.0, 0.7, math.pi / 2])
     def test_heights_and_lifts(self, shape: tuple[float, float, float], inclination: float) -> None:
         """The slide points down by the inclination: along it one falls, across it one rises."""

@@ -115,6 +115,11 @@ class TestLoadings:
             assert strand_tension.worst_stretch(added, sense).tolist() == filled
             assert strand_tension.worst_loading(added, sense).tolist() == filled
 
+    def test_where_load_only_helps_or_does_nothing_the_belt_is_empty(self) -> None:
+        for pulls in (np.array([-1.0, -2.0, -0.5]), np.zeros(3)):
+            assert strand_tension.worst_stretch(pulls, "most").tolist() == [0.0] * 3
+            assert strand_tension.worst_stretch(-pulls, "least").tolist() == [0.0] * 3
+
     def test_envelope_is_attained_at_every_point_and_never_left(self) -> None:
         empty = strand_tension.section_pull(100.0, self.LIFTS, 18.0, 0.0, 20.0, 0.02, G)
         added = self.added()

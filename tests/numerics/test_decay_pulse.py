@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.linalg import expm
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.decay_pulse import DecayPulse
+from ptmcalc.numerics.decay_pulse import DecayPulse, Summit, _spread
 
 PAPER = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 5.0)
 SHORT = DecayPulse(5.47, 0.0, 3.0, 96.0, 1.0, 0.2)
@@ -47,6 +47,13 @@ class TestMotion:
         assert x.ravel() == pytest.approx([float(one[0]) for one in again], rel=1e-12, abs=1e-16)
         assert v.ravel() == pytest.approx([float(one[1]) for one in again], rel=1e-12, abs=1e-15)
 
+    def test_falling_times_give_the_reverse_of_rising_ones(self) -> None:
+        """Through the end of the pulse, one of them the end itself."""
+        times = np.linspace(0.0, 2 * SHORT.duration, 9)
+        assert times[4] == SHORT.duration
+        for found, rising in zip(SHORT.at(times[::-1]), SHORT.at(times), strict=True):
+            assert np.array_equal(found[::-1], rising)
+
     def test_joins_its_free_branch_with_its_speed(self) -> None:
         """The printed branch has the wrong sign before the end of the pulse: a jump of 2 exp(-3 tau)/k^2 or so."""
         for pulse in (PAPER, SHORT):
@@ -70,6 +77,9 @@ class TestMotion:
         t = np.linspace(0, 5, 41)
         assert PAPER.force(t) == pytest.approx(np.exp(-3 * t) - np.exp(-96 * t), abs=1e-15)
         assert PAPER.force([5.1, -1.0]).tolist() == [0.0, 0.0]
+        swapped = replace(PAPER, slow=96.0, fast=3.0)
+        assert np.array_equal(swapped.force(t), -PAPER.force(t))
+        assert swapped.largest().value == pytest.approx(-PAPER.largest().value, rel=1e-12)
 
     def test_impulse_of_a_rigid_mass(self) -> None:
         impulse = quad(lambda t: math.exp(-3 * t) - math.exp(-96 * t), 0, 5, points=[0.05, 0.2, 1], epsabs=1e-15)[0]
@@ -135,6 +145,122 @@ class TestLargest:
             summit, value=-summit.value
         )
 
+    @pytest.mark.parametrize("rate", [0.02, 0.08])
+    def test_a_summit_many_waves_after_the_jump_is_found(self, rate: float) -> None:
+        """A force that comes and stays, f = 1 - exp(-l t): what follows it still rises by l exp(-l t) where its waves
+        fade by z l exp(-z w t), so the highest wave is the one beside w t = ln(1/z)/(l/w - z), here the 58th or
+        the 14th."""
+        zeta = 1e-3
+        pulse = DecayPulse(1.0, zeta, 0.0, rate, 1.0, 2000.0)
+        summit = pulse.largest()
+        late = math.log(1 / zeta) / (rate - zeta)
+        assert summit.time == pytest.approx(late, abs=2 * math.pi)
+        settles = 1 / (1 - 2 * zeta * rate + rate * rate)  # of exp(-l t)
+        slow, damped = zeta, math.sqrt(1 - zeta * zeta)
+        # x = 1 - c exp(-l t) + exp(-z t) (p cos(d t) + q sin(d t)), from rest
+        p = settles - 1
+        q = (slow * p - rate * settles) / damped
+        times = np.linspace(late - 7, late + 7, 200_001)
+        waves = np.exp(-slow * times) * (p * np.cos(damped * times) + q * np.sin(damped * times))
+        expected = float((1 - settles * np.exp(-rate * times) + waves).max())
+        assert summit.value == pytest.approx(expected, rel=1e-9)
+        for natural in (1e-3, 1e5):  # the same in other units of time
+            other = DecayPulse(natural, zeta, 0.0, rate * natural, natural**2, 2000.0 / natural).largest()
+            assert other.value == pytest.approx(summit.value, rel=1e-9)
+
+    @pytest.mark.parametrize("zeta", [1.3, 4.0])
+    @pytest.mark.parametrize("natural", [1e-4, 1.0, 1e3])
+    def test_an_overdamped_soft_spring_turns_the_impulse(self, natural: float, zeta: float) -> None:
+        """Long after a short pulse: x = A exp(-r t) - B exp(-s t), whose crest is where A r exp(-r t) = B s exp(-s t).
+
+        A (s - r) = int f exp(r t) dt over the pulse, and B with s.
+        """
+        slow, fast, end = 300 * natural, 9000 * natural, 0.02 / natural
+        summit = DecayPulse(natural, zeta, slow, fast, 2.0, end).largest()
+        root = math.sqrt(zeta * zeta - 1)
+        r, s = natural / (zeta + root), natural * (zeta + root)
+
+        def pulled(rate: float) -> float:
+            return 2.0 * sum(
+                sign * math.expm1((rate - decay) * end) / (rate - decay) for sign, decay in ((1, slow), (-1, fast))
+            )
+
+        a, b = pulled(r) / (s - r), pulled(s) / (s - r)
+        time = math.log(b * s / (a * r)) / (s - r)
+        assert summit.time == pytest.approx(time, rel=1e-6)
+        assert summit.value == pytest.approx(a * math.exp(-r * time) - b * math.exp(-s * time), rel=1e-10)
+
+    def test_a_summit_takes_few_looks(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Newton's method from the middle of a sixteenth of a period doubles its digits; 28 times the time in which an
+        overdamped mass comes back are one look."""
+        looks: list[int] = []
+        whole = DecayPulse.at
+        monkeypatch.setattr(DecayPulse, "at", lambda self, time: (looks.append(1), whole(self, time))[1])
+        for natural, zeta, slow, end, most in (
+            (5.47, 0.0, 3.0, 5.0, 8), (60.0, 0.05, 3.0, 5.0, 8), (20.0, 0.7, 3.0, 5.0, 8), (20.0, 3.0, 3.0, 5.0, 8),
+            (2.0, 3.0, 0.0, 81.6, 20), (20.0, 3.0, 0.0, 8.16, 20),
+        ):  # fmt: skip
+            looks.clear()
+            DecayPulse(natural, zeta, slow, 96.0, 1.0, end).largest()
+            assert len(looks) <= most
+
+    def test_the_summit_beside_a_late_crest_of_the_force_has_its_ripple(self) -> None:
+        """x = f/w^2 - f'(0) sin(w t)/w^3 of a slow force without damping: a ten-thousandth here, 15 000 periods on."""
+        w, slow, fast = 1.0, 1e-5, 1.1e-5
+        crest = math.log(1.1) / (fast - slow)
+        force, slope = math.exp(-slow * crest) - math.exp(-fast * crest), fast - slow
+        for sign in (1.0, -1.0):
+            summit = DecayPulse(w, 0.0, slow, fast, sign, 1e5).largest()
+            assert sign * summit.value == pytest.approx(force + slope, rel=1e-9)
+            assert summit.time == pytest.approx(crest, abs=4.0)
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    @pytest.mark.parametrize("zeta", [0.0, 0.2, 0.7])
+    @pytest.mark.parametrize("w", [0.5, 1.0, 30.0])
+    def test_where_the_search_stops_the_bound_at_any_time_is_told(self, w: float, zeta: float, sign: float) -> None:
+        """w^2 |x| <= max f + 4 (1 + 4 z) |f'(0)|/w, 15 000 periods on, less what was found."""
+        slow, fast = 1e-5 * w, 1.1e-5 * w
+        crest = math.log(1.1) / (fast - slow)
+        most = math.exp(-slow * crest) - math.exp(-fast * crest)
+        bound = (most + 4 * (1 + 4 * zeta) * (fast - slow) / w) / w**2
+        for one in (DecayPulse(w, zeta, slow, fast, sign, 1e5 / w), DecayPulse(w, zeta, fast, slow, -sign, 1e5 / w)):
+            summit = one.largest()
+            assert summit.error == pytest.approx(bound - sign * summit.value, rel=1e-4)
+
+    @pytest.mark.parametrize("zeta", [30.0, 1e4])
+    @pytest.mark.parametrize(("slow", "fast"), [(3.0, 96.0), (500.0, 4e3)])
+    @pytest.mark.parametrize("duration", [300.0, 1e6])
+    def test_a_summit_long_before_an_overdamped_mass_has_come_back(
+        self, zeta: float, duration: float, slow: float, fast: float
+    ) -> None:
+        """By a matrix exponential, from looks over five decades."""
+        pulse = DecayPulse(1.0, zeta, slow, fast, 1.0, duration)
+        summit = pulse.largest()
+        times = np.geomspace(3e-3, 300.0, 41)
+        at = [float(witness(pulse, t)[0]) for t in times]
+        top = int(np.argmax(at))
+        time = brentq(lambda t: float(witness(pulse, t)[1]), times[top - 1], times[top + 1], rtol=1e-14)
+        assert summit.value == pytest.approx(float(witness(pulse, time)[0]), rel=1e-11)
+        assert summit.time == pytest.approx(time, abs=2e-9 * zeta), "a billionth of the time of the way back, 2 z"
+
+    @pytest.mark.parametrize("zeta", [0.1, 4.0])
+    def test_a_mass_that_turns_just_after_the_pulse_is_seen(self, zeta: float) -> None:
+        """A thousandth of a second before it would have turned by itself the force is gone."""
+        pulse = DecayPulse(0.1, zeta, 0.3, 9.0, 1.0, 500.0)
+        turns = pulse.largest().time
+        short = replace(pulse, duration=turns - 1e-3)
+        time = brentq(lambda t: float(witness(short, t)[1]), short.duration, turns, xtol=1e-12)
+        summit = short.largest()
+        assert summit.time == pytest.approx(time, abs=1e-6)
+        assert summit.value == pytest.approx(float(witness(short, time)[0]), rel=1e-12)
+        assert short.duration < summit.time < turns
+
+    def test_places_over_decades_are_eight_in_each_or_more(self) -> None:
+        for first, last in ((1e-30, 1e10), (1e-12, 1e30), (1.0, 10.0)):
+            steps = np.diff(np.log10(_spread(first, last)))
+            assert 0 < steps.min() <= steps.max() <= 1 / 8 * (1 + 1e-2)
+            assert _spread(first, last)[[0, -1]] == pytest.approx([first, last], rel=1e-14)
+
     def test_rounding_of_a_late_summit_grows_with_its_phase(self) -> None:
         """A million radians of a stiff spring: each may be off by a last digit."""
         summit = DecayPulse(1000.0, 0.02, 0.001, 0.0011, 1.0, 2000.0).largest()
@@ -166,9 +292,23 @@ class TestLargest:
             expected = (f * (1 + 2 * zeta) + energy + abs(slope) / natural) / natural**2
             assert pulse._most_behind(time) == pytest.approx(expected, rel=1e-12)
 
+    @pytest.mark.parametrize("natural", [0.3, 40.0])
+    @pytest.mark.parametrize("zeta", [0.0, 0.2, 0.7, 0.998, 0.9999, 1.0, 1.3, 5.0])
+    def test_a_stretch_is_a_wave_or_the_time_of_a_way_back(self, natural: float, zeta: float) -> None:
+        """By the eigenvalues of the free motion; a wave nearly critically damped counts as twenty undamped ones."""
+        roots = np.linalg.eigvals([[0.0, 1.0], [-natural * natural, -2 * zeta * natural]])
+        damped = float(np.abs(roots.imag).max())
+        wave = 2 * math.pi / max(damped, natural / 20)
+        expected = wave if zeta < 1 else -1 / float(roots.real.max())
+        assert replace(PAPER, natural_frequency=natural, damping_ratio=zeta)._stretch == pytest.approx(
+            expected, rel=1e-6
+        )
+
     def test_of_nothing_is_nothing(self) -> None:
-        for pulse in (DecayPulse(5.0, 0.0, 3.0, 96.0, 0.0, 5.0), DecayPulse(5.0, 0.0, 3.0, 3.0, 1.0, 5.0)):
-            assert pulse.largest().value == 0.0
+        """Of no force, of one that takes itself back, of no time; a second is some."""
+        for nothing in (replace(PAPER, acceleration=0.0), replace(PAPER, fast=3.0), replace(PAPER, duration=0.0)):
+            assert nothing.largest() == Summit(0.0, 0.0, 0.0)
+        assert replace(PAPER, duration=1.0).largest().value == pytest.approx(PAPER.largest().value, rel=1e-12)
 
     def test_says_where_it_cannot_be_trusted(self) -> None:
         with pytest.raises(NumericsError, match="no largest deflection"):

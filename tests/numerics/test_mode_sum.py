@@ -147,6 +147,11 @@ def test_a_step_ends_where_no_extreme_can_follow() -> None:
     assert long.largest[0] == pytest.approx(3 * (1 + math.exp(-0.1 * math.pi / math.sqrt(0.99))), rel=1e-2)
     assert long.samples <= 2 * 1024
     assert short.samples <= 2 * 1024
+    zero = np.zeros(1)
+    for height in (0.04, 25.0):  # the equations are linear
+        other = mode_sum(one, Course(zero, np.array([height]), zero, zero, zero, zero), 10_000.0)
+        assert other.samples == long.samples
+        assert other.largest == pytest.approx(height * long.largest, rel=1e-12)
 
 
 def test_the_state_before_counts() -> None:

@@ -296,6 +296,27 @@ def test_a_hauled_rope_goes_slack_and_snatches() -> None:
     assert min(panel.top.min() for panel in found.panels) > -1e-6 * Q
 
 
+@pytest.mark.parametrize("structure", [None, Structure(8 * K, 0.5 * M, 1e3)])
+def test_a_load_that_lands_loses_what_it_moved_with(structure: Structure | None) -> None:
+    """Lowered by 30 mm at the speed it hangs with, its blow on the ground is in the ledger."""
+    haul, rope = lifting(speed=-V0, way=-1, set_speed=Course(values=(-V0,)), structure=structure), Hauled(
+        K * 10, 10.0, 0.0, Q / (K * 10)
+    )  # fmt: skip
+    march = March(haul, rope)
+    mode, y = march.begin()
+    strain, sag = Q / (K * 10), Q / (8 * K) if structure is not None else 0.0
+    y[Z], y[U], y[4] = sag, 0.03, -V0
+    y[6] = (10.0 * strain + sag + 0.03) / (1 + strain)
+    hanging = mode._replace(ground=False)
+    march.begin = lambda: (hanging, y.copy())  # type: ignore[method-assign]
+    found = march.play(0.4)
+    landed = next(time for time, what in found.events if what == "land")
+    assert landed == pytest.approx(0.03 / V0, rel=1e-6)
+    assert found.lost == pytest.approx(M * V0**2 / 2, rel=1e-6)
+    left, scale = energy(march, found)
+    assert left <= 1e-11 * scale
+
+
 def test_what_cannot_be_resolved_is_said() -> None:
     haul = lifting(set_speed=None, capacity=NONE, stages=(Stage(Smooth(lambda w: np.full(w.shape, np.nan))),))
     with pytest.raises(NumericsError):

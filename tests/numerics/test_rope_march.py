@@ -601,6 +601,25 @@ def test_forty_events_at_once_are_too_many(monkeypatch: pytest.MonkeyPatch) -> N
     assert looked == [0.0] * 41
 
 
+def test_forty_events_at_once_are_not_too_many_again_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twice forty, a panel between them."""
+    looked: list[float] = []
+    whole = March._panel
+
+    def panel(self: March, done: Played, h: float) -> tuple[Panel, str | None]:
+        looked.append(done.time)
+        if looked.count(done.time) <= 40 and done.time < 1.5 * self.longest:
+            return Panel(done.time, 0.0, done.state[None], *(np.zeros(1),) * 5, np.zeros((1, 2))), "power"
+        found, fired = whole(self, done, h)
+        assert found is not None
+        return found, fired
+
+    monkeypatch.setattr(March, "_panel", panel)
+    march = March(machine(motor_brake=Tripped(), drum_brake=Tripped()), HAULED)
+    march.play(3.5 * march.longest)
+    assert [looked.count(time) for time in dict.fromkeys(looked)] == [41, 41, 1, 1]
+
+
 @pytest.mark.parametrize(("dip", "fires"), [(1e-12, False), (5e-12, False), (2e-11, True), (1e-9, True)])
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e5])
 def test_a_guard_is_below_0_beyond_1e11_of_its_size(dip: float, fires: bool, size: float) -> None:

@@ -1,6 +1,7 @@
 """Panels, courses and laws of a hauled load: each against its formula, on both sides of every corner."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -164,4 +165,6 @@ def test_corners_of_all_parts_are_told_once_and_in_order() -> None:
         drum_brake=Tripped(NONE, Course((0.0, 0.01), (0.0, 1.0), (0.0, 0.0), decay=1.0, constant=1.0, since=0.03)),
     )  # fmt: skip
     assert one.breaks == (0.2, 0.4, 0.7, 0.8, 0.9)
+    early = Course((0.0, 0.01), (1.0, 1.0), (0.0, 0.0), decay=1.0, constant=1.0, since=0.0)
+    assert replace(one, capacity=early).breaks == (0.01, 0.2, 0.4, 0.8, 0.9), "the beginning is none"
     assert one.breaks_after_the_trip == (0.01, 0.03, 0.05)
