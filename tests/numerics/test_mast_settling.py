@@ -190,6 +190,23 @@ class TestMast:
         assert found.low - 0.01 <= last <= found.high  # the last look outside is before the last crossing
         assert found.time == pytest.approx(last, abs=0.01)
 
+    @pytest.mark.parametrize("window", [3e-3, 2e-3, 1e-3])
+    def test_a_run_that_ends_before_it_settles_tells_both_ends(self, window: float) -> None:
+        """After the last touch of the guide; the witness is where a longer run was outside for the last time."""
+        case = braked(0.02, Guide(6.0, 1e6, 0.004))
+        found = settled(play(case, 2.0), 6.0, window)
+        assert 0 < found.high - found.low < 1e-5
+        assert found.low <= found.time <= found.high
+        kept = play(case, 6.5, keep=True)
+        times, tips = kept.over_time("deflection")
+        outside = times[np.abs(tips) > window].max() - kept.held_since
+        assert found.low - 2e-3 <= outside <= found.high
+
+    def test_a_run_that_ends_after_it_has_settled_tells_the_end_alone(self) -> None:
+        course = play(braked(0.02, Guide(6.0, 1e6, 0.004)), 4.0)
+        found = settled(course, 6.0, 3e-3)
+        assert (found.low, found.time, found.high) == (0.0, 4.0 - course.held_since, 4.0 - course.held_since)
+
     def test_a_base_that_still_slips_has_not_settled(self) -> None:
         with pytest.raises(NumericsError, match="not yet held"):
             settled(play(braked(0.02), 0.2), 6.0, 1e-3)
