@@ -128,6 +128,14 @@ class TestStart:
         assert (high, low) == pytest.approx((other.high, other.low), rel=2e-5)
         assert course.first("base", "at speed") == pytest.approx(other.stands, rel=1e-6)
 
+    @pytest.mark.parametrize("force", [9000.0, 4000.0])
+    def test_the_drive_that_holds_has_to_hold_what_swings(self, force: float) -> None:
+        """The third of three, from 0.9 to 1 m/s; friction of the other two is far below what the swing asks for."""
+        weak = (Grip("rolling", Signal.constant(10.0)), Grip("other", Signal.constant(10.0), 0.5))
+        course = play(case(Base(4000.0, 0.9, grips=(*weak, Grip("drive", Signal.constant(force), 1.0))), ratio=0.02), 2)
+        assert course.first("base", "at speed") == course.held_since > 0
+        assert course.stays
+
     def test_rolling_friction_holds_what_pushes_too_little(self) -> None:
         grips = (Grip("rolling", Signal.constant(1000.0)), Grip("drive", Signal.rising(5000.0, rise=1.0), 1.0))
         course = play(case(Base(4000.0, 0.0, grips=grips)), 0.4)
@@ -306,6 +314,15 @@ class TestHard:
             value, time = course.largest(what)
             assert value == pytest.approx(finer.largest(what)[0], rel=1e-9)
             assert 0 <= time <= 4.0
+
+    def test_looks_for_summits_count_as_work(self) -> None:
+        """A run whose march is soon over is given up for its looks, a fifteenth as many as panels."""
+        one = case(braked(9000.0), column=3000.0, count=12, modes=24)
+        found = play(one, 4.0, most_work=1e6).record
+        assert found.work < 3e4
+        assert found.looks > 3e4 / 25
+        with pytest.raises(NumericsError, match="cannot be told apart"):
+            play(one, 4.0, most_work=3e4)
 
     def test_at_rest_from_the_beginning(self) -> None:
         course = play(case(braked(9000.0, 0.0)), 1.0)

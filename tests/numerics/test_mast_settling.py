@@ -11,7 +11,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Signal
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Segment
-from ptmcalc.numerics.mast.run import play, settled
+from ptmcalc.numerics.mast.run import _swing, play, ring_of, settled
 from ptmcalc.numerics.mast.settling import Ring, settling
 from ptmcalc.numerics.mast.system import Case
 
@@ -190,6 +190,57 @@ class TestMast:
         assert found.low - 0.01 <= last <= found.high  # the last look outside is before the last crossing
         assert found.time == pytest.approx(last, abs=0.01)
 
+    @pytest.mark.parametrize("window", [3e-3, 2e-3, 1e-3])
+    def test_a_run_that_ends_before_it_settles_tells_both_ends(self, window: float) -> None:
+        """After the last touch of the guide; the witness is where a longer run was outside for the last time."""
+        case = braked(0.02, Guide(6.0, 1e6, 0.004))
+        found = settled(play(case, 2.0), 6.0, window)
+        assert 0 < found.high - found.low < 1e-5
+        assert found.low <= found.time <= found.high
+        kept = play(case, 6.5, keep=True)
+        times, tips = kept.over_time("deflection")
+        outside = times[np.abs(tips) > window].max() - kept.held_since
+        assert found.low - 2e-3 <= outside <= found.high
+
+    def test_a_run_that_ends_after_it_has_settled_tells_the_end_alone(self) -> None:
+        course = play(braked(0.02, Guide(6.0, 1e6, 0.004)), 4.0)
+        found = settled(course, 6.0, 3e-3)
+        assert (found.low, found.time, found.high) == (0.0, 4.0 - course.held_since, 4.0 - course.held_since)
+
     def test_a_base_that_still_slips_has_not_settled(self) -> None:
         with pytest.raises(NumericsError, match="not yet held"):
             settled(play(braked(0.02), 0.2), 6.0, 1e-3)
+
+    def test_it_is_counted_from_the_stop_whenever_one_looks(self) -> None:
+        """A state 1 ms after the stop, told by a run that ends there, settles 1 ms sooner."""
+        course, later = play(braked(0.02), 1.5), 1e-3
+        after = play(braked(0.02), course.held_since + later)
+        ring = ring_of(after.system, after.record.state, after.case.mast.at(6.0)[: after.system.count])
+        for window in (4e-3, 1e-4):
+            found = settling(ring, window).time + later
+            assert found == pytest.approx(settled(course, 6.0, window).time, rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.02, 0.6])
+@pytest.mark.parametrize("place", [0, 1, 4])
+def test_what_a_swing_asks_for_at_most(ratio: float, place: int) -> None:
+    """Of one mode, c q or c q': the swing around its envelope from now on, and the frequency times that. The envelope
+    is told by two states a quarter of a turn apart; more modes and both of them add up."""
+    course = play(Case(braked(0.0).mast, np.full(6, ratio), braked(0.0).base, (6.0,)), 0.3)
+    system, n = course.system, course.system.count
+    w = float(system.w[place])
+    quarter = math.pi / 2 / (w * math.sqrt(1 - ratio**2))
+    turn = expm(np.array([[0.0, 1.0], [-(w**2), -2 * ratio * w]]) * quarter)
+    z = course.record.state.copy()
+    z[2 + place], z[2 + n + place] = 3.0, 0.7 * w
+    later = float((turn @ [3.0, 0.7 * w])[0]) * math.exp(ratio * w * quarter)
+    size = math.hypot(3.0, later)
+    shift, speed = np.zeros((2, len(z)))
+    shift[2 + place], speed[2 + n + place] = -5.0, 2.0
+    assert _swing(system, z, shift) == pytest.approx(5 * size, rel=1e-12)
+    assert _swing(system, z, speed) == pytest.approx(2 * w * size, rel=1e-12)
+    other = (place + 1) % n
+    shift[2 + other] = 1.0
+    more = _swing(system, z, shift) - 5 * size
+    assert _swing(system, z, shift + speed) == pytest.approx((5 + 2 * w) * size + more, rel=1e-12)
+    assert more > 0

@@ -128,6 +128,40 @@ class TestParts:
                 assert bottom.value <= float(seen.min()) + bottom.bar
                 assert since <= top.time <= until
 
+    @pytest.mark.parametrize(("length", "speed", "end"), [(20.0, -1.1, 17.0), (3.0, 2.0, 20.0), (30.0, -8.0, 3.5)])
+    def test_a_peak_on_a_changing_rope_is_the_motion_at_its_time(self, length: float, speed: float, end: float) -> None:
+        """Panels are short enough for what is found by them to be no more than the motion itself, within the bar."""
+        course = Pieces.through(((0.0, length), (end, length + end * speed)))
+        swing = linear_swing(LinearCase(G, course, Pieces.constant(0.3), 0.7, 0.1, 0.03), end)
+        for name in ("angle", "rate", "offset", "speed", "acceleration"):
+            for since, until in ((0.0, end), (end / 3, end / 2), (end / 2, end), (0.9 * end, end)):
+                for sign, peak in ((1, swing.largest(name, since, until)), (-1, swing.smallest(name, since, until))):
+                    assert peak.value == pytest.approx(float(swing.at(name, peak.time)), rel=1e-14)
+                    near = np.clip(peak.time + np.linspace(-1e-3, 1e-3, 201), since, until)
+                    assert sign * peak.value >= float((sign * swing.at(name, near)).max()) - peak.bar
+
+    def test_late_in_a_long_swing_only_what_is_asked_for_is_looked_at(self) -> None:
+        """After 243 000 radians: theta = theta_0 cos w t, w^2 = (g/L)(1 + M/m), and what its bar is worth elsewhere."""
+        length, ratio, end = 2.5, 0.5, 1e5
+        swing = linear_swing(LinearCase(G, Pieces.constant(length), Pieces(), ratio, 0.1), end)
+        omega, bar = math.sqrt(G / length * (1 + ratio)), swing.bar(end)
+        sizes = {
+            "angle": 0.1,
+            "offset": 0.1 * length,
+            "rate": 0.1 * omega,
+            "speed": 0.1 * length * omega * ratio / (1 + ratio),
+            "acceleration": 0.1 * G * ratio,
+        }
+        peaks = {name: swing.largest(name, end - 10) for name in sizes}
+        for name, size in sizes.items():
+            assert peaks[name].value - size == pytest.approx(0.0, abs=1e-3 * size if name == "speed" else 1e-10 * size)
+        assert 1e-16 * omega * end * 0.1 < bar < 4e-15 * omega * end * 0.1, "of the rounding of so many radians"
+        assert bar < peaks["angle"].bar < bar + 1e-11 * 0.1
+        assert peaks["offset"].bar == pytest.approx(length * peaks["angle"].bar, rel=1e-9)
+        assert peaks["acceleration"].bar == pytest.approx(G * ratio * peaks["angle"].bar, rel=1e-9)
+        for name, worth in (("rate", omega), ("speed", omega * length * ratio)):
+            assert 1.95 * worth * bar < peaks[name].bar < 2 * worth * peaks["angle"].bar
+
     def test_pieces(self) -> None:
         f = Pieces.through(((1.0, 2.0), (3.0, 6.0), (3.0, 0.0), (4.0, 1.0)))
         assert f.at([0.0, 1.0, 2.0, 3.0, 3.5, 9.0]).tolist() == [2.0, 2.0, 4.0, 0.0, 0.5, 1.0]

@@ -1,6 +1,7 @@
 """Settling: the time the envelopes fit, how far a stretch reaches, and both ends of the answer."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -45,6 +46,8 @@ class TestParts:
             assert found is not None
             assert found == pytest.approx(brentq(lambda t, room=room: one.envelope(t) - room, 0, 1e5), rel=1e-9)
             assert one.envelope(found) < room
+            for pace in (2.0**40, 2.0**-40):
+                assert module._inside(Ring(one.amplitudes, one.rates * pace), room) == found / pace
         assert module._inside(one, 1.01 * one.envelope(0.0)) == 0.0
         lasting = Ring(np.append(one.amplitudes, 0.3), np.append(one.rates, 4j))
         assert module._inside(lasting, 0.299) is None
@@ -123,14 +126,55 @@ def test_a_doubt_as_wide_as_what_the_lean_leaves_is_no_answer_from_above() -> No
         assert math.isinf(found.high)
 
 
-@pytest.mark.parametrize("ratio", [0.02, 1e-5, 1e-10])
+@pytest.mark.parametrize("ratio", [0.02, 1e-5, 1e-10, 1e-15])
 def test_no_unit_of_time_or_length_changes_what_is_told(ratio: float) -> None:
     """Frequencies and sizes times powers of 2, so that rounding is the same: of swings that hardly fade too."""
     rates, sizes = np.array([-ratio + 1j, -3 * ratio + 2.7j]), np.array([1.0 + 0.2j, 0.3j])
     one = settling(Ring(sizes, rates), 0.1, 0.02, 1e-3)
-    for pace, size in ((2.0**20, 1.0), (2.0**-20, 2.0**10), (1.0, 2.0**-12)):
+    assert (one.low > 0) == (ratio > 1e-15), "in the end no swing is told from the next"
+    for pace, size in ((2.0**60, 1.0), (2.0**-60, 2.0**10), (1.0, 2.0**-22), (1.0, 2.0**30)):
         other = settling(Ring(sizes * size, rates * pace), 0.1 * size, 0.02 * size, 1e-3 * size)
         assert (other.time * pace, other.low * pace, other.high * pace) == (one.time, one.low, one.high)
+
+
+PI = Fraction(314159265358979323846264338327950288419716939937510, 10**50)
+
+
+def exactly(amplitudes: list[float], rates: list[complex], time: float) -> float:
+    """A sum of damped cosines, its phases to 1e-16 however many radians they are."""
+    total = 0.0
+    for size, rate in zip(amplitudes, rates, strict=True):
+        phase = float(Fraction(rate.imag) * Fraction(time) % (2 * PI))
+        total += size * math.exp(rate.real * time) * math.cos(phase)
+    return total
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_summit_that_all_but_touches_is_in_doubt_by_the_rounding_of_its_phase(
+    seed: int, size: float, side: int
+) -> None:
+    """After 1e7 radians of two swings a phase is off by 1e-9; a summit nearer to the edge than that may be outside or
+    not. Whether it is, is told by its phase in exact numbers."""
+    rng = np.random.default_rng(seed)
+    w = rng.uniform(1, 9, 2)
+    amplitudes, rates = (size * np.array([1.0, 0.7])).tolist(), (-1e-7 * w + 1j * w).tolist()
+    one = Ring(np.array(amplitudes, complex), np.array(rates))
+    about = settling(one, 0.6 * size).time
+    times = np.linspace(about, about + 3.0, 3001)
+    near = float(times[np.argmax([abs(exactly(amplitudes, rates, t)) for t in times])])
+    step = 1e-3
+    for _ in range(60):  # up to the summit
+        best = max((near - step, near, near + step), key=lambda t: abs(exactly(amplitudes, rates, t)))
+        near, step = best, step / 2
+    window = abs(exactly(amplitudes, rates, near)) + side * 1e-10 * size
+    found = settling(one, window)
+    later = settling(one, window - 1e-8 * size)
+    assert found.low <= near * (1 + 1e-12)
+    assert later.high >= near
+    if side < 0:
+        assert found.high >= near * (1 - 1e-12)
 
 
 def test_at_rest_on_the_edge_is_told_from_outside() -> None:
@@ -145,3 +189,35 @@ def test_at_rest_on_the_edge_is_told_from_outside() -> None:
         assert found.low == math.inf
         assert word in found.reason
     assert settling(one, 0.3, 0.25).reason == ""
+
+
+@pytest.mark.parametrize("rate", [-0.9 + 0.4j, -0.1 + 3j, -0.5 + 0.1j])
+def test_no_stretch_is_looked_at_below_a_share_of_the_whole_time(
+    rate: complex, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Halving ends at 1e-13 of the time from which on the envelope fits, ln(A/window)/sigma."""
+    looks = []
+    reach = module._reach
+
+    def counted(one: Ring, begins: float, ends: float, middle: float) -> tuple[float, float]:
+        looks.append(ends - begins)
+        return reach(one, begins, ends, middle)
+
+    monkeypatch.setattr(module, "_reach", counted)
+    found = settling(Ring(np.array([1.0 + 0j]), np.array([rate])), 0.4)
+    assert found.low < found.time == found.high
+    assert 0.49e-13 <= min(looks) / (math.log(0.4) / rate.real) <= 1e-13
+    assert len(looks) < 80
+
+
+@pytest.mark.parametrize(("ratio", "sharp"), [(1e-6, True), (3e-7, True), (1e-7, False), (1e-9, False)])
+def test_a_swing_is_told_from_the_next_as_long_as_rounding_allows(ratio: float, sharp: bool) -> None:
+    """Rounding of the phase, 5e-16 ln(10)/ratio of the swing, against the 2 pi ratio that it fades by in one period;
+    what is no longer told lies up to where the envelope fits."""
+    found = settling(Ring(np.array([1.0 + 0j]), np.array([-ratio + 1j])), 0.1)
+    fits = math.log(10) / ratio
+    assert fits - 2 * math.pi <= found.high <= fits * (1 + 1e-14)
+    if sharp:
+        assert found.high - found.low < 0.1
+    else:
+        assert 2 * math.pi < found.high - found.low < fits * min(1e-13 / ratio**2, 1.0)

@@ -258,8 +258,7 @@ def linear_swing(case: LinearCase, end: float) -> LinearSwing:
             reach = _PHASE / omega
             if v:
                 reach = min(reach, _SHRINK * l0 / abs(v))
-            if time + 1.5 * reach < stop:
-                stop = time + reach
+            stop = min(stop, time + reach)
             row, missed = _series(u, rate, stop - time, (l0, v), stiff, push)
             part = _Part(time, stop, row, stop - time or 1.0, 0.0, 0.0, 0.0, (l0, v), push, begins, 0.0)
         span = stop - time
