@@ -109,7 +109,20 @@ def test_what_a_corner_adds_to_the_samples_beside_it(share: float, turn: float) 
 @pytest.mark.parametrize("power", [1, 2, 3, 9])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_event_inside_a_step_is_a_root(power: int, sign: float) -> None:
-    assert strand._root(lambda x: sign * (x**power - 0.2), 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
+    places = []
+
+    def distance(x: float) -> float:
+        places.append(x)
+        return sign * (x**power - 0.2)
+
+    assert strand._root(distance, 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
+    assert len(places) <= 20, "and it is known when it is found"
+
+
+def test_an_event_may_lie_on_a_place_that_is_tried_or_at_the_start() -> None:
+    assert strand._root(lambda x: x - 0.5, 0.0, 1.0) == 0.5
+    for size in (1e-3, 1.0, 1e3):
+        assert strand._root(lambda x, size=size: size * (1.0 + x), 0.25, 1.0) == 0.25, "it does not change its sign"
 
 
 class TestMatch:
