@@ -30,7 +30,8 @@ def test_a_strand_at_rest_holds_the_energy_of_its_tension(strand: Strand) -> Non
 
 def test_an_exchange_of_1e_8_of_the_tensions_is_rounding() -> None:
     loop = Loop(CARRY, BACK, 1.0, 0.0, fixed_length=False)
-    assert loop.least_energy == pytest.approx(1e-16 * (strain_energy(CARRY) + strain_energy(BACK)), rel=1e-12)
+    least = 1e-16 * (strain_energy(CARRY) + strain_energy(BACK))
+    assert loop.least_energy == pytest.approx(least, rel=1e-12, abs=0)
     assert loop.impedances == pytest.approx((math.sqrt(130.0 * 3.1e7), math.sqrt(41.0 * 2.2e7)), rel=1e-15)
     even = Loop(CARRY, BACK, 1.0, 0.0, fixed_length=False, impedance_jump=False)
     assert even.impedances == pytest.approx((math.sqrt(130.0 * 3.1e7),) * 2, rel=1e-15)
@@ -79,6 +80,21 @@ def test_the_mismatch_is_that_of_the_worse_strand() -> None:
             step = (first + second) / (carry + back)
             assert grid.mismatch <= max(abs(carry * step / first - 1), abs(back * step / second - 1)) + 1e-15
     assert match(1.0, 1e-9, 5, 1.0).back == 1
+
+
+@pytest.mark.parametrize(("second", "tolerance"), [(2**0.5, 1e-7), ((1 + 5**0.5) / 2, 1e-7), (0.3141, 1e-12)])
+def test_the_coarsest_grid_that_is_good_enough_is_found_however_late_it_comes(second: float, tolerance: float) -> None:
+    """The number of cells of the first strand, tried one after the other."""
+
+    def off(carry: int) -> tuple[float, int]:
+        back = max(round(carry * second), 1)
+        step = (1 + second) / (carry + back)
+        return max(abs(carry * step - 1), abs(back * step / second - 1)), back
+
+    expected = next(carry for carry in range(5, 20_000) if off(carry)[0] <= tolerance)
+    assert expected > 500
+    found = match(1.0, second, 5, tolerance, 20_000)
+    assert (found.carry, found.back) == (expected, off(expected)[1])
 
 
 def test_an_extreme_misses_nothing_unless_it_says_so() -> None:

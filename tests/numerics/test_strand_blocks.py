@@ -193,6 +193,18 @@ def test_waves_that_meet_half_a_step_before_the_last_sample_do_so_within_the_win
         assert (top.time, top.position) == pytest.approx((0.055, 62.5), rel=1e-12)
 
 
+def test_what_a_corner_between_samples_adds_is_told() -> None:
+    """A wave with a roof between two of them, 1 a step up and down: half a step, of which a tension has half."""
+    part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
+    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
+    for waves in (delays.back[0], delays.back[1]):
+        delays.back[:] = 0.0
+        waves[4:] = 20.0 - np.abs(np.arange(len(waves) - 4) - 6.5)
+        top = delays.extremes(part, False)[0]
+        assert top.value == pytest.approx(9.75, rel=1e-14)
+        assert top.missed == pytest.approx(0.25, rel=1e-14)
+
+
 def test_of_equal_tensions_one_at_an_end_is_told() -> None:
     """Both waves are 1 from a sample on: first in the middle of the strand, later at its ends."""
     part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
