@@ -1,5 +1,6 @@
 """Method of characteristics against finite elements, closed forms and brute force."""
 
+import itertools
 import math
 import warnings
 from collections.abc import Callable
@@ -551,6 +552,30 @@ def test_slip_before_any_echo_by_hand(rigid: bool, forward: bool) -> None:
         assert (motion.belt_speed[k], motion.drum_speed[k]) == pytest.approx((v, w), rel=1e-9), k
     assert len(changed) == (2 if forward else 3)
     assert min(np.diff(changed)) > 2
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+@pytest.mark.parametrize("echo", [3e3, -2e3])
+def test_a_drum_that_has_caught_the_belt_goes_on_with_the_waves_that_arrive(echo: float, rigid: bool) -> None:
+    """It slips a little at first and is braked; then m v' + Z v = F - N + P, all on the right even."""
+    mass, force, off_echo, step_size = 2e3, 5e3, 500.0 if rigid else 0.0, 0.02
+    grip = Grip(0.9, 0.0)
+    drum = strand._Drum(
+        loop(rigid=rigid, drum=mass, grip=grip), step(force), step_size * np.arange(4.0), Grid(step_size, 80, 80, 0.0)
+    )
+    z_off = Z[1] if rigid else 0.0
+    tight, slack = 60e3 + echo, 30e3 + off_echo
+    belt = (slack * math.exp(0.9) - tight) / (Z[0] + z_off * math.exp(0.9))  # friction is at its limit
+    drum.slipping, drum.at, drum.arriving = 1, (belt, belt + 5e-4), (echo, off_echo)
+    speeds = np.zeros((2, 3))
+    drum._by_steps(1, np.full(3, echo), np.full(3, off_echo), speeds[0], speeds[1])
+    assert not drum.slipping
+    assert np.array_equal(*speeds)
+    z = Z[0] + z_off
+    late = (force - echo + off_echo) / z
+    decay = math.exp(-z / mass * step_size)
+    for before, after in itertools.pairwise(speeds[0].tolist()):
+        assert after == pytest.approx(late + (before - late) * decay, rel=1e-12)
 
 
 class TestEnergy:
