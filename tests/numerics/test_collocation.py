@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
+from scipy.special import eval_legendre
 
 from ptmcalc.numerics.collocation import gauss, integrals, radau, sampler
 
@@ -24,6 +25,12 @@ def test_nodes_of_three() -> None:
     assert rule.integral[-1] == pytest.approx([(16 - root) / 36, (16 + root) / 36, 1 / 9], rel=1e-14)
     assert rule.integral[0] == pytest.approx([(88 - 7 * root) / 360, (296 - 169 * root) / 1800, (-2 + 3 * root) / 225])
     assert rule.order == 3
+
+
+@pytest.mark.parametrize("order", [12, 24])
+def test_many_nodes_are_zeros_to_the_last_digits(order: int) -> None:
+    x = 2 * radau(order).nodes - 1
+    assert np.abs(eval_legendre(order - 1, x) - eval_legendre(order, x)).max() < 3e-14
 
 
 @pytest.mark.parametrize("order", ORDERS)

@@ -130,7 +130,26 @@ def test_the_torque_and_its_deviation_follow_from_its_derivatives() -> None:
     np.testing.assert_allclose(deviation, np.sqrt(squared), rtol=1e-6)
 
 
+def test_when_a_record_begins_changes_nothing() -> None:
+    time = np.linspace(0.0, 1.0, 65)
+    speed = 3.0 + np.sin(3.0 * time)
+    one = decode.fit(time, speed)
+    for begin in (64.0, -0.5, 4096.0):
+        other = decode.fit(time + begin, speed)
+        assert other.speed == pytest.approx(one.speed, rel=1e-9)
+        assert other.acceleration == pytest.approx(one.acceleration, rel=1e-7, abs=1e-7)
+        assert other.acceleration_variance == pytest.approx(one.acceleration_variance, rel=1e-6)
+
+
 class TestLine:
+    def test_three_points_have_one_that_scatters(self) -> None:
+        """y = 0, d, 0 at -1, 0, 1: off the line by -d/3, 2 d/3, -d/3, chi^2 = 2/3 (d/s)^2 of one degree of freedom."""
+        found = decode.line(np.array([-1.0, 0.0, 1.0]), np.array([0.0, 6.0, 0.0]), np.full(3, 0.5))
+        chi = np.sqrt(2 / 3) * 6.0 / 0.5
+        assert (found.offset, found.slope) == pytest.approx((2.0, 0.0), abs=1e-12)
+        assert found.offset_deviation == pytest.approx(chi * 0.5 / np.sqrt(3), rel=1e-12)
+        assert found.slope_deviation == pytest.approx(chi * 0.5 / np.sqrt(2), rel=1e-12)
+
     X = np.array([0.0, 1.0, 2.0, 4.0, 7.0])
     DEVIATION = np.array([0.1, 0.2, 0.1, 0.4, 0.2])
 

@@ -15,7 +15,7 @@ from support import chain_fem
 
 from ptmcalc.numerics.harmonic.parts import Chain, Damping, Excitation, Line
 from ptmcalc.numerics.harmonic.response import polygon_response
-from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
+from ptmcalc.numerics.harmonic.waves import Waves, dynamic_stiffness, ratios_of
 
 steady = settings(derandomize=True, database=None, deadline=None, max_examples=60)
 
@@ -103,6 +103,24 @@ class TestOneFrequency:
         theta, z = w * WORKING.transit, w * WORKING.impedance
         assert dynamic_stiffness(CHAINS[0], w) == pytest.approx(-z * np.tan(theta), rel=1e-13)
         assert dynamic_stiffness(CHAINS[4], w) == pytest.approx(z / np.tan(theta), rel=1e-12)
+
+    @pytest.mark.parametrize("far", ["free", "held"])
+    def test_two_strands_of_one_kind_are_one(self, far: str) -> None:
+        """Where they meet there is no mass, if none is named."""
+        whole = Chain((Line(100.0, 200.0, 3e8),), DAMPINGS["hysteretic"], far)
+        parts = Chain((Line(60.0, 200.0, 3e8), Line(40.0, 200.0, 3e8)), DAMPINGS["hysteretic"], far)
+        w = np.array([0.3, 20.0, 70.0, 500.0])
+        assert dynamic_stiffness(parts, w) == pytest.approx(dynamic_stiffness(whole, w), rel=1e-11, abs=0)
+
+    @pytest.mark.parametrize("drive", [math.inf, 9000.0, 1.0, 1e-3])
+    @pytest.mark.parametrize("case", range(6))
+    def test_a_denominator_is_no_larger_than_what_it_adds_up(self, case: int, drive: float) -> None:
+        """Told in units of the rounding of all its parts, be the drive ever so light."""
+        chain = replace(CHAINS[case], damping=DAMPINGS["hysteretic"], drive_mass=drive)
+        w = np.geomspace(0.1, 500.0, 40)
+        waves = Waves(chain, w)
+        share = ratios_of(chain, waves, w).sound * np.finfo(float).eps * (1 + waves.angle)
+        assert share.max() <= 1 + 1e-9
 
     def test_slow_motion_moves_the_whole_mass(self) -> None:
         """k h down to 1e-12: a rigid body, a static spring, without loss of digits."""

@@ -167,6 +167,17 @@ class TestSearch:
             expected = rounding[row] + (math.pi / 1024) ** 2 / 2 * curve + left
             assert search._stray[row, k] == pytest.approx(expected, rel=1e-9)
 
+    @pytest.mark.parametrize("place", [0.2, 0.83])
+    def test_away_from_its_corner_a_series_bends_by_the_change_of_its_terms(self, place: float) -> None:
+        """Terms 1/n^2 that are all in phase at the engagement: of n^2 of them only the last one counts."""
+        n = np.arange(1, 41)
+        terms = np.exp(-2j * np.pi * n * (place + 0.5)) / n**2
+        search = Search([terms[None]], [place], [nothing(1)], np.zeros(1))
+        for k in (100, 333, 512, 900):
+            apart = abs((k / 1024 - place - 0.5 + 0.5) % 1 - 0.5) - 0.5 / 1024
+            expected = (math.pi / 1024) ** 2 / 2 * min(1 / math.sin(math.pi * apart), 40.0)
+            assert search._stray[0, k] == pytest.approx(expected, rel=1e-9)
+
     @pytest.mark.parametrize(("count", "samples"), [(5, 1024), (256, 1024), (257, 2048), (1000, 4096)])
     def test_four_samples_of_every_harmonic_at_least(self, count: int, samples: int) -> None:
         search = Search([np.ones((1, count), complex)], [0.0], [nothing(1)], np.zeros(1))

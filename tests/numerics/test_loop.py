@@ -11,6 +11,7 @@ from ptmcalc.numerics import sagging, strand
 from ptmcalc.numerics.loop import MOST_STEPS, Drive, Extreme, Grid, Loop, Strand, match, panelled, refined, steps_of
 
 CARRY, BACK = Strand(700.0, 130.0, 3.1e7, 2.1e4, 9.3e4), Strand(640.0, 41.0, 2.2e7, 1.4e4, 2.1e4)
+GOLDEN = (1 + math.sqrt(5)) / 2
 
 
 def strain_energy(strand: Strand) -> float:
@@ -30,7 +31,8 @@ def test_a_strand_at_rest_holds_the_energy_of_its_tension(strand: Strand) -> Non
 
 def test_an_exchange_of_1e_8_of_the_tensions_is_rounding() -> None:
     loop = Loop(CARRY, BACK, 1.0, 0.0, fixed_length=False)
-    assert loop.least_energy == pytest.approx(1e-16 * (strain_energy(CARRY) + strain_energy(BACK)), rel=1e-12)
+    least = 1e-16 * (strain_energy(CARRY) + strain_energy(BACK))
+    assert loop.least_energy == pytest.approx(least, rel=1e-12, abs=0)
     assert loop.impedances == pytest.approx((math.sqrt(130.0 * 3.1e7), math.sqrt(41.0 * 2.2e7)), rel=1e-15)
     even = Loop(CARRY, BACK, 1.0, 0.0, fixed_length=False, impedance_jump=False)
     assert even.impedances == pytest.approx((math.sqrt(130.0 * 3.1e7),) * 2, rel=1e-15)
@@ -79,6 +81,28 @@ def test_the_mismatch_is_that_of_the_worse_strand() -> None:
             step = (first + second) / (carry + back)
             assert grid.mismatch <= max(abs(carry * step / first - 1), abs(back * step / second - 1)) + 1e-15
     assert match(1.0, 1e-9, 5, 1.0).back == 1
+
+
+@pytest.mark.parametrize("first", [0.7, 1.0])
+@pytest.mark.parametrize(("ratio", "tolerance"), [(2**0.5, 1e-7), (GOLDEN, 1e-7), (0.3141, 1e-12), (GOLDEN, 0)])
+def test_the_coarsest_grid_that_is_good_enough_is_found_however_late_it_comes(
+    ratio: float, tolerance: float, first: float
+) -> None:
+    """The number of cells of the first strand, tried one after the other; the best one where none is good enough."""
+
+    def off(carry: int) -> tuple[float, int]:
+        back = max(round(carry * ratio), 1)
+        step = first * (1 + ratio) / (carry + back)
+        return max(abs(carry * step / first - 1), abs(back * step / (first * ratio) - 1)), back
+
+    most = 12_000
+    good = [carry for carry in range(5, most + 1) if off(carry)[0] <= tolerance]
+    expected = good[0] if good else min(range(5, most + 1), key=lambda carry: off(carry)[0])
+    assert expected > 500
+    found = match(first, first * ratio, 5, tolerance, most)
+    assert (found.carry, found.back) == (expected, off(expected)[1])
+    if not good:  # one cell more than it may have would be better
+        assert match(first, first * ratio, 5, tolerance, expected - 1).carry < expected
 
 
 def test_an_extreme_misses_nothing_unless_it_says_so() -> None:

@@ -1,5 +1,6 @@
 """Method of characteristics against finite elements, closed forms and brute force."""
 
+import itertools
 import math
 import warnings
 from collections.abc import Callable
@@ -109,7 +110,20 @@ def test_what_a_corner_adds_to_the_samples_beside_it(share: float, turn: float) 
 @pytest.mark.parametrize("power", [1, 2, 3, 9])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_an_event_inside_a_step_is_a_root(power: int, sign: float) -> None:
-    assert strand._root(lambda x: sign * (x**power - 0.2), 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
+    places = []
+
+    def distance(x: float) -> float:
+        places.append(x)
+        return sign * (x**power - 0.2)
+
+    assert strand._root(distance, 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
+    assert len(places) <= 20, "and it is known when it is found"
+
+
+def test_an_event_may_lie_on_a_place_that_is_tried_or_at_the_start() -> None:
+    assert strand._root(lambda x: x - 0.5, 0.0, 1.0) == 0.5
+    for size in (1e-3, 1.0, 1e3):
+        assert strand._root(lambda x, size=size: size * (1.0 + x), 0.25, 1.0) == 0.25, "it does not change its sign"
 
 
 class TestMatch:
@@ -246,6 +260,50 @@ class TestAgainstFiniteElements:
 
 
 class TestSag:
+    @pytest.mark.parametrize("opens", [1e-4, 0.02, 3.0])
+    def test_a_cell_that_is_stretched_pulls_more_by_what_its_waves_steepen(self, opens: float) -> None:
+        """rho dc/dv dv^2 with c the speed of waves in a belt that sags, by differences of c over S, dS = rho c dv; at
+        most a quarter of the impedance. A cell that closes does not."""
+        line = loop(on=12e3, off=6e3, tail_tension=6e3, spans=(900.0, 450.0))
+        cut = sagging.grid_of(line, 12)
+        belt = sagging._Belt(line, cut)
+        belt.speed = np.zeros(len(belt.speed))
+        belt.speed[1::2] = opens * cut.step
+        belt.stretch()
+        weights = np.where(np.arange(len(belt.tension)) < cut.back, 450.0, 900.0)
+        rho = np.where(np.arange(len(belt.tension)) < cut.back, RHO[1], RHO[0])
+
+        def speed(tension: np.ndarray) -> np.ndarray:
+            return np.sqrt(EA / (1 + weights**2 * EA / (12 * tension**3)) / rho)
+
+        tension, dv = belt.tension, opens * cut.step
+        steepens = (speed(tension * 1.00001) - speed(tension * 0.99999)) / (tension * 2e-5) * rho * speed(tension)
+        expected = np.minimum(rho * steepens * dv**2, np.sqrt(EA * rho) * dv / 4)
+        opening = np.diff(belt.speed) > 0
+        assert belt.viscous[opening] == pytest.approx(expected[opening], rel=1e-6)
+        assert not belt.viscous[~opening].any()
+
+    def test_hangs_under_any_tension(self) -> None:
+        """A toy belt of a millionth of a newton."""
+        toy = loop(on=2e-6, off=1e-6, tail_tension=1e-6)
+        assert sagging._Belt(toy, sagging.grid_of(toy, 4)).static.max() < 2e-6
+
+    @pytest.mark.parametrize("fixed", [False, True])
+    @pytest.mark.parametrize("sense", [1, -1])
+    def test_grips_up_to_the_friction_of_what_is_left_by_the_centrifugal_tension(self, sense: int, fixed: bool) -> None:
+        """At an acceleration and a speed of the belt: run-on and run-off less rho v^2, as exp(mu alpha)."""
+        line = loop(rigid=fixed, on=50e3, off=50e3, tail_tension=50e3, grip=Grip(0.4, 300.0))
+        cut = sagging.grid_of(line, 12)
+        belt = sagging._Belt(line, cut)
+        drum = sagging._Drum(line, step(0.0), cut, belt)
+        belt.speed[-1] = 7.0
+        halves = [RHO[0] * 400.0 / cut.carry / 2, RHO[1] * 400.0 / cut.back / 2 if fixed else 0.0]
+        rate, off_cell = 1.7, 3e3 if fixed else 0.0
+        off = 50e3 + off_cell - halves[1] * rate - 300.0 * 49.0
+        on_cell = off * math.exp(sense * 0.4) - 50e3 - halves[0] * rate + 300.0 * 49.0
+        assert drum._breaks(on_cell + sense * 1e-3, off_cell, rate) == sense
+        assert drum._breaks(on_cell - sense * 1e-3, off_cell, rate) == 0
+
     @pytest.mark.parametrize("rigid", [False, True])
     def test_both_methods_agree_on_a_straight_belt(self, rigid: bool) -> None:
         """The staggered grid and the characteristics share no step; what they differ by falls with the step."""
@@ -467,6 +525,8 @@ def test_slip_before_any_echo_by_hand(rigid: bool, forward: bool) -> None:
     if not forward:  # it slips from the start: the belt runs ahead at once
         v, w, slips, first = float(motion.belt_speed[1]), float(motion.drum_speed[1]), True, 2
         assert excess(v) == pytest.approx(0.0, abs=1e-9 * on)
+        forces = np.interp([0.0, step_size], corners, pulls)
+        assert w == pytest.approx((forces.sum() - z * v) * step_size / 2 / mass, rel=1e-12), "the belt was at rest"
     for k in range(first, 61):
         begin = (k - 1) * step_size
         ends = after(step_size, begin, v, w, slips)
@@ -492,6 +552,30 @@ def test_slip_before_any_echo_by_hand(rigid: bool, forward: bool) -> None:
         assert (motion.belt_speed[k], motion.drum_speed[k]) == pytest.approx((v, w), rel=1e-9), k
     assert len(changed) == (2 if forward else 3)
     assert min(np.diff(changed)) > 2
+
+
+@pytest.mark.parametrize("rigid", [False, True])
+@pytest.mark.parametrize("echo", [3e3, -2e3])
+def test_a_drum_that_has_caught_the_belt_goes_on_with_the_waves_that_arrive(echo: float, rigid: bool) -> None:
+    """It slips a little at first and is braked; then m v' + Z v = F - N + P, all on the right even."""
+    mass, force, off_echo, step_size = 2e3, 5e3, 500.0 if rigid else 0.0, 0.02
+    grip = Grip(0.9, 0.0)
+    drum = strand._Drum(
+        loop(rigid=rigid, drum=mass, grip=grip), step(force), step_size * np.arange(4.0), Grid(step_size, 80, 80, 0.0)
+    )
+    z_off = Z[1] if rigid else 0.0
+    tight, slack = 60e3 + echo, 30e3 + off_echo
+    belt = (slack * math.exp(0.9) - tight) / (Z[0] + z_off * math.exp(0.9))  # friction is at its limit
+    drum.slipping, drum.at, drum.arriving = 1, (belt, belt + 5e-4), (echo, off_echo)
+    speeds = np.zeros((2, 3))
+    drum._by_steps(1, np.full(3, echo), np.full(3, off_echo), speeds[0], speeds[1])
+    assert not drum.slipping
+    assert np.array_equal(*speeds)
+    z = Z[0] + z_off
+    late = (force - echo + off_echo) / z
+    decay = math.exp(-z / mass * step_size)
+    for before, after in itertools.pairwise(speeds[0].tolist()):
+        assert after == pytest.approx(late + (before - late) * decay, rel=1e-12)
 
 
 class TestEnergy:

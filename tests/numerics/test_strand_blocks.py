@@ -8,7 +8,7 @@ from support import echoes
 
 from ptmcalc.numerics import strand
 from ptmcalc.numerics.collocation import gauss
-from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, match, panelled, steps_of
+from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, at_end, match, panelled, steps_of
 
 SEEDS = range(12)
 
@@ -164,6 +164,122 @@ def test_a_tension_that_rests_is_found_where_it_begins_to() -> None:
     assert (motion.carry_max.position, motion.carry_max.time) == pytest.approx((100.0, 0.101)), "once it is at the tail"
 
 
+def test_a_tension_that_rests_in_waves_that_grow_apart_is_found_where_it_begins_to() -> None:
+    """As in a belt that is pulled ever faster: both waves grow, their sum at an end does not, but for rounding."""
+    part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
+    for cells in (3, 7, 10):
+        loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
+        delays = strand._Delays(loop, Grid(0.01, cells, cells, 0.0), 90, 1.0)
+        waves = delays.carry
+        waves[0, cells:] = 0.1 * np.arange(waves.shape[1] - cells)
+        waves[1, cells:] = -waves[0, cells:]
+        top, bottom = delays.extremes(part, True)
+        assert (top.value, bottom.value) == pytest.approx((0.05 * cells, -0.05 * cells), rel=1e-12)
+        assert (top.time, top.position) == pytest.approx((0.01 * cells, 100.0), rel=1e-12)
+        assert (bottom.time, bottom.position) == pytest.approx((0.01 * cells, 0.0), rel=1e-12)
+
+
+@pytest.mark.parametrize(("share", "meets"), [(0.498, False), (0.5, True), (0.502, True), (1.0, True)])
+def test_waves_that_meet_half_a_step_before_the_last_sample_do_so_within_the_window_or_not(
+    share: float, meets: bool
+) -> None:
+    part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
+    loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
+    delays = strand._Delays(loop, Grid(0.01, 4, 4, 0.0), 6, share)
+    delays.back[0, 8] = delays.back[1, 7] = 1.0  # 4 + 5.5 steps after the strand was empty of both
+    top = delays.extremes(part, False)[0]
+    assert (top.value == 1.0) == meets
+    if meets:
+        assert (top.time, top.position) == pytest.approx((0.055, 62.5), rel=1e-12)
+
+
+def test_what_a_corner_between_samples_adds_is_told() -> None:
+    """A wave with a roof between two of them, 1 a step up and down: half a step, of which a tension has half."""
+    part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
+    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
+    for waves in (delays.back[0], delays.back[1]):
+        delays.back[:] = 0.0
+        waves[4:] = 20.0 - np.abs(np.arange(len(waves) - 4) - 6.5)
+        top = delays.extremes(part, False)[0]
+        assert top.value == pytest.approx(9.75, rel=1e-14)
+        assert top.missed == pytest.approx(0.25, rel=1e-14)
+
+
+def test_of_equal_tensions_one_at_an_end_is_told() -> None:
+    """Both waves are 1 from a sample on: first in the middle of the strand, later at its ends."""
+    part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
+    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
+    delays.back[:, 8:] = 1.0
+    top = delays.extremes(part, False)[0]
+    assert top.value == 1.0
+    assert top.position in (0.0, 100.0)
+    assert top.time == pytest.approx(0.08, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_extremes_of_waves_that_cancel_a_steep_static_tension(seed: int) -> None:
+    """All places are nearly alike: which is the highest, or the lowest, is told by what the waves have beside."""
+    rng = np.random.default_rng(seed)
+    cells, steps = 10, 40
+    rise, sign = rng.choice([-1e3, 1e3]), 1 if seed % 2 else -1
+    part = Strand(100.0, 50.0, 1e7, 500.0, 500.0 + rise)
+    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0)
+    along, noise = rise / cells * np.arange(steps + 1), rng.normal(size=(2, steps + 1))
+    p, n = delays.carry[:, : cells + steps + 1]
+    p[cells:], n[cells:] = sign * 2e4 - along + noise[0], sign * 2e4 + along + noise[1]
+    u, v = np.meshgrid(np.arange(len(p)), np.arange(len(p)), indexing="ij")
+    meet = (np.abs(u - v) <= cells) & (u + v >= cells) & (u + v - cells <= 2 * steps)
+    tension = np.where(meet, 500.0 + rise * (u - v + cells) / (2 * cells) + (p[:, None] + n) / 2, -sign * np.inf)
+    found = delays.extremes(part, True)[0 if sign > 0 else 1]
+    assert found.value == pytest.approx(sign * (sign * tension).max(), rel=1e-12)
+
+
+@pytest.mark.parametrize("window", [0.4, 2.2, 6.13])
+@pytest.mark.parametrize("seed", range(6))
+def test_largest_and_smallest_tensions_along_the_belt(seed: int, window: float) -> None:
+    """Both waves of each strand moved on from node to node, every sample; the last one by a parabola."""
+    loop, drive, _, grid = drawn(seed, grip=False)
+    window *= loop.carry.transit
+    motion = strand.march(loop, drive, window, grid)
+    steps, share = steps_of(window, grid)
+    places, highest, lowest = strand.envelopes(loop, motion, window)
+    middle = int(np.flatnonzero(np.diff(places) == 0)[0]) + 1  # the tail, the end of one and the beginning of the other
+    for part, cells, (enter_end, enter_start), ahead, shown in (
+        (loop.back, grid.back, motion.waves[2:], 0.0, slice(0, middle)),
+        (loop.carry, grid.carry, motion.waves[:2], loop.back.length, slice(middle, None)),
+    ):
+        along, tensions = np.zeros((2, cells + 1)), []
+        for k in range(steps + 1):
+            along[0, :-1], along[1, 1:] = along[0, 1:].copy(), along[1, :-1].copy()
+            along[0, -1], along[1, 0] = enter_end[k], enter_start[k]
+            tensions.append(part.static(np.arange(cells + 1) / cells) + along.sum(axis=0) / 2)
+        tensions[-1] = at_end(np.array(tensions), share)
+        nodes = (places[shown] - ahead) / part.length * cells
+        whole = np.rint(nodes).astype(int)
+        assert nodes == pytest.approx(whole, abs=1e-9 * cells)
+        assert (whole[0], whole[-1]) == (0, cells), "its ends are among them"
+        assert np.diff(whole).min() > 0
+        assert np.diff(whole).max() <= cells // 50 + 1
+        scale = 1e-12 * np.abs(tensions).max()
+        assert highest[shown] == pytest.approx(np.max(tensions, axis=0)[whole], rel=0, abs=scale)
+        assert lowest[shown] == pytest.approx(np.min(tensions, axis=0)[whole], rel=0, abs=scale)
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+def test_a_belt_that_holds_is_never_looked_at_step_by_step(fixed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tensions in the ratio of 2 to 2.4, with a grip of 3: as many steps one by one as without any grip."""
+    looked = []
+    one_by_one = strand._Drum._gripped
+    monkeypatch.setattr(strand._Drum, "_gripped", lambda *given: looked.append(1) or one_by_one(*given))
+    carry, back = Strand(400.0, 120.0, 2e7, 3e4, 6e4), Strand(400.0, 40.0, 2e7, 3e4, 3e4)
+    drive = Drive(force=lambda t: np.full_like(t, 5e3))
+    for exponent, steps in ((np.log(3.0), 0), (np.log(2.05), 1)):
+        loop = Loop(carry, back, 2e4, 0.0, fixed, Grip(exponent, 12.0))
+        motion = strand.march(loop, drive, 0.5, match(carry.transit, back.transit, 40, 1e-3))
+        assert motion.slipped == bool(steps)
+        assert (len(looked) > 0) == bool(steps)
+
+
 class TestPanels:
     @pytest.mark.parametrize("x", [1e-9, 1e-3, 0.7, 30.0, 1e3, 1e12, np.inf])
     @pytest.mark.parametrize("panel", [1, 4, 12])
@@ -242,9 +358,16 @@ def test_the_best_pair_is_that_of_all(seed: int) -> None:
             assert one[found[0]] + other[found[1]] == both.max()
 
 
-def test_a_history_ends_with_its_last_sample() -> None:
-    samples = np.arange(22.0) ** 2
-    grid = Grid(0.5, 21, 21, 0.0, 7)
-    assert strand.between(samples, grid, np.array([0.0, 3.5, 7.0, 10.25, 10.5])) == pytest.approx(
-        [0.0, 49.0, 196.0, 20.5**2, 441.0], rel=1e-12, abs=1e-10
+@pytest.mark.parametrize("panel", [2, 3, 7])
+def test_a_history_ends_with_its_last_sample(panel: int) -> None:
+    samples = np.arange(6 * panel + 1.0) ** 2
+    end = 3.0 * panel
+    when = np.array([0.0, 3.5, 5.0, end - 0.25, end])
+    assert strand.between(samples, Grid(0.5, 6 * panel, 6 * panel, 0.0, panel), when) == pytest.approx(
+        (2 * when) ** 2, rel=1e-12, abs=1e-10
     )
+
+
+def test_a_history_of_single_steps_is_straight_between_them() -> None:
+    found = strand.between(np.array([1.0, 5.0, 2.0]), Grid(0.5, 2, 2, 0.0), np.array([0.0, 0.25, 0.75, 1.0]))
+    assert found == pytest.approx([1.0, 3.0, 3.5, 2.0], rel=1e-14)

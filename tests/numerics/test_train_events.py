@@ -217,6 +217,17 @@ class TestRigidPlay:
         assert 100 < system.fired < 200
         assert float(record.last[system.watched["speed", 0]]) == 0.0
 
+    @pytest.mark.parametrize("of", [1.0, 2.0**-20])
+    def test_a_ball_by_itself_bounces_as_often_in_any_unit(self, of: float) -> None:
+        """Thrown up from the floor: beside nothing else its bounces end where they are 1e-14 of the first."""
+        floor = Spring("floor", 0, None, 0.0, law=RIGID, side=-1, restitution=0.5)
+        drive = Drive.of("weight", 0, Signal.constant(-2.0 * of))
+        system = Counting(Train((Body("ball", 1.0, 0.0, of),), springs=(floor,), drives=(drive,)))
+        record = march(system, *system.start(), end=3.0)
+        assert float(record.last[system.watched["speed", 0]]) == 0.0
+        assert record.events[-1].time == pytest.approx(2.0, rel=1e-9)
+        assert system.fired == pytest.approx(-math.log2(1e-14), abs=3)
+
 
 @pytest.mark.parametrize("side", [1, -1])
 def test_a_contact_of_hunt_and_crossley_without_loss_is_a_spring(side: int) -> None:
@@ -264,10 +275,11 @@ class TestClutches:
         )
         assert found.last("speed", 1) == pytest.approx(found.last("speed", 3), rel=4e-16)
 
-    def test_a_gate_of_a_half_halves_it(self) -> None:
-        gate = Signal((0.0, 1.0), (0.5, 0.0), (0.0, 0.0))
+    @pytest.mark.parametrize("part", [0.5, 1.0, 2.0])
+    def test_a_gate_of_a_half_halves_it(self, part: float) -> None:
+        gate = Signal((0.0, 1.0), (part, 0.0), (0.0, 0.0))
         train = Train((Body("m", 2.0, 0.0, 5.0),), grips=(Grip("b", 0, None, Signal.constant(4.0), gate=gate),))
-        assert run(train, 3.0).last("speed") == pytest.approx(4.0, rel=1e-14)
+        assert run(train, 3.0).last("speed") == pytest.approx(5.0 - 2.0 * part, rel=1e-14)
 
 
 class TestPrescribed:
@@ -317,13 +329,13 @@ class TestPrescribed:
         assert found.last("guide") == pytest.approx(11.0 * way, rel=1e-14)
 
 
-def begins(train: Train) -> tuple[int, ...]:
-    """How the groups of a train begin to turn."""
+def begins(train: Train) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """How the groups of a train begin to turn, and its clutches to slip."""
     system = TrainSystem(train)
     state, z = system.start()
     begun = system.react(state, 0.0, z, None).mode
     assert isinstance(begun, State)
-    return begun.turning
+    return begun.turning, begun.clutches
 
 
 @pytest.mark.parametrize(("torque", "speed"), [(12.9, 0.0), (15.0, 2.0), (-12.9, 0.0), (-15.0, -2.0)])
@@ -340,7 +352,65 @@ def test_what_a_brake_and_a_clutch_to_a_prescribed_body_hold_is_what_both_do(
     )
     found = run(train, 1.0)
     assert (found.last("speed", 0), found.last("speed", 1)) == pytest.approx((0.0, speed), abs=1e-14)
-    assert speed or begins(train) == (NO_FRICTION, 0)
+    assert speed or begins(train) == ((NO_FRICTION, 0), (0,))
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_a_brake_and_a_stop_hold_is_held_until_it_is_pulled_off_the_stop(way: int) -> None:
+    """20 N into a rigid stop, falling by 10 N/s; the brake of 5 N gives way at -5 N, and never before."""
+    train = Train(
+        (Body("m", 2.0),),
+        springs=(Spring("stop", 0, None, 0.0, law=RIGID, side=way),),
+        grips=(Grip("brake", 0, None, Signal.constant(5.0)),),
+        drives=(Drive.of("d", 0, Signal((0.0,), (20.0 * way,), (-10.0 * way,))),),
+    )
+    assert begins(train)[0] == (0,)
+    found = run(train, 3.5)
+    assert found.events("brake") == [(pytest.approx(2.5), "at rest", "backward" if way > 0 else "forward")]
+    assert found.last("speed") == pytest.approx(-way * 10.0 / 2 / 2.0, rel=1e-12)
+
+
+class TestBreakingLoose:
+    """From rest, under a torque that rises by 1 a second: friction holds as much as it slides with, if nothing else
+    is said, and what is between it and the torque has its losses against the motion."""
+
+    @pytest.mark.parametrize("way", [1, -1])
+    @pytest.mark.parametrize("ratio", [4.0, -4.0])
+    def test_in_front_of_a_gear(self, ratio: float, way: int) -> None:
+        train = Train(
+            (Body("a", 1.0), Body("b", 5.0)), (Mesh("gear", 0, 1, ratio, 0.8, 0.75),),
+            grips=(Grip("brake", 0, None, Signal.constant(3.0)),),
+            drives=(Drive.of("load", 1, Signal((0.0,), (0.0,), (1.0 * way,))),),
+        )  # fmt: skip
+        loose = 3.0 * 4.0 / 0.75
+        found = run(train, loose + 1.0)
+        word = "forward" if way * ratio > 0 else "backward"
+        assert found.events() == [(pytest.approx(loose, rel=1e-12), "at rest", word)]
+        assert found.last("speed", 1) == pytest.approx(way * (0.5 / (5.0 + 16.0 / 0.75)), rel=1e-9)
+
+    @pytest.mark.parametrize("way", [1, -1])
+    @pytest.mark.parametrize("ratio", [4.0, -4.0])
+    def test_behind_a_gear(self, ratio: float, way: int) -> None:
+        train = Train(
+            (Body("a", 1.0), Body("b", 5.0)), (Mesh("gear", 0, 1, ratio, 0.8, 0.75),),
+            grips=(Grip("brake", 1, None, Signal.constant(16.0)),),
+            drives=(Drive.of("motor", 0, Signal((0.0,), (0.0,), (1.0 * way,))),),
+        )  # fmt: skip
+        loose = 16.0 / 4.0 / 0.8
+        found = run(train, loose + 1.0)
+        assert found.events() == [(pytest.approx(loose, rel=1e-12), "at rest", "forward" if way > 0 else "backward")]
+        assert found.last("speed", 0) == pytest.approx(way * (0.5 / (1.0 + 5.0 / 16.0 / 0.8)), rel=1e-9)
+
+    @pytest.mark.parametrize("way", [1, -1])
+    def test_behind_a_clutch_that_bears_more(self, way: int) -> None:
+        train = Train(
+            (Body("a", 1.0), Body("b", 5.0)),
+            grips=(Grip("brake", 0, None, Signal.constant(3.0)), Grip("clutch", 0, 1, Signal.constant(4.0))),
+            drives=(Drive.of("load", 1, Signal((0.0,), (0.0,), (1.0 * way,))),),
+        )
+        found = run(train, 4.0)
+        assert found.events() == [(pytest.approx(3.0, rel=1e-12), "at rest", "forward" if way > 0 else "backward")]
+        assert [found.last("speed", k) for k in (0, 1)] == pytest.approx([way * 0.5 / 6.0] * 2, rel=1e-12)
 
 
 def test_a_gear_without_slip_in_its_brake_carries_the_load_as_its_ratio_says() -> None:
@@ -431,6 +501,15 @@ class TestSizes:
         )  # fmt: skip
         found = run(train, 3.0)
         assert found.last("speed", 0) == pytest.approx(3.0 * (7.0 - 4.0 / 1.6) / (1.0 + 8.0 / 3.2), rel=1e-13)
+
+    def test_a_blow_however_small_is_one(self) -> None:
+        """Against a brake that stops it within half a second."""
+        train = Train(
+            (Body("m", 1.0),), grips=(Grip("b", 0, None, Signal.constant(2e-17)),), impulses=(Impulse(0, 0.5, 1e-17),)
+        )
+        found = run(train, 2.0)
+        assert [after for _, _, after in found.events("b")] == ["forward", "at rest"]
+        assert found.times("b") == pytest.approx([0.5, 1.0], rel=1e-12)
 
     def test_a_prescribed_speed_however_small_is_one(self) -> None:
         train = Train(

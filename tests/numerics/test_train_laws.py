@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from ptmcalc.numerics.train import links
 from ptmcalc.numerics.train.drives import (
     Place,
     SignalRows,
@@ -17,7 +18,7 @@ from ptmcalc.numerics.train.drives import (
     piece_at,
     stage_breaks,
 )
-from ptmcalc.numerics.train.parts import Drive, Governed, Stage, Straight
+from ptmcalc.numerics.train.parts import Drive, Governed, Spring, Stage, Straight
 from ptmcalc.numerics.train.signals import ONE, Inputs, Now, Signal, Sine, Trigger
 
 KNOTS, VALUES = (-1.5, 0.2, 2.0, 3.1), (4.0, -1.0, 7.0, 7.5)
@@ -164,3 +165,79 @@ class TestSignals:
         assert self.SIGNAL.largest_frequency == 11.0
         assert Signal(decay=1.0, decay_time=0.02, sines=(Sine(1.0, 30.0),)).largest_frequency == pytest.approx(50.0)
         assert Signal(decay_time=0.02).largest_frequency == 0.0
+
+
+class TestContacts:
+    """Of a link with play: which state holds where, what it pulls with, and what follows where it does not hold."""
+
+    STIFFNESS, DAMPING, PLAY, LOSS = 70.0, 13.0, 0.3, 0.4
+    PHASES: dict[str, tuple[str, ...]] = {
+        "kelvin": ("firm",),
+        "no_pull": ("firm", "lift"),
+        "clamped": ("firm", "lift", "over"),
+        "hunt_crossley": ("firm", "lift"),
+    }
+
+    def phase(self, law: str, depth: float, rate: float) -> str:
+        pull, push = self.STIFFNESS * depth, self.DAMPING * rate
+        if law == "kelvin":
+            return "firm"
+        if law == "hunt_crossley":
+            return "firm" if 1 + 1.5 * self.LOSS * rate > 0 else "lift"
+        if pull + push < 0:
+            return "lift"
+        return "over" if law == "clamped" and push > pull else "firm"
+
+    def pulls(self, law: str, depth: float, rate: float) -> float:
+        pull, push = self.STIFFNESS * depth, self.DAMPING * rate
+        if law == "kelvin":
+            return pull + push
+        if law == "no_pull":
+            return max(0.0, pull + push)
+        if law == "clamped":
+            return pull + min(max(push, -pull), pull)
+        return max(0.0, pull * (1 + 1.5 * self.LOSS * rate))
+
+    @pytest.mark.parametrize("law", PHASES)
+    @pytest.mark.parametrize("side", [0, 1, -1])
+    def test_are_those_of_their_law(self, law: str, side: int) -> None:
+        spring = Spring(
+            "s", 0, None, self.STIFFNESS, self.DAMPING, self.PLAY, law, side, dissipation=self.LOSS
+        )  # fmt: skip
+        one = np.eye(3)
+        of = links.Stretch(one[0], one[1], one[2])
+        rng = np.random.default_rng(3)
+        seen = set()
+        still = 1 / (1.5 * self.LOSS)  # a rebound at which the dissipation takes all of the push
+        beside = [(on * 0.4, -on * still * share) for on in (1, -1) for share in (0.998, 1.002)]
+        for x, rate in [*(rng.normal(size=(300, 2)) * [0.4, 2.5]).tolist(), *beside]:
+            state = np.array([x, rate, 1.0])
+            on = next((way for way in (1, -1) if way * x > self.PLAY / 2 and side in (0, way)), 0)
+            depth = abs(x) - self.PLAY / 2
+
+            def broken(contact: links.Contact, state: np.ndarray = state) -> list[links.Contact]:
+                return [to for row, to in links.guards(spring, contact, of) if row @ state < 0]
+
+            if not on:
+                assert broken(links.OPEN) == []
+                assert links.force(spring, links.OPEN, of) @ state == links.stored(spring, links.OPEN, x) == 0.0
+                continue
+            true = self.phase(law, depth, on * rate), on
+            seen.add(true)
+            assert broken(links.OPEN) == [("firm", on)]
+            for phase in self.PHASES[law]:
+                assert broken((phase, on)) in ([true], []) or phase != "firm", "what follows is what holds"
+                assert (broken((phase, on)) == []) == (phase == true[0])
+                assert links.OPEN not in broken((phase, on))
+            force = links.force(spring, true, of) @ state
+            curve = links.curve(spring, true, of)
+            if curve is not None:
+                force += curve.value((curve.rows @ state)[:, None])[0]
+            assert force == pytest.approx(on * self.pulls(law, depth, on * rate), rel=1e-12, abs=1e-12)
+            assert links.elastic(spring, true, of) @ state == pytest.approx(on * self.STIFFNESS * depth, rel=1e-12)
+            assert links.stored(spring, true, x) == pytest.approx(self.STIFFNESS * depth**2 / 2, rel=1e-12)
+            behind = np.array([on * (self.PLAY / 2 - 0.01), on * 0.1, 1.0])  # it has just come apart
+            if true[0] == "lift" or len(self.PHASES[law]) == 1:  # with a damper it lets go before
+                assert links.OPEN in broken(true, behind)
+        sides = (side,) if side else (1, -1)
+        assert seen == {(phase, on) for phase in self.PHASES[law] for on in sides}

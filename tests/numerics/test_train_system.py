@@ -218,15 +218,47 @@ class TestSteadyForces:
 @pytest.mark.parametrize("law", ["linear", "clamped"])
 @pytest.mark.parametrize("stiffness", [1.0, 1e6, 1e12])
 def test_sizes_of_extension_and_rate_are_those_of_the_closed_train(stiffness: float, law: str) -> None:
-    """A rate is as large as its extension times w, whether a play is open at the start or all of it is at rest."""
+    """A rate is as large as its extension times w, to the next power of two, whether a play is open at the start or all
+    of it is at rest."""
+    for part in np.geomspace(1.0, 4.0, 9):
+        train = Train(
+            bodies(1.0, 3.0),
+            springs=(Spring("s", 0, 1, part * stiffness, play=0.0 if law == "linear" else 0.1, law=law),),
+            grips=(Grip("brake", 0, None, Signal.constant(2.0)),),
+        )
+        system = TrainSystem(train)
+        rate = system.scale[2] / system.scale[0]
+        assert math.sqrt(0.5) <= rate / math.sqrt(part * stiffness * (1 + 1 / 3)) <= math.sqrt(2.0)
+
+
+def test_only_loads_that_no_balance_tells_apart_are_shared_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the smallest of all solutions, which is dear: a regular train never asks for it, be its torques ever so large;
+    two prescribed motions that a locked clutch joins do."""
+    asked = []
+    smallest = np.linalg.pinv
+    monkeypatch.setattr(np.linalg, "pinv", lambda *given, **more: asked.append(1) or smallest(*given, **more))
     train = Train(
-        bodies(1.0, 3.0),
-        springs=(Spring("s", 0, 1, stiffness, play=0.0 if law == "linear" else 0.1, law=law),),
-        grips=(Grip("brake", 0, None, Signal.constant(2.0)),),
+        bodies(0.3, 0.7, 1.1, 1.3),
+        (Mesh("g", 0, 1, 3.7, 0.83, 0.79), Mesh("h", 2, 3, -0.17, 0.9, 0.7)),
+        springs=(Spring("s", 1, 2, 1e9 / 3, 1e4),),
+        drives=(Drive.of("d", 0, Signal.constant(1e9 / 7)), Drive.of("e", 3, Signal.constant(-1e8 / 3))),
+    )
+    run(train, 1e-3)
+    assert not asked
+    guides = Guide("one", 0), Guide("other", 1)
+    run(Train(bodies(1.0, 1.0), grips=(Grip("c", 0, 1, ONE),), guides=guides), 1.0)
+    assert asked
+
+
+def test_what_is_held_by_a_gear_is_named_after_its_own() -> None:
+    train = Train(
+        bodies(1.0, 1.0, 1.0, 1.0, 1.0),
+        (Mesh("one", 0, 1, 2.0, 0.9), Mesh("other", 2, 3, 2.0, 0.8)),
+        grips=(Grip("brake", 4, None, ONE), Grip("second", 4, None, ONE)),
     )
     system = TrainSystem(train)
-    rate = system.scale[2] / system.scale[0]
-    assert 0.5 <= rate / math.sqrt(stiffness * (1 + 1 / 3)) <= 2.0
+    assert [system.friction_name(group) for group in range(3)] == ["one", "other", "brake"]
+    assert TrainSystem(Train(bodies(1.0))).friction_name(0) == ""
 
 
 class TestCurves:
