@@ -192,7 +192,7 @@ class TestWork:
         monkeypatch.setattr(np.linalg, "inv", inverted)
         return counts
 
-    @pytest.mark.parametrize("length", [0.05, 5.0, 2000.0])
+    @pytest.mark.parametrize("length", [1e-9, 0.05, 5.0, 2000.0, 1e10])
     def test_of_a_free_swing_is_the_same_at_any_length(self, counted: dict[str, int], length: float) -> None:
         end = 20 * math.sqrt(length / G)
         found = swing(Case(G, Rail(), Axis(1.0, Follow(Pieces())), Load(1.0, Pieces.constant(length), 0.3)), end)

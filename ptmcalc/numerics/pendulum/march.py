@@ -74,7 +74,7 @@ class March:
             still = still + 1 if step.end <= time * (1 + 4e-16) else 0
             if still > _MOST_AT_ONCE:
                 raise NumericsError("NUM101", f"contacts change without end at {time:.6g} s")
-            reached = step.used == 1.0 and time + step.length >= stop
+            reached = step.used == 1.0 and step.length >= stop - time
             time = stop if reached and fired is None else step.end
             state = step.last()
             self._normalise(state)

@@ -1,0 +1,84 @@
+"""Motors whose force is straight between knots, against the exponentials that follow from it, and where steps begin."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Load, Push, Rail, Straight
+from ptmcalc.numerics.pendulum.pieces import Pieces
+from ptmcalc.numerics.pendulum.swing import Swing, swing
+
+G = 9.81
+FEATHER = Load(1e-9, Pieces.constant(1.0))
+MASS = 4.0
+KNOTS, FORCES = (0.5, 1.0, 1.5, 2.5), (8.0, 12.0, 6.0, 2.0)
+
+
+def speed_after(time: float, speed: float, sign: int) -> float:
+    """Of a mass that a motor pushes ahead (sign 1) or holds back, knot by knot: m v' = F_k + s_k (v - v_k)."""
+    k = int(np.searchsorted(KNOTS, speed, "right" if sign > 0 else "left"))
+    while True:
+        inside = 0 < k < len(KNOTS)
+        slope = sign * (FORCES[k] - FORCES[k - 1]) / (KNOTS[k] - KNOTS[k - 1]) if inside else 0.0
+        force = sign * float(np.interp(speed, KNOTS, FORCES))
+        ahead = k < len(KNOTS) if sign > 0 else k > 0
+        to = (KNOTS[k] if sign > 0 else KNOTS[k - 1]) if ahead else math.inf * sign
+        needs = MASS * (to - speed) / force if slope == 0 else MASS / slope * math.log1p(slope * (to - speed) / force)
+        if needs >= time:
+            grown = math.expm1(slope * time / MASS) / slope if slope else time / MASS
+            return speed + force * grown
+        speed, time, k = to, time - needs, k + sign
+
+
+def pushed(sign: int, speed: float, **changes: float) -> Swing:
+    law = Straight(KNOTS, tuple(sign * force for force in FORCES))
+    return swing(Case(G, Rail(), Axis(MASS, Push(law), speed=speed, **changes), FEATHER), 2.0)
+
+
+@pytest.mark.parametrize(
+    ("sign", "speed"), [(1, 0.1), (1, 0.5), (1, 0.7), (1, 1.2), (-1, 3.0), (-1, 2.5), (-1, 2.0), (-1, 1.5), (-1, 1.2)]
+)
+def test_a_motor_takes_a_mass_through_its_knots(sign: int, speed: float) -> None:
+    found = pushed(sign, speed)
+    times = np.linspace(0.0, 2.0 if sign > 0 else 0.4, 23)
+    wanted = [speed_after(time, speed, sign) for time in times.tolist()]
+    assert found.at("speed", times) == pytest.approx(wanted, rel=1e-9)
+    assert min(step.used * step.length for step in found._fine.steps) > 1e-6, "no piece that is left at once"
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_step_begins_wherever_a_force_changes(seed: int) -> None:
+    """To the last digit: what rounding leaves of a piece would be a step of its own."""
+    times = 3e-3 * 3.5 ** np.arange(6) * np.random.default_rng(seed).uniform(0.8, 1.2, 6)
+    blows = Pieces.steps(tuple((time, 3.0 * (-1) ** k) for k, time in enumerate(times.tolist())))
+    track = swing(Case(G, Rail(), Axis(MASS, outer=blows), FEATHER), 3.0)._fine
+    assert set(times.tolist()) <= {step.start for step in track.steps}
+    assert min(step.used * step.length for step in track.steps) > 1e-6
+    spans = np.diff([*times, 3.0])
+    pushed_on = 3.0 * (spans[::2].sum() - spans[1::2].sum()) / MASS
+    assert track.at(("speed",), np.array([3.0]))[0, 0] == pytest.approx(pushed_on)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_farthest_is_on_the_side_that_the_wind_blows_to(side: int) -> None:
+    """From the plumb line to twice the angle of rest, and back."""
+    blown = Load(300.0, Pieces.constant(5.0), wind_along=Pieces.constant(side * 30.0))
+    found = swing(Case(G, Rail(), Axis(1e9), blown), 20.0)
+    assert found.farthest("along").value == pytest.approx(side * 2 * math.atan(30.0 / 300.0 / G), rel=1e-6)
+
+
+def test_a_buffer_softer_than_a_newton_a_metre() -> None:
+    soft = Axis(MASS, buffers=(Buffer(0.5, "linear", 0.25),), speed=1.0)
+    found = swing(Case(G, Rail(), soft, FEATHER), 8.0)
+    assert found.largest("position").value == pytest.approx(0.5 + math.sqrt(MASS / 0.25), rel=1e-8)
+
+
+def test_a_force_that_comes_within_the_first_second_is_not_there_before() -> None:
+    assert Pieces.steps(((0.5, 3.0),)).at(np.array([0.2, 0.6])).tolist() == [0.0, 3.0]
+
+
+@pytest.mark.parametrize(("after", "jumps"), [(1e-4, False), (1e-2, True)])
+def test_a_jump_is_more_than_the_rounding_of_large_terms(after: float, jumps: bool) -> None:
+    """t^3 - 100 t^2 comes to 0 at 100, of terms of a million each."""
+    assert Pieces((0.0, 100.0), ((0.0, 0.0, -100.0, 1.0), (after,))).jumps == jumps
