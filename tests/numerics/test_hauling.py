@@ -169,6 +169,13 @@ def test_takes_in_three_quarters_of_the_rope_at_once_and_no_more() -> None:
             haul(even, 0.05, ROPE)
 
 
+@pytest.mark.parametrize("damping", [1.0, 1.5, 30.0])
+def test_refuses_a_load_that_does_not_swing(damping: float) -> None:
+    with pytest.raises(NumericsError, match="does not swing") as told:
+        haul(layer_map(1), SPEED, replace(ROPE, damping_ratio=damping))
+    assert told.value.code == "NUM102"
+
+
 def test_refuses_to_take_in_more_rope_than_there_is() -> None:
     with pytest.raises(NumericsError, match="more rope than is free"):
         haul(layer_map(3), SPEED, replace(ROPE, length=2.0))

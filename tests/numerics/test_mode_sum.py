@@ -140,6 +140,16 @@ def test_a_step_without_damping_is_twice_its_mean() -> None:
     assert found.largest_time[0] % (2 * math.pi / 7) == pytest.approx(math.pi / 7, rel=1e-3)
 
 
+def test_a_slow_mode_under_an_input_without_swings_asks_for_samples_of_its_own_period_only() -> None:
+    """A window of one wave is looked at as often, however long a wave is."""
+    samples = []
+    for frequency in (1e-4, 1.0, 1e4):
+        one = Modes(np.array([frequency]), np.zeros(1), np.ones((1, 1)), np.ones(1), np.zeros(1))
+        ramp = Course.straight(np.array([0.0, 1.0]) / frequency, np.array([0.0, 1.0]))
+        samples.append([mode_sum(one, course, 6.0 / frequency).samples for course in (Course.step(), ramp)])
+    assert samples[0] == samples[1] == samples[2]
+
+
 def test_a_step_ends_where_no_extreme_can_follow() -> None:
     """A damped swing of a long window costs no more than its first waves."""
     one = Modes(np.array([7.0]), np.array([0.1]), np.array([[3.0]]), np.array([3.0]), np.zeros(1))
