@@ -179,6 +179,13 @@ class TestKloss:
     def test_at_the_synchronous_speed(self, slip: float) -> None:
         assert motor.kloss(slip, 1000.0, 0.15) == pytest.approx(2 * 1000.0 / 0.15 * slip, rel=1e-14, abs=0)
 
+    def test_without_a_stator_resistance_is_the_simplified_formula(self) -> None:
+        """M = 2 M_k/(s/s_k + s_k/s), and M_k (s_k^2 - s^2) 2 s_k/(s^2 + s_k^2)^2."""
+        s, s_k, most = np.linspace(0.01, 1.0, 25), 0.15, 1000.0
+        assert motor.kloss(s, most, s_k) == pytest.approx(2 * most / (s / s_k + s_k / s), rel=1e-13, abs=0)
+        slope = 2 * most * s_k * (s_k**2 - s**2) / (s**2 + s_k**2) ** 2
+        assert motor.kloss_slope(s, most, s_k) == pytest.approx(slope, rel=1e-12, abs=1e-9)
+
     def test_generates_more_than_it_drives_by_the_stator_resistance(self) -> None:
         most, s_k, a = CIRCUITS[0].curve
         lowest = minimize_scalar(lambda s: float(CIRCUITS[0].torque(s)), bounds=(-1.0, -1e-3), method="bounded")
