@@ -158,10 +158,8 @@ class Track:
 
     def polished(self, name: str, value: float, time: float, since: float, until: float) -> float:
         """The signal itself at the place of a peak, from whichever side is nearer to what was seen."""
-        best, near = (
-            (math.inf, value),
-            4 * float(np.spacing(time)),
-        )  # a peak's place and its step's end are rounded
+        best = math.inf, value
+        near = 4 * float(np.spacing(time))  # the place of a peak is rounded, and so is the end of its step
         for index in {self.index(time - near), self.index(time + near)}:
             step = self.steps[index]
             if since <= time <= until and step.length:
