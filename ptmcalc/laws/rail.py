@@ -160,12 +160,9 @@ def step_extremes(number: float) -> tuple[float, float]:
     along the climb; the swing behind it by `residual_step`.
     """
     rest = float(residual_step(number))
-    if number <= 1:
+    if number < 2:  # it turns once
         return max(_answer(number, _turn(number, math.pi / 2, math.pi)), rest), rest
-    more, less = _turn_near(number, 1, math.pi), 0.0
-    last = 2 * math.floor(number / 2)
-    if last >= 2:
-        less = -_turn_near(number, last, math.pi)
+    more, less = _turn_near(number, 1, math.pi), -_turn_near(number, 2 * math.floor(number / 2), math.pi)
     return max(more, rest), max(less, rest)
 
 

@@ -48,6 +48,7 @@ def test_a_carriage_comes_down_easier_than_it_goes_up() -> None:
 def test_the_sheaves_of_a_tackle_give_its_efficiency_back(falls: int) -> None:
     sheave = carriage.sheave_of_tackle(falls, 0.93)
     assert reeving.tackle_efficiency(falls, sheave) == pytest.approx(0.93, rel=1e-12)
+    assert carriage.sheave_of_tackle(2, 0.501) == pytest.approx(0.002, rel=1e-12), "of two falls, (1 + eta)/2"
     assert carriage.sheave_of_tackle(1, 0.97) == 0.97
     assert carriage.sheave_of_tackle(4, 0.25) == 0.25
 

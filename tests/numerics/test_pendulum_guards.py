@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from ptmcalc.numerics.pendulum import guards as module
 from ptmcalc.numerics.pendulum.guards import Guards, _bracketed
 from ptmcalc.numerics.pendulum.track import PLACES
 
@@ -85,6 +86,9 @@ class Share:
 
     leg, start, length = None, 3.0, 0.5
 
+    def looked_at(self) -> np.ndarray:
+        return PLACES
+
     def states(self, places: np.ndarray) -> np.ndarray:
         return places
 
@@ -106,6 +110,19 @@ def test_a_root_nearly_right_is_made_exact_by_secants(size: float, off: float) -
     assert found == pytest.approx(root, abs=1e-13)
     assert looks <= 6
     assert polished(lambda x: size * (-1e-20 - x), 0.0, 1e-13 * size) == (0.0, 0), "at the very start nothing is left"
+
+
+@SIZES
+@pytest.mark.parametrize("root", [0.31, 0.83])
+def test_the_first_root_of_a_step_is_told_nearly_right_in_either_half(
+    size: float, root: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A smooth guard needs no bracket: what the panel says is a share of the step, and some secants end it."""
+    monkeypatch.setattr(module, "_bracketed", None)
+    guards = Given(size, size, size, size, 1, lambda x: size * (math.exp(root) - np.exp(x)), [])
+    share, name = guards.first(Share()) or (None, None)  # type: ignore[arg-type]
+    assert name == "this"
+    assert share == pytest.approx(root, abs=1e-13)
 
 
 @SIZES

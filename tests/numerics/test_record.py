@@ -111,6 +111,22 @@ def test_looks_are_few_and_given_up_where_they_are_too_many(monkeypatch: pytest.
         march(system, "swing", start, 10.0, most_looks=asked - 1)
 
 
+def test_long_panels_are_read_when_many_have_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They cost the same one by one and together, but for some twenty calls each time."""
+    read: list[int] = []
+    look = Record._look
+
+    def counted(record: Record) -> None:
+        read.append(len(record._passed))
+        look(record)
+
+    monkeypatch.setattr(Record, "_look", counted)
+    system, start = swings()
+    found = march(system, "swing", start, 3000.0)
+    assert found.long > 5000
+    assert min(read[:20]) > 100, "those that follow are looks again"
+
+
 def test_a_march_that_is_given_up_says_what_it_took() -> None:
     """Some microseconds a panel."""
     system, start = swings()

@@ -142,6 +142,9 @@ def test_what_may_rise_above_a_sample_is_twice_what_a_parabola_does() -> None:
     sums = np.stack([-bends * (x[:, None] - 4.5) ** 2, 5 - bends * (x[:, None] - 4.5) ** 2])
     for where in (np.array([4, 5]), np.array([9 + 4, 9 + 5]), np.array([0, 17])):
         assert module._risen(sums, where) == pytest.approx(2 * bends * 0.5**2, rel=1e-12)
+    cubic = np.stack([(x[:, None] - 1.0) ** 3] * 2)  # bends by 6 (x - 1)
+    for where, beside in ((0, 1), (1, 1), (2, 2), (6, 6), (7, 7), (8, 7), (9, 1), (16, 7), (17, 7)):
+        assert module._risen(cubic, np.array([where])) == pytest.approx(6 * (beside - 1) / 4)
 
 
 def test_kinks_that_are_one_but_for_rounding_are_one() -> None:

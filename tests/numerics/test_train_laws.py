@@ -124,7 +124,7 @@ def test_stages_follow_one_another_by_speed_and_by_time() -> None:
 class TestSignals:
     SIGNAL = Signal(
         (0.0, 0.4, 1.5), (2.0, -1.0, 0.5), (3.0, -0.7, 0.2),
-        (Sine(0.8, 11.0, 0.3), Sine(-0.2, 5.0)), decay=1.4, decay_time=0.25,
+        (Sine(0.8, 11.0, 0.3), Sine(-0.2, 5.0, 0.0)), decay=1.4, decay_time=0.25,
     )  # fmt: skip
     OTHER = Signal((0.0,), (1.0,), (0.5,), (Sine(0.1, 5.0, -1.1),), decay=-0.3, decay_time=2.0)
 
@@ -163,7 +163,8 @@ class TestSignals:
 
     def test_its_fastest_part(self) -> None:
         assert self.SIGNAL.largest_frequency == 11.0
-        assert Signal(decay=1.0, decay_time=0.02, sines=(Sine(1.0, 30.0),)).largest_frequency == pytest.approx(50.0)
+        short = Signal(decay=1.0, decay_time=0.02, sines=(Sine(1.0, 30.0, 0.7),))
+        assert short.largest_frequency == pytest.approx(50.0)
         assert Signal(decay_time=0.02).largest_frequency == 0.0
 
 

@@ -642,7 +642,7 @@ class March:
         need, cap = self.needed(y[None], t, time, held, top)[0], self._limit(mode, time, t)[0]
         if abs(need) <= cap * (1 + 1e-9):
             return held, y
-        return mode._replace(pushing=1 if need > 0 else -1), y
+        return mode._replace(pushing=int(np.sign(need))), y
 
     def _incoming_at(self, time: float) -> tuple[FloatArray, FloatArray]:
         """The waves that arrive just after a time."""

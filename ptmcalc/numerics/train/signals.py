@@ -29,7 +29,7 @@ class Sine:
 
     size: float
     frequency: float
-    phase: float = 0.0
+    phase: float
 
 
 @dataclass(frozen=True, slots=True)
