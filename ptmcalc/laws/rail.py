@@ -185,9 +185,7 @@ def gap_extremes(number: float) -> tuple[float, float]:
     """
     rest, end = float(residual_gap(number)), 2 * math.pi
     if number <= 1:
-        less = _answer(number, _turn(number, math.pi / 2, math.pi))
-        more = -_answer(number, _turn(number, math.pi / number, end)) if number > 0.5 else 0.0
-        return max(more, rest), max(less, rest)
+        return rest, max(_answer(number, _turn(number, math.pi / 2, math.pi)), rest)  # it rises most behind the gap
     middle = 2 * math.floor(number / 2)
     turns = {k for k in (1, 2 * math.floor(number - 0.5) + 1) if 1 <= k <= 2 * number}
     sinks = {k for k in (middle, middle + 2) if 2 <= k <= 2 * number}

@@ -145,13 +145,14 @@ class TestLargest:
             summit, value=-summit.value
         )
 
-    @pytest.mark.parametrize("rate", [0.02, 0.08])
-    def test_a_summit_many_waves_after_the_jump_is_found(self, rate: float) -> None:
+    @pytest.mark.parametrize("rate", [0.02, 0.0268, 0.08])
+    @pytest.mark.parametrize("end", [2000.0, 400.0])
+    def test_a_summit_many_waves_after_the_jump_is_found(self, rate: float, end: float) -> None:
         """A force that comes and stays, f = 1 - exp(-l t): what follows it still rises by l exp(-l t) where its waves
-        fade by z l exp(-z w t), so the highest wave is the one beside w t = ln(1/z)/(l/w - z), here the 58th or
-        the 14th."""
+        fade by z l exp(-z w t), so the highest wave is the one beside w t = ln(1/z)/(l/w - z), here the 58th,
+        the 43rd or the 14th."""
         zeta = 1e-3
-        pulse = DecayPulse(1.0, zeta, 0.0, rate, 1.0, 2000.0)
+        pulse = DecayPulse(1.0, zeta, 0.0, rate, 1.0, end)
         summit = pulse.largest()
         late = math.log(1 / zeta) / (rate - zeta)
         assert summit.time == pytest.approx(late, abs=2 * math.pi)
@@ -165,7 +166,7 @@ class TestLargest:
         expected = float((1 - settles * np.exp(-rate * times) + waves).max())
         assert summit.value == pytest.approx(expected, rel=1e-9)
         for natural in (1e-3, 1e5):  # the same in other units of time
-            other = DecayPulse(natural, zeta, 0.0, rate * natural, natural**2, 2000.0 / natural).largest()
+            other = DecayPulse(natural, zeta, 0.0, rate * natural, natural**2, end / natural).largest()
             assert other.value == pytest.approx(summit.value, rel=1e-9)
 
     @pytest.mark.parametrize("zeta", [1.3, 4.0])

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from ptmcalc.numerics.mast.base import Base, Grip, Obstacle, Signal
+from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import Course, play
-from ptmcalc.numerics.mast.system import Case, MastSystem, State
+from ptmcalc.numerics.mast.system import MOVED, Case, MastSystem, State
 
 LENGTH, BENDING, ROLLS = 6.0, 600e3 * 72, 4000.0
 
@@ -166,6 +166,51 @@ def test_a_point_that_has_stood_still_is_where_it_was() -> None:
     for part in (slice(2, 2 + n), slice(2 + n, 2 + 2 * n)):
         change = z[part] - before[part]
         assert np.abs(change) == pytest.approx(np.abs(row[1:]) * np.linalg.norm(change) / np.linalg.norm(row[1:]))
+
+
+# -- forces at rest ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("modes", [1, 3])
+@pytest.mark.parametrize("at", [2.0, 4.0, LENGTH])
+def test_a_guide_bends_the_column_by_its_whole_flexibility_however_few_modes_are_followed(
+    modes: int, at: float
+) -> None:
+    """The modes that are followed at the rest they have under its force, the others at once: a clamped bar under F at a,
+    F x^2 (3 a - x)/(6 E I) below it and F a^2 (3 x - a)/(6 E I) above; F is what the spring says of its own place."""
+    guide, places = Guide(at, 3e5, 0.01), (1.0, 2.0, 3.0, 4.0, LENGTH)
+    mast = Mast.of(Column((Segment(LENGTH, BENDING, 200.0),), (Lump(LENGTH, 1800.0),)), 6)
+    still = Base(ROLLS, path=Signal.constant(0.0))
+    system = MastSystem(Case(mast, np.zeros(modes), still, places, guide=guide))
+    force = guide.stiffness * guide.gap / (1 + guide.stiffness * at**3 / (3 * BENDING))
+    z = system.start()[1]
+    z[2 : 2 + modes] = mast.at(at)[:modes] * force / mast.frequencies[:modes] ** 2
+    seen = system.motion(State(MOVED, guide=1)).watch @ z
+    assert seen[system.watched["guide", 0]] == pytest.approx(force, rel=1e-9)
+    for i, x in enumerate(places):
+        low, high = sorted((x, at))
+        bent = force * low**2 * (3 * high - low) / (6 * BENDING)
+        assert seen[system.watched["deflection", i]] == pytest.approx(bent, rel=1e-9)
+
+
+@pytest.mark.parametrize("modes", [1, 3])
+def test_a_base_that_is_moved_evenly_bends_the_column_by_its_whole_flexibility(modes: int) -> None:
+    """A bar under a line load -rho a with -m a at its head: w x^2 (6 L^2 - 4 L x + x^2)/(24 E I), P x^2 (3 L - x)/(6 E I).
+    The root carries rho a L^2/2 + m a L."""
+    speeds_up, line, head, places = 0.7, 200.0, 1800.0, (1.0, 2.0, 3.0, 4.0, LENGTH)
+    mast = Mast.of(Column((Segment(LENGTH, BENDING, line),), (Lump(LENGTH, head),)), 6)
+    moved = Base(ROLLS, path=Signal.constant(speeds_up))
+    system = MastSystem(Case(mast, np.zeros(modes), moved, places))
+    state, z = system.start()
+    z[2 : 2 + modes] = -system.shares * speeds_up / mast.frequencies[:modes] ** 2
+    seen = system.motion(state).watch @ z
+    for i, x in enumerate(places):
+        bent = -speeds_up * x**2 * (
+            line * (6 * LENGTH**2 - 4 * LENGTH * x + x**2) / 24 + head * (3 * LENGTH - x) / 6
+        ) / BENDING  # fmt: skip
+        assert seen[system.watched["deflection", i]] == pytest.approx(bent, rel=1e-9)
+    root = speeds_up * (line * LENGTH**2 / 2 + head * LENGTH)
+    assert abs(seen[system.watched["moment", 0]]) == pytest.approx(root, rel=1e-9)
 
 
 # -- what is told -----------------------------------------------------------------------------------------------------

@@ -218,6 +218,16 @@ class TestBetweenSamples:
         assert found.largest[0] == pytest.approx(1.0, rel=1e-9), "the largest place is a summit"
         assert found.samples == math.ceil(max(omega, frequency) * window / 0.5) + 1
 
+    @pytest.mark.parametrize("chunks", [0.7, 1.0, 1.6, 3.2])
+    def test_nothing_is_seen_behind_the_window(self, chunks: float) -> None:
+        """A ramp is largest at its end, however many samples are looked at at once."""
+        ramp = Course(ZERO[:1], ZERO[:1], np.array([2.0]), ZERO[:1], ZERO[:1], ZERO[:1])
+        count = round(1024 * chunks)
+        window = (count - 1.5) * 0.5 / 3.0
+        found, _ = self.watching(ramp, window)
+        assert found.samples == count
+        assert found.largest[1] == pytest.approx(2.0 * window, rel=1e-12)
+
     def test_a_parabola_bends_as_it_does(self) -> None:
         course = Course(ZERO[:1], ZERO[:1], np.array([2.0]), np.array([-1.5]), ZERO[:1], ZERO[:1])
         _, bar = self.watching(course, 2.0, 4.0)

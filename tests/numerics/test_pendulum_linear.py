@@ -187,6 +187,7 @@ class TestParts:
             LinearCase(G, Pieces.constant(0.0), Pieces()),
             LinearCase(G, Pieces.through(((0.0, 5.0), (4.0, 0.0))), Pieces()),
             LinearCase(G, Pieces.steps(((0.0, 5.0), (1.0, 4.0))), Pieces()),
+            LinearCase(G, Pieces((0.0,), ((5.0, 0.1, 1e-3),)), Pieces()),
             LinearCase(G, Pieces.constant(1.0), Pieces(), mass_ratio=-0.1),
         ],
     )

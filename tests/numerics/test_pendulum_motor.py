@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Load, Push, Rail, Straight
+from ptmcalc.numerics.collocation import radau
+from ptmcalc.numerics.pendulum.march import March
+from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Load, Push, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
@@ -45,6 +47,35 @@ def test_a_motor_takes_a_mass_through_its_knots(sign: int, speed: float) -> None
     wanted = [speed_after(time, speed, sign) for time in times.tolist()]
     assert found.at("speed", times) == pytest.approx(wanted, rel=1e-9)
     assert min(step.used * step.length for step in found._fine.steps) > 1e-6, "no piece that is left at once"
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("demand", [1.2, 1.9, 3.0])
+def test_a_drive_asked_for_more_than_it_has_pushes_with_what_it_has_at_once(demand: float, way: int) -> None:
+    """A speed to be kept rises gently, then, from 0.7 s to 0.8 s, faster than the limit allows: no piece in between is
+    left as soon as it has begun."""
+    limit, gentle, begin, until = 10.0, 0.5, 0.7, 0.8
+    steep = demand * limit / MASS
+    kept = Pieces.through(
+        ((0.0, 0.0), (begin, way * gentle * begin), (until, way * (gentle * begin + steep * (until - begin))))
+    )
+    found = swing(Case(G, Rail(), Axis(MASS, Follow(kept, limit)), FEATHER), 5.0)
+    lags = (steep - limit / MASS) * (until - begin)
+    met = until + lags * MASS / limit
+    times = np.array([0.3, begin, 0.75, until, (until + met) / 2, met, met + 1])
+    wanted = [gentle * 0.3, gentle * begin, *(gentle * begin + limit / MASS * (times[2:6] - begin)).tolist()]
+    wanted.append(wanted[-1])
+    assert found.at("speed", times) == pytest.approx(way * np.array(wanted), rel=1e-8)
+    assert min(step.used * step.length for step in found._fine.steps) > 1e-6
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_kept_speed_heads_where_it_goes_whatever_rounding_says_it_is(way: int) -> None:
+    """At rest but for rounding, it has the sign of its slope; at rest for good, none."""
+    for rest in (-1e-16, 0.0, 1e-16):
+        for kept, heads in ((Pieces((0.0,), ((rest, way * 0.4),)), way), (Pieces.constant(rest), 0)):
+            case = Case(G, Rail(), Axis(MASS, Follow(kept), outer=Pieces.constant(5.0)), FEATHER)
+            assert March(case, 1.0, 1e-9, radau(4), 10)._heading(0.0) == heads
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -58,8 +58,18 @@ def test_panels_are_read_when_many_have_come_and_their_sizes_at_once() -> None:
     assert np.count_nonzero(np.diff(read)) < 10, "many at once"
     assert read[-1] > 0
     record.close()
-    assert record.steps == 400
-    assert record.last == pytest.approx([5 * math.exp(-0.4), -10 * math.exp(-0.4)], rel=1e-13)
+
+
+def test_sizes_are_of_all_that_has_come_however_seldom_they_are_asked_for() -> None:
+    """What stays as it is, x' = 0, at another place in each panel: ever farther in every second one."""
+    flow = Flow(np.zeros((1, 1)), np.zeros((0, 1)), np.array([[1.0], [-2.0]]), 1)
+    for every in (1, 2, 3, 64):
+        record = fresh()
+        for k in range(400):
+            record.see(flow, 1e-5 * k, 1e-5, np.array([[10.0 + k if k % 2 == 0 else 1.0]]))
+            if k % every == every - 1:
+                most = 10.0 + k - k % 2
+                assert record.sizes() == pytest.approx([most, 2 * most], rel=1e-15)
 
 
 def test_the_end_is_that_of_what_ends_last_whenever_it_is_read() -> None:

@@ -147,7 +147,7 @@ def rows(problem: Problem, repeats: int = REPEATS) -> list[list[str]]:
     for one in own:
         cells = [f"{problem.name} {problem.title}", one.word, f"{one.error:.0e}", f"{one.units:.3g}"]
         target = f"{problem.target:g} ms" if math.isfinite(problem.target) else "-"
-        cells += [f"{1e3 * REFERENCE_UNIT * one.units:.2g} ms", target]
+        cells += [f"{float(f'{1e3 * REFERENCE_UNIT * one.units:.2g}'):g} ms", target]
         made.append([*cells, *("" for _ in METHODS)])
     made[-1][-len(METHODS) :] = [told(one, ratio(one, own)) for one in found]
     return made

@@ -251,7 +251,7 @@ def hoist_of_peer(method: str, rtol: float) -> Played:
 
 P5 = Problem(
     "P5",
-    "hoist, lift-off and brake, gear 1e10 N/m",
+    "hoist, start and brake, gear 1e10 N/m",
     40.0,
     tuple((f"tolerance {one:.0e}", partial(hoist, GEAR, one)) for one in (1e-4, TOLERANCE, 1e-8)),
     cache(partial(tight, lambda: TrainSystem(trains.hoist(GEAR, trains.Counted())), trains.P5_END, tolerance=1e-11)),

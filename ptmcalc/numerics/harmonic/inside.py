@@ -124,8 +124,8 @@ def _extremes(force: ComplexArray, rest: FloatArray) -> Extremes:
     """By the samples of the sum, which its curvature exceeds by little between them."""
     speeds, count = force.shape
     samples = max(2 ** int(np.ceil(np.log2(_PER_HARMONIC * count))), _LEAST_SAMPLES)
-    spectrum = np.zeros((speeds, samples // 2 + 1), complex)
-    spectrum[:, 1 : count + 1] = np.where(np.isfinite(force), force, 0.0) * (-1j * (samples / 2))
+    spectrum = np.zeros((speeds, count + 1), complex)  # none beyond
+    spectrum[:, 1:] = np.where(np.isfinite(force), force, 0.0) * (-1j * (samples / 2))
     values = np.fft.irfft(spectrum, samples, axis=-1)
     bend = np.sum(np.abs(force) * (np.pi * np.arange(1, count + 1) / samples) ** 2 / 2, axis=-1)
     whole = np.sum(np.abs(force), axis=-1) + rest

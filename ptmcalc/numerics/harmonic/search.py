@@ -68,7 +68,7 @@ class Search:
             phase = self._terms * np.exp(2j * np.pi * x[:, None] * self._orders)
             slope = sign * np.sum(phase.real * self._orders, axis=-1)
             bend = -sign * np.sum(phase.imag * self._orders**2, axis=-1)
-            step = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1.0), np.sign(slope))
+            step = np.divide(-slope, bend, out=np.sign(slope), where=bend < 0)
             x = np.clip(x + np.clip(step / (2 * np.pi), -reach, reach), start - reach, start + reach)
         best = sign * self._sum(x)
         sampled = values[rows, top]

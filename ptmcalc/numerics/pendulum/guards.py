@@ -93,7 +93,7 @@ class Guards:
                 if math.isfinite(leg.limit):
                     found["high"], found["low"] = leg.limit - motor, leg.limit + motor
                 if geared:
-                    found["gear"] = drive * mode.side * (1 if mode.forward else -1)
+                    found["gear"] = drive * mode.side if mode.forward else -drive * mode.side
             if mode.side:
                 found["stop"] = mode.side * v
         else:

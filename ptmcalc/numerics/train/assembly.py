@@ -100,8 +100,8 @@ class Assembly:
                 for i in self._meshes_in((group,)):
                     yield state.meshes[i] * solved.mesh[system.lossy[i]], Change("mesh", i, None)
             elif turn == 0 and group in system.guided:
-                for way in (1, -1):
-                    yield -way * solved.acceleration[group], Change("hold", group, None)
+                for held in (-solved.acceleration[group], solved.acceleration[group]):
+                    yield held, Change("hold", group, None)
         for index, slip in zip(system.clutches, state.clutches, strict=True):
             if slip:
                 grip = self.train.grips[index]
