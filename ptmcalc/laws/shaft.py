@@ -117,9 +117,8 @@ def gear_factor(
     **Error** exact for a gear of constant efficiencies.
     **Source** derived: N from the equations of both shafts; the sign of the power through the mesh decides.
     """
-    j = np.asarray(inertia, float)
-    share = np.asarray(motor_inertia, float) * ratio / np.where(j > 0, j, 1.0)
-    through = np.asarray(motor_torque, float) + share * np.asarray(resistance, float)
+    driven = np.asarray(motor_torque, float) * np.asarray(inertia, float)
+    through = driven + np.asarray(motor_inertia, float) * ratio * np.asarray(resistance, float)
     return np.where(through >= 0, efficiency, 1 / reverse_efficiency)
 
 

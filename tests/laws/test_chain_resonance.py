@@ -215,6 +215,7 @@ class TestBandsAndWindows:
         found = chain_resonance.resonance_weights(np.array([1.0, 2.0]), np.array([0.05, 0.0]), np.array([0.81, -0.1]))
         assert found[:, 0] == pytest.approx([2 / math.pi * 8.1, 8.1 / math.pi])
         assert np.all(np.isinf(found[:, 1]))
+        assert chain_resonance.resonance_weights(np.ones(1), np.zeros(1), np.zeros(1)) == 0.0, "a mode nothing excites"
         assert chain_resonance.exclusion_half_widths(np.array([0.05, 0.2]), 0.15) == pytest.approx([0.15, 0.4])
 
 

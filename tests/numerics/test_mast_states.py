@@ -173,11 +173,10 @@ def test_a_point_that_has_stood_still_is_where_it_was() -> None:
 
 @pytest.mark.parametrize("modes", [1, 3])
 @pytest.mark.parametrize("at", [2.0, 4.0, LENGTH])
-def test_a_guide_bends_the_column_by_its_whole_flexibility_however_few_modes_are_followed(
-    modes: int, at: float
-) -> None:
-    """The modes that are followed at the rest they have under its force, the others at once: a clamped bar under F at a,
-    F x^2 (3 a - x)/(6 E I) below it and F a^2 (3 x - a)/(6 E I) above; F is what the spring says of its own place."""
+def test_a_guide_bends_the_column_by_its_whole_flexibility(modes: int, at: float) -> None:
+    """However few modes are followed: those at the rest they have under its force, the others at once. A clamped bar
+    under F at a, F x^2 (3 a - x)/(6 E I) below it and F a^2 (3 x - a)/(6 E I) above; F is what the spring says of its
+    own place."""
     guide, places = Guide(at, 3e5, 0.01), (1.0, 2.0, 3.0, 4.0, LENGTH)
     mast = Mast.of(Column((Segment(LENGTH, BENDING, 200.0),), (Lump(LENGTH, 1800.0),)), 6)
     still = Base(ROLLS, path=Signal.constant(0.0))
@@ -195,8 +194,8 @@ def test_a_guide_bends_the_column_by_its_whole_flexibility_however_few_modes_are
 
 @pytest.mark.parametrize("modes", [1, 3])
 def test_a_base_that_is_moved_evenly_bends_the_column_by_its_whole_flexibility(modes: int) -> None:
-    """A bar under a line load -rho a with -m a at its head: w x^2 (6 L^2 - 4 L x + x^2)/(24 E I), P x^2 (3 L - x)/(6 E I).
-    The root carries rho a L^2/2 + m a L."""
+    """A bar under a line load -rho a with -m a at its head: w x^2 (6 L^2 - 4 L x + x^2)/(24 E I) and
+    P x^2 (3 L - x)/(6 E I). The root carries rho a L^2/2 + m a L."""
     speeds_up, line, head, places = 0.7, 200.0, 1800.0, (1.0, 2.0, 3.0, 4.0, LENGTH)
     mast = Mast.of(Column((Segment(LENGTH, BENDING, line),), (Lump(LENGTH, head),)), 6)
     moved = Base(ROLLS, path=Signal.constant(speeds_up))

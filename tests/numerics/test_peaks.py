@@ -97,6 +97,14 @@ def test_a_side_that_bends_upward_goes_on_straight() -> None:
     assert largest(signal, 1.0)[0] == pytest.approx(max(expected, signal.max()), rel=1e-5)
 
 
+@given(st.lists(st.floats(-1e3, 1e3), min_size=6, max_size=30), st.integers(-60, 60))
+def test_the_unit_of_a_signal_does_not_matter(values: list[float], power: int) -> None:
+    samples = np.round(np.array(values), 3)
+    for read in (largest, smallest):
+        value, time = read(samples, 0.5)
+        assert read(samples * 2.0**power, 0.5) == (value * 2.0**power, time)
+
+
 def test_few_samples_are_what_is_known() -> None:
     assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0]), 0.5) == (3.1, 1.0)
     assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0, -0.1]), 0.5)[0] >= 3.1

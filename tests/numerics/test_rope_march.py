@@ -324,6 +324,18 @@ def test_at_rest_it_breaks_away_where_the_force_beats_gear_tackle_and_brakes(rop
     assert found["lift"][1] == Q
 
 
+def test_what_is_missing_to_break_away_is_the_same_in_any_unit() -> None:
+    """A load that pushes through the gear, one that pulls, each in newtons and in billionths of them."""
+    march = March(machine(), HAULED)
+    top, drum = np.array([9.0, 3.0, 0.5]), np.array([0.2, 4.0, 0.1])
+    pull, motor = np.array([1.0, 0.3, 2.0]), np.array([0.4, 0.4, 0.0])
+    down = top * TACKLE[1] - drum
+    for size in (1.0, 1e-9):
+        up, back = march._break_away(size * top, size * pull, size * motor, size * drum)
+        assert up / size == pytest.approx((top / TACKLE[0] + drum) / GEAR[0] + motor - pull)
+        assert back / size == pytest.approx(pull + motor - np.where(down > 0, down * GEAR[1], down / GEAR[0]))
+
+
 def test_guards_of_a_slack_rope() -> None:
     rod = Instant(March(machine(slack=0.4), ROD), mode_of(taut=False))
     values, size = guards_of(rod)["taut"]

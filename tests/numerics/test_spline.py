@@ -45,6 +45,12 @@ class TestClosedCurve:
         assert low <= values.min() <= low + 1e-3 * spread
         assert high >= values.max() >= high - 1e-3 * spread
 
+    def test_its_range_is_the_same_in_any_unit_of_the_place(self, seed: int) -> None:
+        x, y = points(seed)
+        curve = spline.through(x, y, PERIOD)
+        for unit in (1e-6, 1e6):
+            assert spline.through(unit * x, y, unit * PERIOD).range == pytest.approx(curve.range, rel=1e-9)
+
     def test_the_slope_integrates_to_nothing_over_a_period(self, seed: int) -> None:
         """Two tables for J and J' would not: energy would be lost or won in every cycle."""
         x, y = points(seed)

@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 from support.trains import Run, run
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.train.parts import RIGID, Body, Drive, Grip, Guide, Impulse, Mesh, Spring, Train
+from ptmcalc.numerics.train.react import _pushes
 from ptmcalc.numerics.train.signals import Signal, Sine
 
 G = 9.81
@@ -15,6 +17,19 @@ FALL = Drive.of("weight", 0, Signal.constant(-G))
 
 
 class TestRigidContacts:
+    @pytest.mark.parametrize("leaves", [1e-3, 1e-10])
+    def test_what_leaves_is_not_held_back_however_slowly(self, leaves: float) -> None:
+        """Beside a contact that is struck at 1 m/s, on a body of its own."""
+        push, after = _pushes(np.diag([0.5, 0.25]), np.array([1.0, -leaves]), np.array([0.0, 0.0]), 0.0)
+        assert push.tolist() == [2.0, 0.0]
+        assert after.tolist() == [0.0, -leaves]
+
+    def test_light_and_heavy_bodies_are_struck_at_once(self) -> None:
+        """A hundred grammes on one contact and ten million tonnes on another."""
+        push, after = _pushes(np.diag([10.0, 1e-10]), np.array([1.0, 2.0]), np.zeros(2), 0.0)
+        assert push == pytest.approx([0.1, 2e10], rel=1e-12)
+        assert after.tolist() == [0.0, 0.0]
+
     @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.5, 0.9])
     def test_bounces_end_at_the_sum_of_their_series(self, restitution: float) -> None:
         floor = Spring("floor", 0, None, 0.0, law=RIGID, side=-1, restitution=restitution)

@@ -390,7 +390,7 @@ def _amplitude(
     for _ in range(_NEWTON):
         value = (energy - k * high) * high * (2 - high) - spin
         slope = (2 * energy - 2 * high * (energy + 2 * k)) + 3 * k * high**2
-        step = np.where(slope < 0, value / np.where(slope < 0, slope, -1.0), 0.0)
+        step = np.divide(value, slope, out=np.zeros_like(slope), where=slope < 0)
         following = np.clip(high - step, x, high)
         if np.all(high - following <= 1e-15 * high):
             break
