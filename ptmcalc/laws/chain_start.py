@@ -157,7 +157,7 @@ def _fading(w: FloatArray, zeta: FloatArray, t: FloatArray) -> tuple[FloatArray,
     over = zeta > 1
     root = np.sqrt(np.abs(zeta - 1)) * np.sqrt(zeta + 1)
     damped, slow = w * root, np.exp(-w * np.where(over, 1 / (np.maximum(zeta, 1.0) + root), zeta) * t)
-    fast = np.where(over, np.expm1(-2 * damped * t), 0.0)
+    fast = np.expm1(-2 * damped * t)
     cosine = np.where(over, 1 + fast / 2, np.cos(damped * t))
     nonzero = np.where(damped > 0, damped, 1.0)
     sine = np.where(damped > 0, np.where(over, -fast / 2, np.sin(damped * t)) / nonzero, t)

@@ -185,7 +185,9 @@ class _March:
         if not flat:
             return 0.0
         blur = piece.blur(self.tolerance)
-        return np.where(np.isin(np.arange(len(blur)), flat), blur, 0.0)
+        found = np.zeros_like(blur)
+        found[flat] = blur[flat]
+        return found
 
     def _cross(
         self, record: Record, flow: Flow, state: FloatArray, stop: float, blur: FloatArray | float = 0.0

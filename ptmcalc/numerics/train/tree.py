@@ -91,7 +91,7 @@ class Coordinates:
         for one in free:
             inside = np.array([member == one for member in part])
             weighted = np.where(inside, shape * inertia, 0.0)
-            rows.append(weighted / float(weighted @ np.where(inside, shape, 0.0)))
+            rows.append(weighted / float(weighted @ shape))
         inverse = np.array(rows).reshape(groups.count, groups.count)
         return cls(np.asarray(np.linalg.inv(inverse), float), inverse, len(free), tuple(places))
 
