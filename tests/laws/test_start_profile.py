@@ -51,6 +51,12 @@ class TestRise:
         early, late = start_profile.rise(shape, rise_time, np.sort([one, other]))
         assert 0 <= early <= late <= 1
 
+    @pytest.mark.parametrize("shape", [*SHAPES, ((0.0, 0.0), (0.4, 0.9), (1.0, 1.0))])
+    def test_never_comes_to_more_than_the_whole(self, shape: start_profile.Shape) -> None:
+        assert start_profile.time_of_share(shape, RISE, np.array([1.0, 1.001, 1.9, 30.0])).tolist() == [
+            0.0 if shape == STEP else RISE, math.inf, math.inf, math.inf,
+        ]  # fmt: skip
+
     @given(st.floats(0, 1))
     @steady
     def test_cosine_is_symmetric_about_its_middle(self, share: float) -> None:
@@ -60,7 +66,7 @@ class TestRise:
 
 class TestRiseIntegral:
     @pytest.mark.parametrize("shape", SHAPES)
-    @pytest.mark.parametrize("until", [0.0, 0.4, 1.7, 3.0, 3.1, 20.0])
+    @pytest.mark.parametrize("until", [0.0, 0.4, 1.512, 1.7, 3.0, 3.1, 20.0])
     def test_by_quadrature(self, shape: str, until: float) -> None:
         inside = quad(lambda t: start_profile.rise(shape, RISE, t), 0, min(until, RISE), epsabs=1e-14, epsrel=1e-13)[0]
         beyond = max(until - RISE, 0.0)  # the factor is 1 there

@@ -33,6 +33,14 @@ class TestTensions:
                 tension += 0.022 * (weight * math.cos(slope) + r * G * run / pieces) + weight * math.sin(slope)
             assert found[k + 1] == pytest.approx(tension, rel=1e-10)
 
+    @pytest.mark.parametrize("size", [1e-3, 0.5, 1e3])
+    def test_a_section_of_any_size_pulls_in_proportion(self, size: float) -> None:
+        """Of 5 up on 13 along: the idlers bear 12/13 of the weight."""
+        pull = strand_tension.section_pull(13 * size, 5 * size, 18.0, 160.0, 20.0, 0.022, G)
+        assert pull == pytest.approx(size * G * (0.022 * (178.0 * 12 + 20.0 * 13) + 178.0 * 5), rel=1e-12)
+        load = strand_tension.load_pull(13 * size, 5 * size, 160.0, 0.022, G)
+        assert load == pytest.approx(size * G * 160.0 * (0.022 * 12 + 5), rel=1e-12)
+
     def test_a_closed_route_lifts_the_load_only(self) -> None:
         """The belt comes back to where it was: without friction only the load's own height is left."""
         lossless = strand_tension.section_pull(LENGTH, LIFT, BELT, LOAD, IDLERS, 0.0, G)
