@@ -40,7 +40,7 @@ class TestC14:
 
 
 def test_drive_mass_number_is_what_the_drive_gains() -> None:
-    for share, speed in ((1.6, 0.25), (2.2, 0.05)):
+    for share, speed in ((1.6, 0.25), (2.2, 0.05), (0.8, 0.9), (0.5, 0.4)):
         number = lift_off.drive_mass_number(share * Q, Q, M1, M, K, speed)
         gained = (two_mass.takeup(M1, M, K, share * Q, Q, speed).lift_off_speed / speed) ** 2 - 1
         assert number == pytest.approx(max(M / M1, gained), rel=1e-12)

@@ -53,6 +53,20 @@ def test_the_noise_is_that_of_the_samples() -> None:
     assert found.noise == pytest.approx(0.3, rel=0.06)
 
 
+@pytest.mark.parametrize("size", [5, 6, 11])
+def test_residuals_are_counted_over_what_a_cubic_leaves_free(size: int) -> None:
+    """Four of the samples of a stretch it goes through anyway."""
+    rng = np.random.default_rng(size)
+    time = np.sort(rng.uniform(0, 1, 40))
+    speed = rng.normal(size=40)
+    fits, variances = decode._at_all(time, speed, size)
+    for k in (0, 17, 39):
+        first, last = int(fits[5, k]), int(fits[6, k]) + 1
+        assert last - first == size
+        _, (squares, *_) = np.polynomial.Polynomial.fit(time[first:last], speed[first:last], 3, full=True)
+        assert variances[k] == pytest.approx(float(squares[0]) / (size - 4), rel=1e-9)
+
+
 def test_units_of_time_and_speed_change_no_choice() -> None:
     time, speed = corner(0.2)
     one, other = decode.fit(time, speed), decode.fit(time * 60.0, speed * 9.5)
