@@ -84,7 +84,7 @@ class TestParts:
 class TestEffectiveTensionAndPower:
     def test_losses_come_from_where_the_power_comes(self) -> None:
         """What goes in is what comes out and what the gear loses, motoring or braking."""
-        for force in (4e4, -4e4, 0.0):
+        for force in (4e4, -4e4, 0.0, 1e-3, -1e-3):
             shaft = float(belt_resistance.shaft_power(force, 2.5))
             motor = float(belt_resistance.motor_power(shaft, 0.9))
             put_in, out = (motor, shaft) if force >= 0 else (-shaft, -motor)

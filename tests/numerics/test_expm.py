@@ -126,6 +126,19 @@ class TestSeveralTimes:
             exact = pade(matrix * time)
             assert np.abs(one - exact).max() <= 2e-14 * np.abs(exact).max() * max(1.0, norm * abs(time))
 
+    @pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+    def test_take_as_many_squarings_as_the_longest_asks_for(self, unit: float, monkeypatch: pytest.MonkeyPatch) -> None:
+        """The power of two above the size of the matrix, in any unit of time."""
+        took: list[int] = []
+        squared = expm._squared
+        monkeypatch.setattr(expm, "_squared", lambda change, times: (took.append(times), squared(change, times))[1])
+        turns = expm.Powers(np.array([[0.0, 1.0], [-1.0, 0.0]]) / unit)
+        for longest, expected in ((0.3, 0), (1.0, 0), (3.9, 2), (1000.0, 10)):
+            turns.changes(unit * longest * np.array([0.2, 1.0, 0.7]))
+            turns.change(unit * longest)
+            assert took == [expected, expected]
+            took.clear()
+
     def test_no_time_is_the_unit_matrix(self) -> None:
         found = expm.Powers(np.full((2, 2), 7.0)).at(np.zeros(3))
         assert np.array_equal(found, np.broadcast_to(np.eye(2), (3, 2, 2)))

@@ -325,6 +325,15 @@ def test_a_piece_of_a_quantity_has_its_derivatives() -> None:
     assert [Held(Pieces.constant(one), 0.0).zero for one in (0.0, 1.0)] == [True, False]
 
 
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+def test_a_gear_takes_its_share_from_where_the_power_comes(size: float) -> None:
+    case = Case(G, Rail(), Axis(INERTIA, gear=Gear(forward=0.9, reverse=0.8)), LOAD)
+    for side in (1, -1):
+        leg = Leg(case, Mode(OFF, -1, side, True, ()), 0.0, (), None)
+        assert leg.behind(side * size, side) == pytest.approx(0.9 * side * size, rel=1e-14)
+        assert leg.behind(-side * size, side) == pytest.approx(-side * size / 0.8, rel=1e-14)
+
+
 def test_only_what_depends_on_the_sign_of_the_motion_is_sided() -> None:
     def sided(**changes: object) -> bool:
         case = Case(G, Rail(), replace(Axis(INERTIA), **changes), LOAD)  # type: ignore[arg-type]

@@ -113,6 +113,12 @@ KNOTS, VALUES = np.array([-1.0, 0.5, 2.0, 2.5]), np.array([3.0, -2.0, 4.0, 4.5])
 NOW = np.zeros(1)
 
 
+@pytest.mark.parametrize("speed", [-3.0, 0.0, 0.7, 1.0, 4.0])
+def test_a_line_through_two_knots_goes_on_straight(speed: float) -> None:
+    law = Lines(np.array([0.0, 1.0]), np.array([5.0, 2.0]), True)
+    assert law.force(law.piece(speed), 0.0, NOW, np.array([speed])) == pytest.approx([5.0 - 3.0 * speed], rel=1e-13)
+
+
 @pytest.mark.parametrize("extends", [False, True])
 @pytest.mark.parametrize("speed", [-4.0, -1.0, -0.3, 0.5, 1.9, 2.0, 2.4, 2.5, 8.0])
 def test_lines_over_the_speed(speed: float, extends: bool) -> None:
