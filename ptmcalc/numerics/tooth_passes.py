@@ -100,7 +100,7 @@ def tooth_passes(
     count, places = gains.shape
     fastest = float(np.max(frequencies * np.maximum(1.0, 2 * damping_ratios)))
     state, lengths = np.zeros((count, 2)), np.diff(edges)
-    best, at, missed = np.zeros((2, places)), np.zeros((2, places)), np.zeros(places)
+    (best, at), missed = np.zeros((2, 2, places)), np.zeros(places)
     error, followed, work, first = np.zeros(count), np.zeros(count), 0, 0
     while first < len(lengths):
         last, stretches = _group(lengths, first, fastest, count)

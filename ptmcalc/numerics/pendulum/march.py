@@ -345,8 +345,8 @@ class March:
     def _scales(self) -> FloatArray:
         """Sizes of the states, of forces on the axis and of the rope's pull."""
         axis, load = self.case.axis, self.case.load
-        arm = max((abs(c[0]) for c in self.case.pivot.radius.coefficients), default=1.0) if isinstance(
-            self.case.pivot, Jib) else 1.0  # fmt: skip
+        pivot = self.case.pivot
+        arm = max(abs(c[0]) for c in pivot.radius.coefficients) if isinstance(pivot, Jib) else 1.0
         weight = load.mass * self.case.gravity
         drive, speeds, forces = axis.drive, [abs(axis.speed)], [axis.friction]
         for pieces in (axis.outer, axis.brake, axis.gear.brake):
