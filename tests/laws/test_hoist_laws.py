@@ -96,7 +96,9 @@ class TestDrum:
     def test_a_hundredth_of_a_micrometre_more_than_a_layer_begins_the_next(self) -> None:
         full = 36.0 * math.tau * (0.3 + 0.0175) / 2
         for more, layers in ((-1e-8, 1), (0.0, 1), (1e-8, 2)):
-            assert rope_drum.turns_for_length(full + more, 0.3, 0.0175, 36.0, 0.0152, "nested")[1] == layers
+            turns, used = rope_drum.turns_for_length(full + more, 0.3, 0.0175, 36.0, 0.0152, "nested")
+            assert used == layers
+            assert turns == pytest.approx(36.0, abs=1e-7)
 
     @pytest.mark.parametrize("layers", [1.5, 2.5, 5.9, 8.0])
     def test_rope_on_a_wide_drum(self, layers: float) -> None:

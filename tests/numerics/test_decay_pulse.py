@@ -110,6 +110,17 @@ class TestLargest:
         assert summit.error <= 1e-9 * expected
         assert float(pulse.at(summit.time)[0]) == pytest.approx(summit.value, rel=1e-9)
 
+    @pytest.mark.parametrize("seed", range(10))
+    @pytest.mark.parametrize("unit", [2.0**-30, 2.0**30])
+    def test_no_unit_of_time_changes_the_summit(self, seed: int, unit: float) -> None:
+        rng = np.random.default_rng(seed)
+        natural, slow, zeta = rng.uniform(1, 100), rng.uniform(0.1, 10), float(rng.choice([0.0, 0.3, 3.0]))
+        fast, duration = slow * rng.uniform(1.1, 30), rng.uniform(0.05, 2)
+        one = DecayPulse(natural, zeta, slow, fast, 1.0, duration).largest()
+        other = DecayPulse(natural / unit, zeta, slow / unit, fast / unit, 1 / unit**2, duration * unit).largest()
+        assert other.value == pytest.approx(one.value, rel=1e-12)
+        assert other.time / unit == pytest.approx(one.time, rel=1e-6)
+
     def test_a_stiff_spring_follows_the_force(self) -> None:
         """Ripples of the jump in the slope stand on the quasi-static deflection: (l_2 - l_1)/k^3 of each sign."""
         k = 2e4

@@ -155,6 +155,12 @@ def test_when_a_record_begins_changes_nothing() -> None:
         assert other.acceleration_variance == pytest.approx(one.acceleration_variance, rel=1e-6)
 
 
+def test_the_mean_of_two_points_scatters_by_half_their_distance() -> None:
+    """chi^2 = 2 (d/2 s)^2 of one degree of freedom; two that agree have s/2^(1/2)."""
+    assert decode.mean(np.array([0.0, 6.0]), np.full(2, 0.5)) == pytest.approx((3.0, 3.0), rel=1e-12)
+    assert decode.mean(np.array([3.0, 3.1]), np.full(2, 0.5)) == pytest.approx((3.05, 0.5 / np.sqrt(2)), rel=1e-12)
+
+
 class TestLine:
     def test_three_points_have_one_that_scatters(self) -> None:
         """y = 0, d, 0 at -1, 0, 1: off the line by -d/3, 2 d/3, -d/3, chi^2 = 2/3 (d/s)^2 of one degree of freedom."""

@@ -28,6 +28,9 @@ class TestBalance:
         matrix = rng.normal(size=(6, 6)) * 10.0 ** rng.integers(-8, 8, (6, 6))
         scale = expm.balance(matrix)
         assert np.array_equal(np.log2(scale), np.round(np.log2(scale)))
+        for one_way in (np.triu(matrix, 1), np.tril(matrix, -1)):
+            scale = expm.balance(one_way)
+            assert np.array_equal(np.log2(scale), np.round(np.log2(scale)))
 
     def test_evens_out_a_matrix_scaled_by_hand(self) -> None:
         rng = np.random.default_rng(4)

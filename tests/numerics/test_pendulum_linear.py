@@ -49,6 +49,19 @@ class TestRamps:
         swing = linear_swing(LinearCase(G, Pieces.constant(5.0), Pieces.steps((*points, (n * half, 0.0)))), n * half)
         assert float(swing.amplitude(n * half)) == pytest.approx(2 * n * a / G, rel=1e-11)
 
+    @pytest.mark.parametrize("push", [(0.3,), (0.3, -0.2), (0.3, -0.2, 0.05), (0.1, 0.4, -0.3, 0.07)])
+    def test_a_push_of_any_power_is_followed(self, push: tuple[float, ...]) -> None:
+        """theta'' + w^2 theta = -a(t)/L: Duhamel's integral, by Gauss points."""
+        length, end = 4.0, 3.0
+        swing = linear_swing(LinearCase(G, Pieces.constant(length), Pieces((0.0,), (push,))), end)
+        omega = math.sqrt(G / length)
+        nodes, weights = np.polynomial.legendre.leggauss(30)
+        for t in (0.4, 1.7, end):
+            s = t * (nodes + 1) / 2
+            a = sum(c * s**k for k, c in enumerate(push))
+            expected = -t / 2 * np.sum(weights * a * np.sin(omega * (t - s))) / (length * omega)
+            assert float(swing.at("angle", t)) == pytest.approx(expected, rel=1e-10)
+
 
 class TestAgainstOthers:
     def steps(self, case: LinearCase, breaks: tuple[float, ...]) -> np.ndarray:

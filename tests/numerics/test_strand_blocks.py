@@ -234,6 +234,18 @@ def test_extremes_of_waves_that_cancel_a_steep_static_tension(seed: int) -> None
     assert found.value == pytest.approx(sign * (sign * tension).max(), rel=1e-12)
 
 
+@pytest.mark.parametrize(("cells", "steps"), [(7, 9), (7, 10), (8, 9), (8, 10)])
+@pytest.mark.parametrize("rise", [0.0, 40.0])
+def test_what_rests_is_largest_and_smallest_from_the_beginning(cells: int, steps: int, rise: float) -> None:
+    part = Strand(100.0, 50.0, 1e7, 500.0, 500.0 + rise)
+    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0)
+    largest, smallest = delays.extremes(part, True)
+    assert (largest.value, smallest.value) == (500.0 + rise, 500.0)
+    assert largest.time == smallest.time == 0.0
+    if rise:
+        assert (largest.position, smallest.position) == (100.0, 0.0)
+
+
 @pytest.mark.parametrize("window", [0.4, 2.2, 6.13])
 @pytest.mark.parametrize("seed", range(6))
 def test_largest_and_smallest_tensions_along_the_belt(seed: int, window: float) -> None:
