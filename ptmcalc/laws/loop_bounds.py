@@ -263,4 +263,4 @@ def window_leak(lowest_frequency: float, window: float) -> float:
     **Source** derived here: cosine transform of the half sine.
     """
     ratio = (lowest_frequency * window / np.pi) ** 2
-    return float(min(1.0, 1 / (ratio - 1))) if ratio > 1 else 1.0
+    return float(1 / max(1.0, ratio - 1))

@@ -193,7 +193,7 @@ def rise_rate(shape: Shape, rise_time: float, time: ArrayLike) -> FloatArray:
     slope = np.full_like(times, 1 / rise_time)
     if isinstance(shape, tuple):
         shares, slopes = _columns(shape)[0], _slopes(shape)
-        after = np.searchsorted(shares, np.minimum(times / rise_time, 1.0))
+        after = np.searchsorted(shares, times / rise_time)
         slope = slopes[np.clip(after - 1, 0, len(slopes) - 1)] / rise_time
     elif shape == COSINE:
         slope = np.pi / (2 * rise_time) * np.sin(np.pi * np.minimum(times / rise_time, 1.0))

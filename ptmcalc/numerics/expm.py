@@ -59,7 +59,7 @@ def balance(matrix: FloatArray, sweeps: int = 4) -> FloatArray:
 def _usual(rows: list[list[float]], i: int) -> float:
     """Largest entry that has nothing to do with an index, 1 where there is none."""
     rest = (one for k, line in enumerate(rows) if k != i for j, one in enumerate(line) if j != i)
-    return max(rest, default=0.0) or 1.0
+    return max(rest) or 1.0
 
 
 class Powers:

@@ -154,7 +154,7 @@ def kicks(course: Course, window: float) -> tuple[float, float]:
         variation += abs(course.slope(piece, 0.0) - slope)
         length = _length(course, piece, window)
         variation += abs(float(course.bends[piece])) * length
-        turns = math.ceil(course.frequency * length / math.pi) if course.swings[piece] else 0
+        turns = math.ceil(course.frequency * length / math.pi)
         variation += 2 * abs(float(course.swings[piece])) * course.frequency * turns
         value, slope = float(course.at(piece, np.array([length]))[0]), course.slope(piece, length)
     return jumps, variation

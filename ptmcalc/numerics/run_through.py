@@ -24,13 +24,12 @@ _ORDER, _LOWER = 12, 8
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What the oscillators do: times (passes, places), q and q' (passes, places, modes), the acceleration of the base
-    (passes, places) or one for each mode, and the most by which w q and q' may be wrong, per mode."""
+    """What the oscillators do: times (passes, places), q and q' (passes, places, modes), and the most by which w q and
+    q' may be wrong, per mode."""
 
     times: FloatArray
     displacement: FloatArray
     speed: FloatArray
-    base: FloatArray
     frequencies: FloatArray
     damping_ratios: FloatArray
     error: FloatArray
@@ -42,33 +41,8 @@ class Run:
 
     def force(self, masses: ArrayLike) -> FloatArray:
         """Sum of -M_k (w^2 q + 2 zeta w q') over the modes, (passes, places)."""
-        return np.asarray(-self._pull(self.displacement, self.speed) @ np.asarray(masses, float))
-
-    def _pull(self, displacement: FloatArray, speed: FloatArray) -> FloatArray:
         w, zeta = self.frequencies, self.damping_ratios
-        return np.asarray(w**2 * displacement + 2 * zeta * w * speed)
-
-    def largest(self, masses: ArrayLike) -> tuple[float, float]:
-        """Largest force and its time: summits of the cubics through values and slopes at the places.
-
-        **Error** fourth order in the distance of the places.
-        """
-        pull = self._pull(self.displacement, self.speed)
-        values = self.force(masses)
-        base = self.base if self.base.ndim == 3 else self.base[:, :, None]
-        slopes = -self._pull(self.speed, -base - pull) @ np.asarray(masses, float)
-        step = np.diff(self.times, axis=1)
-        low, high = values[:, :-1], values[:, 1:]
-        up, down = slopes[:, :-1] * step, slopes[:, 1:] * step
-        # v0 + u x + b x^2 + c x^3, its slope u + 2 b x + 3 c x^2
-        b, c = 3 * (high - low) - 2 * up - down, up + down - 2 * (high - low)
-        root = np.sqrt(np.maximum(b * b - 3 * c * up, 0.0))
-        below = root - b  # the summit: x = u/(root - b)
-        x = np.clip(np.divide(up, below, out=np.zeros_like(up), where=below > np.abs(up)), 0.0, 1.0)
-        found = np.maximum(low + x * (up + x * (b + x * c)), np.maximum(low, high))
-        which, place = np.unravel_index(int(np.argmax(found)), found.shape)
-        at = x[which, place] if found[which, place] > high[which, place] else 1.0
-        return float(found[which, place]), float(self.times[which, place] + at * step[which, place])
+        return np.asarray(-(w**2 * self.displacement + 2 * zeta * w * self.speed) @ np.asarray(masses, float))
 
 
 def run_through(
@@ -112,7 +86,6 @@ def run_through(
         times=edges[:-1, None] + inside,
         displacement=states[..., 0],
         speed=states[..., 1],
-        base=acceleration(inside),
         frequencies=w,
         damping_ratios=zeta,
         error=error,

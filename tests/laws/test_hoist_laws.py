@@ -116,8 +116,8 @@ class TestDrum:
 
     @pytest.mark.parametrize("packing", ["nested", "square"])
     def test_what_lies_below_a_layer_is_what_the_layers_below_take(self, packing: str) -> None:
-        below = rope_drum.length_below(np.arange(1, 9), 0.3, 0.0175, 36.0, 0.0152, packing)
-        rooms = [rope_drum.drum_capacity(0.3, 0.0175, 36.0, k, 0.0152, packing) for k in range(8)]
+        below = rope_drum.length_below(np.arange(1, 300), 0.3, 0.0175, 36.0, 0.0152, packing)
+        rooms = [rope_drum.drum_capacity(0.3, 0.0175, 36.0, k, 0.0152, packing) for k in range(299)]
         assert below == pytest.approx(rooms, rel=1e-13)
 
     def test_a_drum_far_too_short_still_counts_its_layers(self) -> None:
@@ -137,6 +137,11 @@ class TestDrum:
         assert turns == pytest.approx(
             sum(rope_drum.turns_in_layer(length / 0.0195, packing, k) for k in range(1, layers + 1))
         )
+
+    def test_between_turns_side_by_side_lies_one_fewer(self) -> None:
+        for turns, even in ((0.4, 0.0), (1.0, 0.0), (2.5, 1.5), (36.0, 35.0)):
+            assert [rope_drum.turns_in_layer(turns, "nested", k) for k in (1, 2, 3)] == [turns, even, turns]
+            assert rope_drum.turns_in_layer(turns, "square", 2) == turns
 
     def test_the_helix_adds_as_little_as_claimed(self) -> None:
         turn = 2 * math.pi * (7.5 + 0.5)  # D = 15 d, p = d = 1

@@ -124,6 +124,17 @@ class TestRamps:
         small = float(pendulum.ramp_residual(1e-7, G, omega, time))
         assert pendulum.ramp_swing(1e-7, G, 7.0, time)[1] == pytest.approx(small, rel=1e-7, abs=1e-18)
 
+    @pytest.mark.parametrize("halves", [1.0 + 1e-6, 1.005, 1.02, 2.3])
+    def test_a_ramp_of_half_a_swing_or_more_comes_to_twice_the_tilt(self, halves: float) -> None:
+        a, length = 0.3 * G, 7.0
+        frequency = math.sqrt(math.hypot(a, G) / length)
+        half = 2 * float(ellipkm1(math.cos(math.atan(0.3) / 2) ** 2)) / frequency
+        assert pendulum.ramp_swing(a, G, length, halves * half)[0] >= 2 * math.atan(0.3) * (1 - 1e-12)
+
+    @pytest.mark.parametrize("time", [0.4, 77.0])
+    def test_without_acceleration_nothing_swings(self, time: float) -> None:
+        assert pendulum.ramp_swing(0.0, G, 7.0, time) == (0.0, 0.0)
+
     def test_a_load_that_goes_over_the_top(self) -> None:
         assert pendulum.ramp_swing(60.0, G, 7.0, 0.9)[1] == math.pi
 

@@ -56,7 +56,9 @@ class TestFactors:
         found = largest(lambda t: 1.0 if t < duration else 0.0, [duration], duration + 1.2)
         assert float(shock.rectangular_pulse_factor(duration)) == pytest.approx(found, rel=1e-6)
 
-    @pytest.mark.parametrize("duration", [0.02, 0.3, 0.49, 0.5, 0.504, 0.51, 0.81, 1.0, 1.49, 1.51, 2.0, 2.7, 6.3])
+    @pytest.mark.parametrize(
+        "duration", [0.02, 0.3, 0.49, 0.5, 0.504, 0.51, 0.81, 1.0, 1.49, 1.51, 2.0, 2.49, 2.52, 2.7, 6.3, 6.52]
+    )
     def test_half_sine_pulse(self, duration: float) -> None:
         def force(t: float) -> float:
             return math.sin(math.pi * t / duration) if t < duration else 0.0

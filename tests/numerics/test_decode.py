@@ -63,6 +63,8 @@ def test_residuals_are_counted_over_what_a_cubic_leaves_free(size: int) -> None:
     for k in (0, 17, 39):
         first, last = int(fits[5, k]), int(fits[6, k]) + 1
         assert last - first == size
+        if k == 17:
+            assert abs((k - first) - (last - 1 - k)) <= 1, "it stands in the middle of what is fitted around it"
         _, (squares, *_) = np.polynomial.Polynomial.fit(time[first:last], speed[first:last], 3, full=True)
         assert variances[k] == pytest.approx(float(squares[0]) / (size - 4), rel=1e-9)
 

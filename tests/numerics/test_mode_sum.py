@@ -228,6 +228,11 @@ class TestBetweenSamples:
         assert found.samples == count
         assert found.largest[1] == pytest.approx(2.0 * window, rel=1e-12)
 
+    def test_a_step_leaves_out_what_it_jumps_by_and_no_more(self) -> None:
+        modes = Modes(np.array([3.0]), np.array([0.1]), np.zeros((1, 2)), np.array([2.0, 1.0]), np.array([0.0, 0.3]))
+        found = mode_sum(modes, Course.step(), 5.0)
+        assert found.largest_high - found.largest == pytest.approx([0.0, 0.3], abs=1e-12)
+
     def test_a_parabola_bends_as_it_does(self) -> None:
         course = Course(ZERO[:1], ZERO[:1], np.array([2.0]), np.array([-1.5]), ZERO[:1], ZERO[:1])
         _, bar = self.watching(course, 2.0, 4.0)

@@ -88,6 +88,17 @@ def test_largest_is_a_root_of_the_slope() -> None:
     assert abs(slope) < 1e-9 * np.abs(fine[:, :, 1]).max()
 
 
+@pytest.mark.parametrize("count", range(1, 9))
+def test_largest_lies_within_the_passes(count: int) -> None:
+    """A slow wave that is still rising where they end."""
+    passes = Passes(oscillator(2.0, 0.02), GAIN, WAVE, count)
+    for row in (DEFLECTION, -DEFLECTION):
+        best, _, place = passes.largest(row)
+        fine = passes.at(np.linspace(0, 1, 4001), row[None, :])
+        assert best == pytest.approx(fine.max(), rel=1e-6)
+        assert 0 <= place <= 1
+
+
 def test_several_modes_and_a_start() -> None:
     """Two coupled masses, from a state that is not rest: scipy's exponential, pass by pass."""
     rate = np.array([[0, 0, 1, 0], [0, 0, 0, 1], [-900, 400, -0.3, 0.1], [300, -500, 0.2, -0.9]], float)

@@ -11,7 +11,7 @@ from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.pendulum.equations import KEEP, STATES, Leg, Mode
 from ptmcalc.numerics.pendulum.linear import LinearCase, _growth, _series, linear_swing
 from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail, Straight
-from ptmcalc.numerics.pendulum.pieces import Pieces
+from ptmcalc.numerics.pendulum.pieces import Pieces, moved
 from ptmcalc.numerics.pendulum.steps import Stepper
 from ptmcalc.numerics.pendulum.swing import swing
 
@@ -104,6 +104,15 @@ SMALL = Case(
     0.5, Rail(), Axis(0.5, Push(0.1), 0.01, gear=Gear(0.1, 0.9, 0.9), buffers=(Buffer(9.0, "linear", 0.5),)),
     Load(0.5, Pieces.constant(0.5), 0.01),
 )  # fmt: skip
+
+
+@pytest.mark.parametrize("coefficients", [(), (2.0,), (2.0, -1.0), (2.0, -1.0, 0.5, 3.0), (1.0, 0.0, 2.0, -1.0, 4.0)])
+def test_a_polynomial_about_another_place(coefficients: tuple[float, ...]) -> None:
+    for place in (0.0, 0.7, -2.0):
+        found = moved(coefficients, place)
+        for x in (-1.0, 0.0, 0.4):
+            expected = sum(c * (place + x) ** k for k, c in enumerate(coefficients))
+            assert sum(c * x**k for k, c in enumerate(found)) == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 
 class TestEdges:

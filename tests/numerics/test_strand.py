@@ -671,6 +671,16 @@ def test_cells_of_a_sagging_belt_are_no_shorter_than_those_of_its_faster_strand(
     assert (found.mismatch, found.panel) == (0.0, 1)
 
 
+def test_a_cell_of_a_sagging_belt_has_the_tension_of_its_middle() -> None:
+    strands = Strand(600.0, 90.0, 4e7, 20e3, 60e3, 300.0), Strand(600.0, 40.0, 4e7, 30e3, 20e3, 200.0)
+    found = sagging._Belt(line := Loop(*strands, 12e3, 2e3, fixed_length=True), sagging.grid_of(line, 24))
+    for part, one in zip(np.split(found.static, [found.split]), (line.back, line.carry), strict=True):
+        assert part.mean() == pytest.approx((one.static_start + one.static_end) / 2, rel=1e-12)
+        assert part[[0, -1]] + [-1, 1] * np.diff(part)[[0, -1]] / 2 == pytest.approx(
+            [one.static_start, one.static_end], rel=1e-12
+        )
+
+
 @pytest.mark.parametrize("steps", [2, 3, 7, 40])
 @pytest.mark.parametrize("grip", [None, Grip(math.log(1.51), 12.0)])
 @pytest.mark.parametrize("speed", [False, True])
@@ -687,5 +697,7 @@ def test_the_ledger_of_a_taut_loop_closes_however_few_steps_it_has(
     motion = sagging.march(line, drive, steps * parts.step, parts)
     assert len(motion.times) == steps + 1
     assert motion.energy_residual < 1e-9
+    if speed:
+        assert motion.drum_speed[1:] == pytest.approx(0.3 * motion.times[1:], rel=1e-12)
     if grip is not None and steps > 3:
         assert motion.slipped

@@ -27,6 +27,10 @@ def bodies(*inertias: float) -> tuple[Body, ...]:
     return tuple(Body(f"b{i}", inertia) for i, inertia in enumerate(inertias))
 
 
+def test_a_train_without_signals_is_resolved_by_its_own_motion_alone() -> None:
+    assert TrainSystem(Train(bodies(1.0, 2.0), springs=(Spring("shaft", 0, 1, 5.0),))).input_speed == 0.0
+
+
 class TestTravel:
     """Geared bodies joined by links in any order: what can travel, and its mean."""
 

@@ -31,8 +31,8 @@ class Search:
         speeds, count = self._terms.shape
         self._orders = np.arange(1, count + 1)
         self._samples = max(2 ** int(np.ceil(np.log2(_PER_HARMONIC * count))), _LEAST_SAMPLES)
-        spectrum = np.zeros((speeds, self._samples // 2 + 1), complex)
-        spectrum[:, 1 : count + 1] = self._terms * (-1j * (self._samples / 2))
+        spectrum = np.zeros((speeds, count + 1), complex)  # none beyond
+        spectrum[:, 1:] = self._terms * (-1j * (self._samples / 2))
         self._values = np.fft.irfft(spectrum, self._samples, axis=-1)
         self._stray = self._strays(forces)
 
