@@ -65,7 +65,7 @@ class TestRise:
 
 
 class TestRiseIntegral:
-    @pytest.mark.parametrize("shape", SHAPES)
+    @pytest.mark.parametrize("shape", [*SHAPES, ((0.0, 0.1), (0.4, 0.9), (0.8, 0.7), (1.0, 1.0))])
     @pytest.mark.parametrize("until", [0.0, 0.4, 1.512, 1.7, 3.0, 3.1, 20.0])
     def test_by_quadrature(self, shape: str, until: float) -> None:
         inside = quad(lambda t: start_profile.rise(shape, RISE, t), 0, min(until, RISE), epsabs=1e-14, epsrel=1e-13)[0]

@@ -150,6 +150,13 @@ class TestHighest:
         turns = [x.real for x in p.deriv().roots() if abs(x.imag) < 1e-12 and 0 < x.real < 1]
         assert value == pytest.approx(max(p(np.array([0.0, 1.0, *turns]))), abs=1e-12 * size)
 
+    @pytest.mark.parametrize("beyond", [-0.02, -0.004, 0.0, 1.0, 1.004, 1.02])
+    def test_a_summit_beyond_an_end_counts_at_the_end(self, beyond: float) -> None:
+        (value,), (place,) = panels.highest((3.0 - (panels.NODES - beyond) ** 2)[None])
+        end = min(max(beyond, 0.0), 1.0)
+        assert place == pytest.approx(end, abs=1e-12)
+        assert value == pytest.approx(3.0 - (end - beyond) ** 2, abs=1e-14)
+
     def test_dips_between_nodes(self) -> None:
         """Where it falls at a node and rises at the next, the minimum between is that of the polynomial."""
         seen = 0
