@@ -10,7 +10,7 @@ from scipy.linalg import eigvals, null_space
 from support.trains import run
 
 from ptmcalc.numerics.train import links, price
-from ptmcalc.numerics.train.balance import Balances
+from ptmcalc.numerics.train.balance import Balances, _solution
 from ptmcalc.numerics.train.drives import Place, SignalRows, drive_curve
 from ptmcalc.numerics.train.held import Part
 from ptmcalc.numerics.train.ledger import ledger
@@ -29,6 +29,21 @@ def bodies(*inertias: float) -> tuple[Body, ...]:
 
 def test_a_train_without_signals_is_resolved_by_its_own_motion_alone() -> None:
     assert TrainSystem(Train(bodies(1.0, 2.0), springs=(Spring("shaft", 0, 1, 5.0),))).input_speed == 0.0
+
+
+@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("doubled", [False, True])
+def test_balances_are_met_to_the_last_digit(seed: int, doubled: bool) -> None:
+    """|B - A X| <= eps (|A| |X| + |B|) of badly scaled ones too, and of some that say a thing twice."""
+    rng = np.random.default_rng(seed)
+    turned, other = (np.linalg.qr(rng.normal(size=(5, 5)))[0] for _ in range(2))
+    matrix, right = turned @ np.diag(10.0 ** -np.linspace(0, 6, 5)) @ other, rng.normal(size=(5, 3))
+    if doubled:
+        matrix[-1], right[-1] = matrix[0], right[0]
+    found, fits = _solution(matrix, right)
+    assert fits
+    share = np.abs(right - matrix @ found) / (np.abs(matrix) @ np.abs(found) + np.abs(right))
+    assert share.max() <= np.finfo(float).eps
 
 
 class TestTravel:
