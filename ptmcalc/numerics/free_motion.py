@@ -24,7 +24,7 @@ def free_motion(w: FloatArray, zeta: FloatArray, time: FloatArray) -> FloatArray
     over = zeta > 1
     root = np.sqrt(np.abs(zeta - 1)) * np.sqrt(zeta + 1)
     damped, slow = w * root, np.exp(-w * np.where(over, 1 / (np.maximum(zeta, 1.0) + root), zeta) * time)
-    fast = np.where(over, np.expm1(-2 * damped * time), 0.0)
+    fast = np.expm1(-2 * damped * time)
     cosine = slow * np.where(over, 1 + fast / 2, np.cos(damped * time))
     nonzero = np.where(damped > 0, damped, 1.0)
     sine = slow * np.where(damped > 0, np.where(over, -fast / 2, np.sin(damped * time)) / nonzero, time)
