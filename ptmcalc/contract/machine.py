@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any, Generic, TypeVar
 
 from ptmcalc.base.estimate import Interval
@@ -39,11 +40,18 @@ def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:
     return ()
 
 
+def no_witnesses() -> tuple[AnySolver, ...]:
+    """For a kind without a second method."""
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class MachineKind(Generic[S]):
     """A kind of machine: its spec, its loads, and the effects, solvers and checks that work on it.
 
-    `starting` reads a commented design file that passes `check`. `inspect` notes values that disagree.
+    `starting` reads a commented design file that passes `check`. `inspect` notes values that disagree. What no check
+    needs is read when somebody asks for it, `starting`, `seconding`, `symbols` and `examples`: a process
+    that checks a file imports none of it.
     """
 
     name: str
@@ -68,8 +76,8 @@ class MachineKind(Generic[S]):
     assumed: Callable[[S], Iterable[Assumption[S]]] | None = None
     """for a kind with parts that a machine has several times: the assumptions of one machine, instead of the list"""
 
-    witnesses: tuple[AnySolver, ...] = ()
-    """solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""
+    seconding: Callable[[], tuple[AnySolver, ...]] = no_witnesses
+    """reads solvers of another method that no plan offers: `cost` holds what the planned ones find against theirs"""
 
     type: str = ""
     """for the manifest of one of several types of a kind: the word its files write behind `type`"""
@@ -92,6 +100,11 @@ class MachineKind(Generic[S]):
     def template(self) -> str:
         """The commented design file to start from."""
         return self.starting()
+
+    @property
+    def witnesses(self) -> tuple[AnySolver, ...]:
+        """Solvers of another method that no plan offers."""
+        return self.seconding()
 
     @property
     def label(self) -> str:
@@ -132,6 +145,11 @@ def template_in(package: str) -> Callable[[], str]:
         return resources.files(package).joinpath("template.yaml").read_text("utf-8")
 
     return read
+
+
+def witnesses_in(package: str) -> Callable[[], tuple[AnySolver, ...]]:
+    """The `WITNESSES` in the module `witness` of a kind, read when `cost` asks."""
+    return lambda: import_module(f"{package}.witness").WITNESSES
 
 
 def of_types(

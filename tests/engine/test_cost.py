@@ -115,7 +115,7 @@ def test_what_is_beyond_the_budget_is_named_and_not_run() -> None:
 
 def test_a_formula_and_a_witness_have_a_row_and_are_never_chosen() -> None:
     textbook = solver("book", pull(8), decides=False, **FORMULA)
-    kind = kind_of(within(7, 9), textbook, witnesses=(solver("seen", pull(8)),))
+    kind = kind_of(within(7, 9), textbook, seconding=lambda: (solver("seen", pull(8)),))
     found = costs(kind)
     assert {one.name: one.role for one in found.settings} == {
         "book 0": Role.FORMULA,
@@ -128,17 +128,17 @@ def test_a_formula_and_a_witness_have_a_row_and_are_never_chosen() -> None:
 
 def test_a_witness_runs_once_at_the_finest_setting_the_budget_has_room_for() -> None:
     seen = solver("seen", pull(8), seconds=1.0, levels=4)
-    assert row(costs(kind_of(within(7, 9), witnesses=(seen,)), budget=50.0), "seen 1").role is Role.WITNESS
+    assert row(costs(kind_of(within(7, 9), seconding=lambda: (seen,)), budget=50.0), "seen 1").role is Role.WITNESS
 
 
 def test_a_witness_that_can_tell_nothing_says_why_where_no_other_one_can() -> None:
     dear, unfit = solver("dear", pull(8), seconds=99.0), solver("unfit", pull(8), valid=False)
-    found = costs(kind_of(within(7, 9), witnesses=(dear, unfit)))
+    found = costs(kind_of(within(7, 9), seconding=lambda: (dear, unfit)))
     reasons = {one.name: one.reason for one in found.settings if one.role is Role.WITNESS}
     assert set(reasons) == {"dear 0", "unfit 0"}
     assert reasons["dear 0"].endswith("a second method may take")
     assert all(one.outcome is Outcome.NOT_RUN for one in found.settings if one.role is Role.WITNESS)
-    found = costs(kind_of(within(7, 9), witnesses=(dear, unfit, solver("seen", pull(8)))))
+    found = costs(kind_of(within(7, 9), seconding=lambda: (dear, unfit, solver("seen", pull(8)))))
     assert [one.name for one in found.settings if one.role is Role.WITNESS] == ["seen 0"]
 
 

@@ -115,13 +115,15 @@ def count_of(program: str) -> int:
 
 def test_a_check_that_closed_forms_decide_imports_few_modules(tmp_path: Path) -> None:
     """Beyond the libraries as they are when one model and one command are at work, our own alone, and of these no more
-    than the kind calls for; what draws tables, masked arrays and polynomials of numpy are not among them."""
+    than the kind calls for: neither its second methods nor what draws tables, nor masked arrays and polynomials
+    of numpy."""
     found = modules(tmp_path / "modules.json", "check", CLOSED, "--format", "plain")
     ours = {name for name in found if name.partition(".")[0] == "ptmcalc"}
     assert not [name for name in found if name.startswith(("rich.console", "rich.table", "numpy.ma."))]
     assert len(found) - len(ours) <= count_of(READY) + 25
     assert len(ours) <= 150
     assert not [name for name in ours if name.startswith("ptmcalc.machines.") and ".hoist" not in name]
+    assert not [name for name in ours if "witness" in name]
 
 
 def test_help_imports_little_more_than_typer_and_rich(tmp_path: Path) -> None:

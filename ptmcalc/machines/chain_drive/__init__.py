@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
@@ -18,7 +18,6 @@ from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
 from ptmcalc.machines.chain_drive.solvers import SOLVERS
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.witness import MESH
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -93,5 +92,5 @@ KIND = MachineKind(
     assumed=assumptions,
     parts=parts,
     inspect=inspect,
-    witnesses=(MESH,),
+    seconding=witnesses_in(__package__),
 )

@@ -128,3 +128,5 @@ MESH: Solver[ChainDrive, Run] = Solver(
     valid=valid,
     always=frozenset({POLYGON}),
 )
+
+WITNESSES = (MESH,)

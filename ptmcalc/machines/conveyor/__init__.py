@@ -6,7 +6,7 @@ from itertools import chain
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.assumptions import assumptions
 from ptmcalc.machines.conveyor.checks import CHECKS
@@ -14,11 +14,9 @@ from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.loads import LOADS, parts
 from ptmcalc.machines.conveyor.solvers import SOLVERS
-from ptmcalc.machines.conveyor.solvers.network import CELLS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.start_loads import START_LOADS, start_parts
 from ptmcalc.machines.conveyor.static_loads import STATIC_LOADS, static_parts
-from ptmcalc.machines.conveyor.witness import ELEMENTS
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -142,5 +140,5 @@ KIND = MachineKind(
     assumed=assumptions,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,
-    witnesses=(CELLS, ELEMENTS),
+    seconding=witnesses_in(__package__),
 )

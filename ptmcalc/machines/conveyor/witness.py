@@ -20,6 +20,7 @@ from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_mass
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
+from ptmcalc.machines.conveyor.solvers.network import CELLS
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
 from ptmcalc.witness import belt
 from ptmcalc.witness.belt import Length, Motion, Plan, Roller
@@ -310,3 +311,5 @@ ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(
     always=frozenset({"belt_wave", "tail_jump", "tail_mass", "coulomb_idlers"}),
     levels=len(_ELEMENTS),
 )
+
+WITNESSES = (CELLS, ELEMENTS)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.drivetrain.checks import CHECKS
 from ptmcalc.machines.drivetrain.effects import EFFECTS
@@ -11,7 +11,6 @@ from ptmcalc.machines.drivetrain.figures import FIGURES
 from ptmcalc.machines.drivetrain.loads import LOADS, parts
 from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
-from ptmcalc.machines.drivetrain.witness import DORMAND_PRINCE
 
 
 def inspect(spec: Drivetrain) -> Iterator[Finding]:
@@ -40,5 +39,5 @@ KIND = MachineKind(
     examples=examples_in(__package__),
     inspect=inspect,
     parts=parts,
-    witnesses=(DORMAND_PRINCE,),
+    seconding=witnesses_in(__package__),
 )

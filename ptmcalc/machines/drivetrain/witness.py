@@ -112,3 +112,5 @@ DORMAND_PRINCE: Solver[Drivetrain, TrainScene] = Solver(
     always=frozenset({"elasticity"}),
     levels=2,
 )
+
+WITNESSES = (DORMAND_PRINCE,)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
@@ -21,7 +21,6 @@ from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
 from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import CREEPING, Hoist
-from ptmcalc.machines.hoist.witness import WITNESSES
 
 _SPEED_TOLERANCE = 0.05
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
@@ -98,5 +97,5 @@ KIND = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     parts=parts,
-    witnesses=WITNESSES,
+    seconding=witnesses_in(__package__),
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.laws import slider_crank
 from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
@@ -17,7 +17,6 @@ from ptmcalc.machines.shaft.loads import LOADS
 from ptmcalc.machines.shaft.model import machine_of
 from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
-from ptmcalc.machines.shaft.witness import WITNESSES
 
 _SPEED_TOLERANCE = 0.05
 
@@ -94,5 +93,5 @@ KIND = MachineKind(
     examples=examples_in(__package__),
     assumptions=ASSUMPTIONS,
     inspect=inspect,
-    witnesses=WITNESSES,
+    seconding=witnesses_in(__package__),
 )

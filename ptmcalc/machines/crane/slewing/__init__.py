@@ -1,7 +1,7 @@
 """Slewing crane: a load on a jib that turns about a vertical axis."""
 
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.machines.crane.slewing.assumptions import assumptions
 from ptmcalc.machines.crane.slewing.checks import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.slewing.checks_swing import CHECKS_OF_SWING
@@ -11,7 +11,6 @@ from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
-from ptmcalc.machines.crane.slewing.witness import CARTESIAN
 
 SLEWING = MachineKind(
     name="crane",
@@ -27,5 +26,5 @@ SLEWING = MachineKind(
     symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,
-    witnesses=(CARTESIAN,),
+    seconding=witnesses_in(__package__),
 )

@@ -322,3 +322,5 @@ CARTESIAN: Solver[SlewingCrane, SlewingScene] = Solver(
     always=ALWAYS,
     levels=2,
 )
+
+WITNESSES = (CARTESIAN,)

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
 from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
@@ -20,7 +20,6 @@ from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.witness import WITNESSES
 from ptmcalc.spec.scene import Scene
 
 EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)
@@ -53,5 +52,5 @@ def stacker(
         assumed=assumptions,
         parts=parts,
         tables=tables,
-        witnesses=of_its_scenes(WITNESSES),
+        seconding=lambda: of_its_scenes(witnesses_in(__package__)()),
     )
