@@ -108,4 +108,4 @@ def health(console: Console, scenes: Iterable[SceneReport]) -> None:
         residual = words.balance(scene)
         if residual is not None:
             grid = "".join(f", {scene.health[name]:.0f} {name}" for name in _GRID if scene.health.get(name))
-            console.print(f"{scene.name}: work balance closes to {residual:.1e}{grid}", style="dim")
+            console.print(f"{scene.name}: {words.closing(residual)}{grid}", style="dim")

@@ -83,8 +83,8 @@ def _solvers(report: FileReport) -> Iterator[list[str]]:
     residuals = [(left, scene.name) for scene in report.scenes if (left := words.balance(scene)) is not None]
     if residuals:
         worst, name = max(residuals, key=lambda one: (math.isnan(one[0]), one[0]))
-        where = f" at worst, in {name}" if len(residuals) > 1 else ""
-        parts.append(f"work balance closes to {worst:.1e}{where}")
+        where = f" at worst, in {name}" if len(residuals) > 1 and not worst < words.BALANCED else ""
+        parts.append(words.closing(worst) + where)
     if parts:
         yield _listed(parts, ";")
 

@@ -16,6 +16,9 @@ from ptmcalc.contract.report import AssumedReport, FileReport, Judgement, NextSo
 SIGN = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 """What a value is to be against its limit."""
 
+BALANCED = 1e-11
+"""A balance of works that closes to less closes to rounding."""
+
 _BARS = "▁▂▃▄▅▆▇█"
 
 
@@ -145,6 +148,11 @@ def interval(value: AssumedReport) -> str:
 def balance(scene: SceneReport) -> float | None:
     """What the balance of works of a scene leaves over, relative; None where nothing moved that has one."""
     return scene.health.get("energy_residual")
+
+
+def closing(residual: float) -> str:
+    """How well the energy balances; mere rounding has no digits: they would be others on another processor."""
+    return f"work balance closes to {'rounding' if residual < BALANCED else f'{residual:.1e}'}"
 
 
 def place(span: Span | None) -> str:

@@ -283,6 +283,17 @@ def test_the_solvers_behind_the_verdicts_stand_with_window_and_the_worst_balance
     )
 
 
+def test_a_balance_that_is_rounding_has_no_digits_and_no_scene() -> None:
+    """They would be others on another processor."""
+    (only,) = SAMPLES["passing"].scenes
+    scenes = tuple(replace(only, name=str(left), health={"energy_residual": left}) for left in (9e-12, 3e-16))
+    (line,) = section(short(replace(SAMPLES["passing"], scenes=scenes)), "Solvers")
+    assert line.endswith("; work balance closes to rounding")
+    above = replace(only, name="above", health={"energy_residual": 1.1e-11})
+    (line,) = section(short(replace(SAMPLES["passing"], scenes=(*scenes, above))), "Solvers")
+    assert line.endswith("; work balance closes to 1.1e-11 at worst, in above")
+
+
 def test_a_balance_that_is_no_number_is_the_worst() -> None:
     (only,) = SAMPLES["passing"].scenes
     unknown = replace(only, name="gust", health={"energy_residual": float("nan")})

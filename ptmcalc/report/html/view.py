@@ -357,7 +357,7 @@ def _solvers(number: int, scene: SceneReport) -> Entry:
             }
         )
     residual = words.balance(scene)
-    balance = f"work balance closes to {residual:.1e}" if residual is not None else ""
+    balance = words.closing(residual) if residual is not None else ""
     return {"name": scene.name, "rows": rows, "balance": balance}
 
 
