@@ -83,7 +83,8 @@ def joint_forces(
     if chain.far != FREE:  # both runs of the sprocket pull at the drive
         pull = pull - (ratios.far[0] * u_on + ratios.far[1] * u_far) / below
     given = pull / (chain.drive_mass * w**2)
-    first, second = _forces(chain, w, u_on + given, u_far + given)
+    off = u_far if chain.far == FREE else u_far + given  # what hangs at a free end does not stand on the drive
+    first, second = _forces(chain, w, u_on + given, off)
     rest = _rest(chain, w[:, -1], np.abs(near.harmonics[..., -1]), count, speeds)
     if far is not None:
         rest = rest + _rest(chain, w[:, -1], np.abs(far.harmonics[..., -1]), count, speeds)
