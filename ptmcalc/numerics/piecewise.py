@@ -38,7 +38,9 @@ _STEADY = 8
 """Long panels tried at once after which a length that was too long is tried again."""
 _SURE = 64
 """Panels after which it is asked whether longer ones will do: what moves by itself only fades."""
-_FEW = 2
+_LONGER = 4
+"""How many times as long a long panel is tried next, or as short."""
+_FEW = 4
 """Long panels that are tried at once after some were too long."""
 _IDLE = 4
 """Crossings of one guard in a row that change nothing, from which on only more than the error of a curve counts."""
@@ -247,9 +249,9 @@ class _March:
                 state = starts[passed]
                 longest = flow.longest(state, record.sizes)
             if passed < len(starts) - 1:
-                length, tries, wary = length / 2, _FEW, True
-            elif not wary and 2 * length <= longest:
-                length, tries = 2 * length, 1
+                length, tries, wary = length / _LONGER, _FEW, True
+            elif not wary and _LONGER * length <= longest:
+                length, tries = _LONGER * length, 1
             else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
                 wary = wary and tries < _STEADY
                 tries = min(2 * tries, _STEADY)
@@ -262,12 +264,11 @@ class _March:
         if bands is None:
             return 0
         passed = glide.clear(bands, starts)
-        signals = [glide.watched(band) for band in bands[:passed]]
         if record.samples is not None:
-            shown = _SHOWN * record.sizes()
-            passed = next((k for k, band in enumerate(signals) if (band.envelope > shown).any()), passed)
+            ringing = (glide.watched(bands).envelope > _SHOWN * record.sizes()).any(axis=1)
+            passed = min(passed, int(ringing.argmax())) if ringing.any() else passed
         if passed:
-            record.see_long(glide, length, starts[:passed], signals[:passed])
+            record.see_long(glide, length, starts[:passed], glide.watched(bands, slice(passed)))
         return passed
 
     @staticmethod

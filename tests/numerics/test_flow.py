@@ -87,6 +87,18 @@ class TestMotion:
         assert starts == pytest.approx(np.array(expected), rel=1e-13, abs=1e-14)
         assert self.flow().moved(self.STATE, 0.37) == pytest.approx(expm(self.RATE * 0.37) @ self.STATE, rel=1e-13)
 
+    @pytest.mark.parametrize("doublings", [-3, 0, 1, 5])
+    @pytest.mark.parametrize("kept", [(), (0,), (0, 3)])
+    def test_the_end_of_a_panel_is_that_of_its_halves(self, doublings: int, kept: tuple[int, ...]) -> None:
+        """However long, and whether panels of some lengths are at hand."""
+        flow = self.flow()
+        for one in kept:
+            flow.chunk(flow.finest * 2.0**one)
+        panel = flow.finest * 2.0**doublings
+        expected = expm(self.RATE * panel) - np.eye(3)
+        for _ in range(2):
+            assert flow.end(panel) == pytest.approx(expected, rel=1e-12, abs=1e-15)
+
     def test_guards_have_a_value_and_a_slope(self) -> None:
         value, slope = self.flow().guard(1, self.STATE)
         assert value == pytest.approx(0.5 * 0.3 - 2 * 1.1, rel=1e-15)
