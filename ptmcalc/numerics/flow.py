@@ -200,15 +200,16 @@ class Chunk:
     def __init__(self, changes: FloatArray, guards: FloatArray) -> None:
         self.changes, self.guards = changes, guards
         self.at_nodes = at_nodes = expm.whole(changes.copy())
-        n = at_nodes.shape[1]
-        controls = panels.TO_BERNSTEIN @ np.matmul(guards, at_nodes).reshape(COUNT, -1)
-        self._controls = controls.reshape(-1, n).T
-        self._powers = np.stack([np.eye(n), at_nodes[-1]])
+        self._controls: FloatArray | None = None
+        self._powers = at_nodes[[0, -1]]
         self.seen: FloatArray | None = None
         """what signals see of a state from the nodes on, once it was asked for, shape (nodes, n, signals)"""
 
     def controls(self, starts: FloatArray) -> FloatArray:
         """Bernstein coefficients of the guards in panels from these states on, shape (panels, nodes, guards)."""
+        if self._controls is None:
+            controls = panels.TO_BERNSTEIN @ np.matmul(self.guards, self.at_nodes).reshape(COUNT, -1)
+            self._controls = controls.reshape(-1, starts.shape[1]).T
         result: FloatArray = (starts @ self._controls).reshape(len(starts), COUNT, len(self.guards))
         return result
 
