@@ -250,8 +250,8 @@ class _March:
                 longest = flow.longest(state, record.sizes)
             if passed < len(starts) - 1:
                 length, tries, wary = length / _LONGER, _FEW, True
-            elif not wary and _LONGER * length <= longest:
-                length, tries = _LONGER * length, 1
+            elif not wary and length < longest:
+                length, tries = min(_LONGER * length, longest), 1
             else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
                 wary = wary and tries < _STEADY
                 tries = min(2 * tries, _STEADY)
