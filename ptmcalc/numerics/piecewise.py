@@ -33,7 +33,7 @@ _POLISHES = 3
 _FIRST_PANELS = 8
 _EARLY = 0.01
 _GLIDES = 64
-"""Panels that one long panel has to be worth, and that go by before another is tried."""
+"""Panels that one long panel has to be worth, and that go by before others are tried again; the first come sooner."""
 _STEADY = 8
 """Long panels tried at once after which a length that was too long is tried again."""
 _SURE = 64
@@ -197,7 +197,7 @@ class _March:
         """Along a linear flow to the first crossing of a guard, or to `stop`; `blur` is how far below 0 they may be."""
         unheard, self.unheard = self.unheard, None
         count, soon = _FIRST_PANELS if unheard is None else 1, flow.soonest(state)
-        before, fine, sure = 0, 0.0, 0
+        before, fine, sure = _GLIDES - _FIRST_PANELS, 0.0, 0  # after the first panels a long one is tried
         while (left := stop - record.time) > 4 * _EPS * abs(stop):
             if sure <= 0 or soon < math.inf:
                 fine = flow.panel(state, min(left, soon), record.sizes)
@@ -238,10 +238,10 @@ class _March:
         length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
         wary = False  # some were too long
         while length >= _GLIDES * panel:
-            self._pay(record, LONG * tries)
             if length > min(stop - record.time, longest):
                 length /= 2
                 continue
+            self._pay(record, LONG * tries)
             starts = flow.chunk(length).starts(state, min(tries, int((stop - record.time) / length)))
             passed = self._passed(record, glide, length, starts)
             if passed:

@@ -64,7 +64,7 @@ def test_the_beam_stays_within_its_work(monkeypatch: pytest.MonkeyPatch) -> None
     assert len(tried) <= 300
     assert len(course.record.events) == 32
     assert course.system.w[-1] * problems.BEAM_END > 2e5
-    assert course.record.steps <= 4_500
+    assert course.record.steps <= 2_700
     assert course.residual < 1e-9
 
 
