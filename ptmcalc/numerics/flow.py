@@ -54,6 +54,7 @@ class Flow:
         self._powers = expm.Powers(rate)
         speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
         self._largest = max(float(speeds.max(initial=0.0)), input_speed)
+        self._slowest = float(speeds[speeds > 0].min(initial=math.inf))
         self._components: Components | None = None
         self._chunks: dict[float, Chunk] = {}
         self._ends: dict[float, FloatArray] = {}
@@ -80,6 +81,10 @@ class Flow:
         units. What swings alone tops itself again and again, and each summit would have to be looked at anyway."""
         slowest = self.components.span(state, self.faded, sizes())[0]
         return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / slowest)) if slowest < math.inf else math.inf
+
+    def glides(self, panel: float) -> bool:
+        """Whether a panel is short enough for the slowest component of all, seen or not."""
+        return panel * self._slowest <= self.resolved
 
     @property
     def finest(self) -> float:

@@ -203,7 +203,7 @@ class _March:
                 fine = flow.panel(state, min(left, soon), record.sizes)
                 sure = _SURE if soon == math.inf else 0
             panel = min(fine, left)
-            if before >= _GLIDES and left >= _GLIDES * panel:
+            if before >= _GLIDES and left >= _GLIDES * panel and flow.glides(_GLIDES * panel):
                 before, passed = 0, self._glide(record, flow, state, panel, stop)
                 if passed is not state:
                     state, sure = passed, 0

@@ -58,6 +58,13 @@ class TestPanels:
         resolves(decays().longest(np.array([1.0, 1e-13, 1.0]), sizes), FAST)
         assert decays().longest(np.array([0.0, 0.0, 1.0]), sizes) == math.inf
 
+    def test_glide_where_anything_is_slow_enough(self) -> None:
+        """Beside something that does not move at all, nor by itself: exp(-t/4), exp(-50 t), 1."""
+        flow = Flow(np.diag([-0.25, -50.0, 0.0]), np.zeros((0, 3)), np.eye(3), 3)
+        assert flow.glides(0.999 * RESOLVED / 0.25)
+        assert not flow.glides(1.001 * RESOLVED / 0.25)
+        assert not Flow(np.zeros((1, 1)), np.zeros((0, 1)), np.eye(1), 1).glides(1e-9)
+
     @pytest.mark.parametrize("resolved", [RESOLVED, 0.7 * RESOLVED])
     def test_stand_on_a_lattice_of_their_own(self, resolved: float) -> None:
         flow, unit = decays(resolved=resolved), resolved / RESOLVED
