@@ -46,10 +46,6 @@ KNOWN_WIDE = {
     "viscous_idlers": 60.0,
     "network": 600.0,
     "stiff_stop": 300.0,
-    "energy_step": 20.0,
-    "energy_step 1": 20.0,
-    "energy_step 2": 20.0,
-    "work_balance": 60.0,
 }
 """Ways whose bars hold but are wider than wanted, and how wide they may be at most until somebody sharpens them."""
 COUNTS = 1e-3
