@@ -1,34 +1,33 @@
 """What can be said about a stop without simulating it: the rigid conveyor, and intervals that hold the waves.
 
 For belts in which a wave goes round a thousand times while they stop. As long as all of the belt slides forward, its
-friction is a constant force and the belt is linear. Its drive falls out and its brakes come in as steps of force, at
-once or one after another: their sum, sign or not, is F, and J = F/M. Then, with r and b of `laws.loop_bounds`,
+friction is a constant force and the belt is linear. Its drive falls out and its brakes come in as steps or ramps of
+force, at once or one after another; no mode answers a ramp of time t with more than 2/(w_1 t) of what it answers a step
+with. With J the sum of all steps, sign or not, over M, J' the same with ramps that count so, and r, b, e, C of
+`laws.loop_bounds`,
 
-    |S - S_static + a r| <= J b                                      tension anywhere
-    |v_head - V| <= w = F (1/m - 1/M)/w_1                            modes of the drum, sum phi_n(0)^2 = 1/m - 1/M
-    |x_head - X| <= 2 F (1/m - 1/M)/w_1^2
+    |S - S_static + a r| <= J' b                                     tension anywhere
+    |v - V| <= u = J' e                                              speed anywhere
+    |x_head - X| <= 2 J M C(0)                                       no mode displaces by more than twice its mean
 
-with V and X of the rigid body. Tension and speed of the head go round with the waves P, N = S +- Z v, so that no part
-of the belt differs from V by more than
-
-    u = 2 w + 3 J (b + |r|)/Z_min                                    J |r| for the jumps of a itself
-
-and nothing turns round before V is down to u. From that moment on friction may change its sense; it only takes energy
-out. The swing there is, J (b + |r|), is then counted once more, and the head comes to rest within three times the time
-the rigid body still needs and one round of a wave.
+with V and X of the rigid body: nothing turns round before V is down to u. From that moment on friction may change its
+sense; it only takes energy out. A drum that then stands still is one more step, of at most J, and the belt swings about
+it by J b' with b' of a drum that keeps its speed; the head comes to rest within twice the time the rigid body still
+needs and half a round of a wave.
 
 **Range** one slope, one drive, all brakes at the head, no take-up weight, friction that does not go with the speed, a
 softening by sag below 5 %.
 **Error** derived up to the moment at which something may turn round; the rest after it is calibrated: finite elements
-of the coverage tests came to a third of it.
+of the coverage tests came to two thirds of it.
 **Source** `laws.loop_bounds`; d'Alembert.
 """
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family, of
@@ -42,11 +41,15 @@ from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, Stopping
 
-_X = np.linspace(0.0, 1.0, 33)
+FloatArray = NDArray[np.float64]
+
+_X = np.linspace(0.0, 1.0, 65)
 _STRANDS = (RETURN, CARRY)
 _SOFTEST = 0.05
-_ON_AND_ON = 2.0
+_ON_AND_ON = 1.0
 """Times of the rigid body's last moments that the head may need besides them."""
+_ROUNDS = 0.5
+"""Of a wave that it may need besides."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,41 +64,43 @@ class ShortStop:
     """least and largest deceleration of the rigid body, 0 among them [m/s^2]"""
     jumps: float
     """J: all changes of the force over the whole mass [m/s^2]"""
-    swing: float
-    """J (b + |r|) [N]"""
-    stray: float
-    """J b + J (b + |r|): what a tension may be off by [N]"""
+    felt: float
+    """J': the same with ramps as far as the modes feel them [m/s^2]"""
+
+    def stray(self, which: int, x: FloatArray) -> FloatArray:
+        """J' b + J b': what a tension may be off by [N]."""
+        held = replace(self.masses, imposed_speed=True)
+        parts = ((self.felt, self.masses), (self.jumps, held))
+        return np.sum([share * loop_bounds.stray(masses, which, x) for share, masses in parts], axis=0)
 
     @property
     def softening(self) -> float:
         """By sag, at the lowest tension there can be."""
         spans = [span for span in (self.line.back.span_weight, self.line.carry.span_weight) if span]
-        low = min(self._tensions(which, self.stray)[0] for which in _STRANDS)
+        low = min(self._tensions(which, _X, strays=True)[0] for which in _STRANDS)
         return max((float(sag.softening(self.line.stiffness, span, low)) for span in spans), default=0.0)
 
-    def _tensions(self, which: int, more: float = 0.0) -> tuple[float, float]:
-        """Lowest and highest tension of a strand [N]: straight between its ends, as r and the static tension are."""
-        ends = np.array([0.0, 1.0])
-        static, r = self.line.static(which, ends), loop_bounds.quasi_static(self.masses, which, ends)
+    def _tensions(self, which: int, x: FloatArray, *, strays: bool = False) -> tuple[float, float]:
+        """Lowest and highest tension at places of a strand [N]."""
+        static, r = self.line.static(which, x), loop_bounds.quasi_static(self.masses, which, x)
+        more = self.stray(which, x) if strays else 0.0
         found = [static - a * r for a in self.slowing]
-        return float(np.min(found)) - more, float(np.max(found)) + more
+        return float(np.min(np.minimum(*found) - more)), float(np.max(np.maximum(*found) + more))
 
-    def _at_drum(self, which: int, more: float = 0.0) -> tuple[float, float]:
+    def _at_drum(self, which: int, *, strays: bool = False) -> tuple[float, float]:
         end = np.array([1.0 if which == CARRY else 0.0])
-        static = float(self.line.static(which, end)[0])
-        r = float(loop_bounds.quasi_static(self.masses, which, end)[0])
         if which == RETURN and not self.line.fixed_length:
+            static = float(self.line.static(which, end)[0])
             return static, static
-        found = [static - a * r for a in self.slowing]
-        return min(found) - more, max(found) + more
+        return self._tensions(which, end, strays=strays)
 
     # -- loads ---------------------------------------------------------------------------------------------------
 
-    def loads(self, more: float = 0.0) -> dict[str, float]:
-        """Loads of the rigid conveyor, or the worst ones if every tension but a constant one may be off by so much."""
+    def loads(self, *, strays: bool = False) -> dict[str, float]:
+        """Loads of the rigid conveyor, or the worst ones if every tension but a constant one may stray."""
         line = self.line
-        strands = [self._tensions(which, more) for which in _STRANDS]
-        on, off = (self._at_drum(which, more) for which in (CARRY, RETURN))
+        strands = [self._tensions(which, _X, strays=strays) for which in _STRANDS]
+        on, off = (self._at_drum(which, strays=strays) for which in (CARRY, RETURN))
         found = {
             "tension_run_on_max": on[1],
             "tension_dynamic_run_on_max": on[1] - line.run_on,
@@ -116,7 +121,7 @@ class ShortStop:
 
     def held(self) -> dict[str, Interval]:
         """Intervals of the loads: from those of the belt that still runs evenly to the worst."""
-        line, worst = self.line, self.loads(self.stray)
+        line, worst = self.line, self.loads(strays=True)
         least = bounds.even_loads(line)
         if line.grip_exponent is not None:
             least |= bounds.slip_loads(line.grip_exponent, [self._before])
@@ -124,16 +129,15 @@ class ShortStop:
 
     def rest(self) -> tuple[Interval, Interval]:
         """Time and way to rest of the belt at the head [s], [m]; unknown where it may turn round from the first."""
-        masses, force = self.masses, self.jumps * self.masses.total_mass
-        slowest = loop_bounds.lowest_frequency_bound(masses) / math.sqrt(1 + self.softening)
-        drum = force * (1 / masses.drive_mass - 1 / masses.total_mass)
-        apart = 2 * drum / slowest + 3 * self.swing / min(map(self.line.impedance, _STRANDS))
+        masses, soft = self.masses, 1 + self.softening
+        fastest = max(float(loop_bounds.speed_stray(masses, which, _X).max()) for which in _STRANDS)
+        apart = self.felt * fastest * math.sqrt(soft)
         if not apart < self.line.speed:
             return Interval(0.0, math.inf), Interval(0.0, math.inf)
         first, way_first = rigid_stop(self.spec, self.scene, self.line, apart)
         last, way = rigid_stop(self.spec, self.scene, self.line)
-        more = _ON_AND_ON * (last - first) + self.line.contour_time
-        off = 2 * drum / slowest**2
+        more = _ON_AND_ON * (last - first) + _ROUNDS * self.line.contour_time
+        off = 2 * self.jumps * masses.total_mass * float(loop_bounds.give(masses, CARRY, 1.0)) * soft
         return Interval(first, last + more), Interval(max(way_first - off, 0.0), way + off + apart * more)
 
 
@@ -147,18 +151,23 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     if not (line.carry.even and line.back.even) or math.isinf(rigid_stop(spec, scene, line)[0]):
         return None
     masses = loop_masses(line, imposed=False)
-    brakes = sum(braking(spec, one).force for one in acting)
-    whole = masses.total_mass
-    slowing = (line.static_resistance / whole, (line.static_resistance + brakes) / whole)
-    jumps = (abs(line.static_resistance) + brakes) / whole
-    largest, pulled = (
-        max(float(np.abs(law(masses, which, _X)).max()) for which in _STRANDS)
-        for law in (loop_bounds.stray, loop_bounds.quasi_static)
-    )
-    swing = jumps * (largest + pulled)
+    brakes = [braking(spec, one) for one in acting]
+    whole, resistance = masses.total_mass, line.static_resistance
+    slowest = loop_bounds.lowest_frequency_bound(masses) / math.sqrt(1 + _SOFTEST)
+    shares = [_answered(slowest * one.rise) for one in brakes]
+    full = sum(one.force for one in brakes)
+    felt = sum(one.force * share for one, share in zip(brakes, shares, strict=True))
+    slowing = (resistance / whole, (resistance + full) / whole)
     least, most = min(0.0, *slowing), max(0.0, *slowing)
-    found = ShortStop(spec, scene, line, masses, (least, most), jumps, swing, swing + jumps * largest)
-    return found if math.isfinite(swing) and found.softening < _SOFTEST else None
+    jumps, felt = ((abs(resistance) + force) / whole for force in (full, felt))
+    found = ShortStop(spec, scene, line, masses, (least, most), jumps, felt)
+    known = all(np.all(np.isfinite(found.stray(which, _X))) for which in _STRANDS)
+    return found if known and found.softening < _SOFTEST else None
+
+
+def _answered(turned: float) -> float:
+    """Share of a step that a mode answers a ramp with at most, from w t."""
+    return 1.0 if turned <= 2.0 else 2.0 / turned
 
 
 def loads(stop: ShortStop) -> dict[str, float]:

@@ -161,9 +161,9 @@ def _rms_torque(cycle: Held, reach: float, falls: Interval) -> Interval:
 
         |<M> - M_0| <= d (k_max - k_min)/(k_max + k_min) dw/(eta i)
 
-    Over time an angle counts as 1/w. A covariance is no more than a quarter of the product of the ranges, R and dw/w_low
-    (Gruess; Popoviciu for the variance), and not below 0 of two that both fall with the speed, as M does but for a motor
-    in which only viscous friction makes D fall.
+    Over time an angle counts as 1/w. A covariance is no more than a quarter of the product of the ranges, R and
+    dw/w_low (Gruess; Popoviciu for the variance), and not below 0 of two that both fall with the speed, as M does where
+    it is not viscous friction alone that makes D fall.
 
         <M> <= <M>_t <= <M> + R dw/w_low/4
         <M>_t^2 <= M_rms^2 <= <M>^2 + R^2/4 + 2 M_high R dw/w_low/4
@@ -194,8 +194,8 @@ def _always_drives(cycle: Held, torque: float) -> bool:
 
 
 def _falls(cycle: Held, low: float, high: float) -> Interval | None:
-    """Least and largest fall of the drive's torque with the speed on the main shaft [N*m*s/rad] between two speeds; None
-    where it does not fall all the way."""
+    """Least and largest fall of the drive's torque between two speeds, with the speed on the main shaft [N*m*s/rad];
+    None where it does not fall all the way."""
     machine = cycle.machine
     drive, last = machine.drive, len(machine.drive.stages) - 1
     speeds = np.linspace(low, high, 65)
