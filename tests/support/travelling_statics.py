@@ -203,7 +203,7 @@ class Statics:
         self.span, self.base, self.centre = number(bridge["span"]), number(wheels["base"]), number(bridge["centre"])
         self.hooks = number(trolley["nearest"]), number(trolley["farthest"])
         self.radius, self.per_corner = number(wheels["diameter"]) / 2, wheels["per_corner"]
-        self.driven = {corner: wheels["driven_per_corner"] for corner in wheels["driven"]}
+        self.driven = dict.fromkeys(wheels["driven"], wheels["driven_per_corner"])
         self.wheel = number(wheels["inertia"])
         self.ratio, self.eta = drive["gear"]["ratio"], drive["gear"]["efficiency"]
         self.back = drive["gear"].get("reverse_efficiency", 2 - 1 / self.eta)
