@@ -3,23 +3,31 @@
 For belts in which a wave goes round a thousand times while they stop. As long as all of the belt slides forward, its
 friction is a constant force and the belt is linear. Its drive falls out and its brakes come in as steps or ramps of
 force, at once or one after another; no mode answers a ramp of time t with more than 2/(w_1 t) of what it answers a step
-with. With J the sum of all steps, sign or not, over M, J' the same with ramps that count so, and r, b, e, C of
+with. With J the sum of all steps, sign or not, over M, J' the same with ramps that count so, and e, C, G of
 `laws.loop_bounds`,
 
-    |S - S_static + a r| <= J' b                                     tension anywhere
     |v - V| <= u = J' e                                              speed anywhere
     |x_head - X| <= 2 J M C(0)                                       no mode displaces by more than twice its mean
+    int rho v'^2 ds <= n^2 = M J^2 + M^2 J'^2 (1/m - 1/M)            F phi_n(0) of every mode, the rigid one in it
 
-with V and X of the rigid body: nothing turns round before V is down to u. From that moment on friction may change its
-sense; it only takes energy out. A drum that then stands still is one more step, of at most J, and the belt swings about
-it by J b' with b' of a drum that keeps its speed; the head comes to rest within twice the time the rigid body still
-needs and half a round of a wave.
+with V and X of the rigid body: nothing turns round before V is down to u. From that moment on friction and brakes may
+change their sense. They are monotone in the speed: of two motions of the belt the distance sqrt(int rho dv^2 + dS^2/EA)
+never grows, and of one and the same a moment later neither, so that n bounds the accelerations to the end (Brezis). A
+brake that still comes in by then adds its step to n in full, J' = J. With friction between its two senses, by Cauchy
+and Schwarz,
+
+    S_static - 2 phi_below - n sqrt(G) <= S <= S_static + 2 phi_above + n sqrt(G)
+
+G that of a drum at imposed speed; phi_below is the friction behind the section, that of a fixed loop weighted with the
+share of compliance behind its place, phi_above (none with a gravity take-up) the friction ahead of it with the share
+ahead. The head comes to rest within twice the time the rigid body still needs and half a round of a wave.
 
 **Range** one slope, one drive, all brakes at the head, no take-up weight, friction that does not go with the speed, a
 softening by sag below 5 %.
-**Error** derived up to the moment at which something may turn round; the rest after it is calibrated: finite elements
-of the coverage tests came to two thirds of it.
-**Source** `laws.loop_bounds`; d'Alembert.
+**Error** derived, but for the last moments of the head, which are calibrated: finite elements of the coverage tests
+came to two thirds of them.
+**Source** `laws.loop_bounds`; d'Alembert; H. Brezis, Operateurs maximaux monotones (1973): the speed of a semigroup of
+contractions never grows.
 """
 
 import math
@@ -67,11 +75,46 @@ class ShortStop:
     felt: float
     """J': the same with ramps as far as the modes feel them [m/s^2]"""
 
-    def stray(self, which: int, x: FloatArray) -> FloatArray:
-        """J' b + J b': what a tension may be off by [N]."""
+    @property
+    def reach(self) -> float:
+        """n: bound of the accelerations [N/kg^(1/2)]."""
+        masses, felt = self.masses, self.felt if self._settled else self.jumps
+        parts = 1 / masses.drive_mass - 1 / masses.total_mass
+        return math.sqrt(masses.total_mass * self.jumps**2 + (masses.total_mass * felt) ** 2 * parts)
+
+    @property
+    def _settled(self) -> bool:
+        """Whether all brakes have come in before anything may turn round."""
+        brakes = [braking(self.spec, one) for one in brakes_of(self.spec, self.scene).values()]
+        apart = self.apart * math.sqrt(1 + _SOFTEST)
+        if not brakes or not apart < self.line.speed:
+            return not brakes
+        return max(one.delay + one.rise for one in brakes) <= rigid_stop(self.spec, self.scene, self.line, apart)[0]
+
+    @property
+    def apart(self) -> float:
+        """u: most by which a speed differs from that of the rigid body [m/s]."""
+        return self.felt * max(float(loop_bounds.speed_stray(self.masses, which, _X).max()) for which in _STRANDS)
+
+    def strays(self, which: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Most by which a tension may be below and above the static one [N]."""
         held = replace(self.masses, imposed_speed=True)
-        parts = ((self.felt, self.masses), (self.jumps, held))
-        return np.sum([share * loop_bounds.stray(masses, which, x) for share, masses in parts], axis=0)
+        swing = self.reach * np.sqrt(loop_bounds.tension_green(held, which, x))
+        below, above = self._rubbed(which, x)
+        return swing + 2 * below, swing + 2 * above
+
+    def _rubbed(self, which: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """phi_below and phi_above of sections [N]."""
+        back, carry, tail = self.line.back.friction[-1], self.line.carry.friction[-1], self.line.tail_force
+        if not self.line.fixed_length:
+            return (back * x if which == RETURN else back + tail + carry * x), np.zeros_like(x)
+        whole = self.masses.return_compliance + self.masses.carry_compliance
+        first, last = self.masses.return_compliance / whole, self.masses.carry_compliance / whole
+        if which == RETURN:
+            ahead = carry * last / 2 + tail * last + back * ((1 - x) - first * (1 - x**2) / 2)
+            return back * first * x**2 / 2, ahead
+        behind = back * first / 2 + tail * first + carry * (first * x + last * x**2 / 2)
+        return behind, carry * last * (1 - x) ** 2 / 2
 
     @property
     def softening(self) -> float:
@@ -81,11 +124,14 @@ class ShortStop:
         return max((float(sag.softening(self.line.stiffness, span, low)) for span in spans), default=0.0)
 
     def _tensions(self, which: int, x: FloatArray, *, strays: bool = False) -> tuple[float, float]:
-        """Lowest and highest tension at places of a strand [N]."""
+        """Lowest and highest tension at places of a strand [N]: of the rigid conveyor, or of all that may be."""
         static, r = self.line.static(which, x), loop_bounds.quasi_static(self.masses, which, x)
-        more = self.stray(which, x) if strays else 0.0
-        found = [static - a * r for a in self.slowing]
-        return float(np.min(np.minimum(*found) - more)), float(np.max(np.maximum(*found) + more))
+        rigid = [static - a * r for a in self.slowing]
+        low, high = np.minimum(*rigid), np.maximum(*rigid)
+        if strays:
+            below, above = self.strays(which, x)
+            low, high = np.minimum(low, static - below), np.maximum(high, static + above)
+        return float(low.min()), float(high.max())
 
     def _at_drum(self, which: int, *, strays: bool = False) -> tuple[float, float]:
         end = np.array([1.0 if which == CARRY else 0.0])
@@ -130,8 +176,7 @@ class ShortStop:
     def rest(self) -> tuple[Interval, Interval]:
         """Time and way to rest of the belt at the head [s], [m]; unknown where it may turn round from the first."""
         masses, soft = self.masses, 1 + self.softening
-        fastest = max(float(loop_bounds.speed_stray(masses, which, _X).max()) for which in _STRANDS)
-        apart = self.felt * fastest * math.sqrt(soft)
+        apart = self.apart * math.sqrt(soft)
         if not apart < self.line.speed:
             return Interval(0.0, math.inf), Interval(0.0, math.inf)
         first, way_first = rigid_stop(self.spec, self.scene, self.line, apart)
@@ -161,8 +206,7 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     least, most = min(0.0, *slowing), max(0.0, *slowing)
     jumps, felt = ((abs(resistance) + force) / whole for force in (full, felt))
     found = ShortStop(spec, scene, line, masses, (least, most), jumps, felt)
-    known = all(np.all(np.isfinite(found.stray(which, _X))) for which in _STRANDS)
-    return found if known and found.softening < _SOFTEST else None
+    return found if math.isfinite(found.reach) and found.softening < _SOFTEST else None
 
 
 def _answered(turned: float) -> float:
