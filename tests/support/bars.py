@@ -132,16 +132,22 @@ def tried(
     claims: Mapping[str, Loads],
     truth: Loads,
     limits: Sequence[Limit] = (),
+    *,
+    climbs: bool = True,
 ) -> Trial:
     """A machine put on trial: every other one with a limit within three bars of what one of its ways claims.
 
-    The ladder then climbs as `check` lets it; what is right, the checks say of the exact loads.
+    The ladder then climbs as `check` lets it; what is right, the checks say of the exact loads. Where no other way
+    gives the loads that are on trial and the ones beside them cost much, it need not climb: the claims are judged.
     """
     near = False
     if number % 2 == 0:
         moved = _near(spec, claims, limits, rng)
         near, spec = moved is not None, moved or spec
-    said = settle(kind, spec, plan_scene(kind, spec, scene)).rulings
+    if climbs:
+        said = settle(kind, spec, plan_scene(kind, spec, scene)).rulings
+    else:
+        said = judge(kind, spec, scene, {name: one for loads in claims.values() for name, one in loads.items()})
     judged = frozenset(family(load) for check in kind.checks for load in check.loads)
     return Trial(number, near, spec, judged, claims, truth, said, judge(kind, spec, scene, truth))
 

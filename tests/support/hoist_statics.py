@@ -202,7 +202,9 @@ class Statics:
             "power_hoisting": on_motor * self.drum_speed * self.ratio,
             "torque_drum": up,
         }
-        return found | self._rope(mass) | self._drum(mass) | self.start(scene) | self.lower_brake(scene) | self._duty(mass)
+        return (
+            found | self._rope(mass) | self._drum(mass) | self.start(scene) | self.lower_brake(scene) | self._duty(mass)
+        )
 
     def _rope(self, mass: float) -> dict[str, float]:
         data = self.data
@@ -265,7 +267,9 @@ class Statics:
         """Acceleration of the motor shaft upwards: the torque of the gear goes through with its loss [rad/s^2]."""
         load, inertia = self.drum_torque(mass, True), self.behind(mass)
         # motor: J1 a = M - T/(u eta), drum: J2 a/u = T - M_L
-        a, _ = np.linalg.solve([[self.rotors, 1 / self.ratio / self.eta], [inertia / self.ratio, -1.0]], [self.torque, -load])
+        a, _ = np.linalg.solve(
+            [[self.rotors, 1 / self.ratio / self.eta], [inertia / self.ratio, -1.0]], [self.torque, -load]
+        )
         return float(a)
 
     def sinking(self, mass: float) -> float:
