@@ -9,7 +9,21 @@ import numpy as np
 import pytest
 from scipy.linalg import expm, solve
 from support import chain_fem
-from support.bars import THIRD, Limit, Trial, misses, near, numbers, opposites, told, tried, verdicts, wide, widest
+from support.bars import (
+    MACHINES,
+    THIRD,
+    Limit,
+    Trial,
+    misses,
+    near,
+    numbers,
+    opposites,
+    told,
+    tried,
+    verdicts,
+    wide,
+    widest,
+)
 from support.chain_starts import KIND, built, random_chain
 
 from ptmcalc.base.diagnostic import Verdict
@@ -22,7 +36,7 @@ ON_TRIAL = {"chain_drive": ("takeup_weight",)}
 WAY = "takeup_weight"
 WEIGHT = next(effect for effect in KIND.effects if effect.name == WAY)
 LIMIT = Limit("safety_start", ("checks", "safety_start"), least=1e-6)
-SEED, ALWAYS = 3_301, 40
+SEED, ALWAYS = 3_301, 70
 PIECES, STEPS = 16, 900
 
 
@@ -71,9 +85,10 @@ def trial_of(number: int) -> Trial:
         data["layout"]["takeup"]["type"] = "gravity"
         spec = built(data)
         bare = start_case(spec, spec.all_scenes[0])
-        if bare.moves and bare.acceleration * bare.whole_mass / bare.masses.drive_mass <= 0.025 * 9.81:
+        alone = bare.acceleration * bare.whole_mass / bare.masses.drive_mass / 0.03 / 9.81 if bare.moves else 1.0
+        if alone <= 0.85:
             break
-    spec, mass = light_enough(spec, data, float(rng.uniform(0.4, 0.95)))
+    spec, mass = light_enough(spec, data, float(rng.uniform(max(0.4, alone), 0.95)))
     (scene,) = spec.all_scenes
     case = start_case(spec, scene)
     force, window = case.acceleration * case.whole_mass, min(case.window, 2.0)
@@ -96,11 +111,12 @@ def test_the_bound_of_the_weight_holds_what_it_changes(trials: list[Trial]) -> N
 
 
 def test_a_third_of_it_would_not(trials: list[Trial]) -> None:
-    assert misses(trials, WAY, THIRD) != []
+    """Nor a sixth of it on the few that are always tried."""
+    assert misses(trials, WAY, THIRD if len(trials) == MACHINES else THIRD / 2) != []
 
 
 def test_no_verdict_is_the_opposite_of_the_elements(trials: list[Trial]) -> None:
     assert opposites(trials) == []
     assert near(trials) >= 0.45
-    said = verdicts(trials, "CHN107")
+    said = verdicts(trials, "CHN122")
     assert min(said.count(Verdict.PASS), said.count(Verdict.FAIL)) > 0.05 * len(said)

@@ -45,6 +45,7 @@ KNOWN_WIDE = {
     "moving_belt": 50.0,
     "viscous_idlers": 60.0,
     "network": 600.0,
+    "takeup_weight": 12.0,
 }
 """Ways whose bars hold but are wider than wanted, and how wide they may be at most until somebody sharpens them."""
 COUNTS = 1e-3
