@@ -23,7 +23,7 @@ WITHOUT_BARS = {
     "crane": ("travel_statics", "travel_starting_reserve", "storm_parking", "skewing", "buffer_collision"),
 }
 KIND = next(one for one in load_kind("crane").types if one.type == "travelling")
-SEED, ALWAYS = 1909, 60
+SEED, ALWAYS = 1909, 90
 WAYS = {
     "run": TRAVEL_STATICS,
     "start": STARTING,
