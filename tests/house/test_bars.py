@@ -55,7 +55,6 @@ def pieces(kind: str) -> set[str]:
 
 
 ELSEWHERE = {
-    "chain_drive": {"chain_selection"},
     "hoist": {"gear_backlash", "gear_elasticity"},
     "crane": {
         *("aisle_rail", "aisle_rail_answer", "aisle_rail_jump", "wheel_lift", "rail_response", "rail_unevenness"),
