@@ -289,7 +289,7 @@ def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     if not all(one.bounded for one in others.values()):
         return others
     at_drive = start_bounds.spread(spec, case, 3 * pushed, 3 * pushed, loads)
-    return others | {name: one for name, one in at_drive.items() if name != "tension_min"}
+    return {**others, **{name: one for name, one in at_drive.items() if name != "tension_min"}}
 
 
 def _unless_slack(spec: ChainDrive, case: StartCase, change: float, loads: Loads) -> Offsets:
