@@ -58,7 +58,7 @@ ELSEWHERE = {
     "hoist": {"gear_backlash", "gear_elasticity"},
     "crane": {
         *("aisle_rail", "aisle_rail_answer", "aisle_rail_jump", "wheel_lift", "rail_response", "rail_unevenness"),
-        *("safety_gear", "safety_gear_catch", "standing_modal", "top_guide"),
+        *("standing_modal", "top_guide"),
     },
 }
 """Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not

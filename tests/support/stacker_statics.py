@@ -75,7 +75,12 @@ def random_stacker(rng: np.random.Generator, kind: str) -> dict[str, Any]:
         "cab": {"mass": text(even(50, 300), "kg"), "arm": text(even(-1, 1), "m"), "arm_across": text(even(-1, 1), "m")},
         "hoisting": hoist,
         "effects": {"mast_gravity": "off"},
-        "checks": {"rope_safety": 5.0, "column_stress": "1e12 Pa", "bridge_stress": "1e12 Pa"},
+        "checks": {
+            "rope_safety": 5.0,
+            "column_stress": "1e12 Pa",
+            "bridge_stress": "1e12 Pa",
+            "catch_deceleration": "100 m/s^2",
+        },
         "scenes": [
             {"type": "hoist", "direction": "up"},
             {"type": "hoist", "direction": "down", "load": str(rng.choice(["full", "empty"]))},
@@ -127,8 +132,20 @@ def random_stacker(rng: np.random.Generator, kind: str) -> dict[str, Any]:
             "braking_force": text(even(0.2, 1) * load, "N"),
             "buffers": {"type": sort, "count": 2, "stroke": text(stroke, "m"), hard[0]: hard[1], "rating": "1e12 N"},
         },
-        "scenes": [*data["scenes"], scene],
+        "safety_gear": _gear(rng, load),
+        "scenes": [*data["scenes"], scene, {"type": "safety_gear"}],
     }
+
+
+def _gear(rng: np.random.Generator, load: float) -> dict[str, Any]:
+    """About fit for a carriage with such a load."""
+    stroke = float(rng.uniform(0.05, 0.6))
+    force, common = load * G * float(rng.uniform(1.2, 8)), {"stroke": text(stroke, "m")}
+    common |= {"trip_ratio": float(rng.uniform(1.2, 1.5)), "reaction_time": text(float(rng.uniform(0, 0.1)), "s")}
+    common |= {"arm": text(float(rng.uniform(-0.4, 0.4)), "m")}
+    if rng.random() < 0.5:
+        return {"type": "progressive", "force": text(force, "N"), **common}
+    return {"type": "instantaneous", "stiffness": text(20 * force, "N/m"), **common}
 
 
 class Statics:
@@ -261,6 +278,34 @@ class Statics:
             "buffer_speed_left": found.left,
             "buffer_deceleration": (found.force - push) / mass,
             "phi7": 1.25 + 0.7 * max(share[cushion.kind] - 0.5, 0.0),
+        }
+
+    # -- safety gear -----------------------------------------------------------------------------------------
+
+    def safety_gear(self, scene: dict[str, Any]) -> dict[str, float]:
+        """A free fall from the sinking carriage to the gear that holds, and the way under its force and the weight."""
+        gear, column, mass = self.data["safety_gear"], self.data["column"], self.climbing(scene)
+        even, sinks = gear["type"] == "progressive", number(self.data["hoisting"]["speed"])
+        catch = gear["trip_ratio"] * sinks + G * number(gear["reaction_time"])
+        hard = number(gear["force" if even else "stiffness"])
+        way = hit(Cushion("constant" if even else "linear", hard, number(gear["stroke"])), mass, catch, mass * G).way
+        force = hard if even else hard * way
+        times = max(force / mass / G, 1.0)
+        along, across = (abs(self.moment(scene, aside)) for aside in (False, True))
+        gripped = force * abs(number(gear["arm"]))
+        bent = max(gripped, times * along) / number(column["section_modulus"])
+        bent += times * across / number(column["section_modulus_across"])
+        return {
+            "safety_gear_force": force,
+            "safety_gear_distance": way,
+            "safety_gear_factor": force / mass / G,
+            "safety_gear_deceleration": force / mass - G,
+            "safety_gear_speed": catch,
+            "safety_gear_drop": (catch**2 - sinks**2) / 2 / G,
+            "safety_gear_moment": gripped,
+            "safety_gear_shock": 2 * force if even else force,
+            "combination_force[11.2,6]": force,
+            "column_stress": bent + (self.column * G + force) / number(column["area"]),
         }
 
 
