@@ -13,25 +13,36 @@ from support.travelling_statics import Statics, random_crane
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.travelling.solvers.buffer_collision import BUFFER_COLLISION
+from ptmcalc.machines.crane.travelling.solvers.rail_response import RAIL_RESPONSE
 from ptmcalc.machines.crane.travelling.solvers.skewing import SKEWING
 from ptmcalc.machines.crane.travelling.solvers.storm_parking import STORM_PARKING
 from ptmcalc.machines.crane.travelling.solvers.travel_statics import STARTING, TRAVEL_STATICS
 
 WITHOUT_BARS = {
-    "crane": ("travel_statics", "travel_starting_reserve", "storm_parking", "skewing", "buffer_collision"),
+    "crane": (
+        "travel_statics",
+        "travel_starting_reserve",
+        "storm_parking",
+        "skewing",
+        "buffer_collision",
+        "rail_response",
+        "rail_unevenness",
+    ),
 }
 KIND = next(one for one in load_kind("crane").types if one.type == "travelling")
 SEED, ALWAYS = 1909, 90
-WAYS = {
+WAYS: dict[str, AnySolver] = {
     "run": TRAVEL_STATICS,
     "start": STARTING,
     "storm": STORM_PARKING,
     "skew": SKEWING,
     "collision": BUFFER_COLLISION,
+    "rail_step": RAIL_RESPONSE,
 }
-KNOWN = {"run": 1e-9, "start": 1e-9, "storm": 1e-9, "skew": 1e-8, "collision": 1e-7}
+KNOWN = {"run": 1e-9, "start": 1e-9, "storm": 1e-9, "skew": 1e-8, "collision": 1e-7, "rail_step": 1e-9}
 """What the witness is good for, as a share; a root that is searched for, and a motion that is followed, to less."""
 COARSE = {"wheel_spectrum_factor": 1e-8, "skew_force_slip": 1e-7}
 """A mean over many places; a balance that is met to 1e-9 of the weight."""
@@ -50,6 +61,7 @@ LIMITS = {
         Limit("collision_speed", ("checks", "collision_speed"), 0.01),
         Limit("buffer_force", ("buffers", "rating"), 1.0),
     ),
+    "rail_step": (Limit("phi4", ("declared", "phi4"), 0.1, 9.0),),
 }
 JUDGED = {
     "run": ("CRN157", "CRN160", "CRN161", "CRN162", "CRN163", "CRN164"),
@@ -57,6 +69,7 @@ JUDGED = {
     "storm": ("CRN157", "CRN175"),
     "skew": ("CRN174",),
     "collision": ("CRN170", "CRN171", "CRN172"),
+    "rail_step": ("CRN173", "CRN183"),
 }
 
 
@@ -73,7 +86,7 @@ def trials_of(index: int) -> dict[str, Trial]:
             else Estimate.within(value, max(known, COARSE.get(name, 0.0)) * abs(value))
             for name, value in getattr(witness, scene.type)(asked).items()
         }
-        claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type])}
+        claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type], WAYS[scene.type].always)}
         found[scene.type] = tried(index, rng, KIND, spec, scene, claims, truth, LIMITS[scene.type])
     return found
 

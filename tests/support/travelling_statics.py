@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq, fsolve
+from scipy.optimize import brentq, fsolve, minimize_scalar
 
 from support.buffer_ode import Cushion, hit, meeting
 
@@ -116,7 +116,13 @@ def random_crane(rng: np.random.Generator) -> dict[str, Any]:
         },
         "wheels": wheels,
         "rolling": rolling,
-        "rail": {"slope": float(rng.choice([0.0, even(0, 0.01)])), "adhesion": even(0.1, 0.25)},
+        "rail": {
+            "slope": float(rng.choice([0.0, even(0, 0.01)])),
+            "adhesion": even(0.1, 0.25),
+            "step": text(float(rng.choice([0.0, even(0.0002, 0.005)])), "m"),
+            "gap": text(even(0.001, 0.02), "m"),
+            "frequency": text(even(3, 15), "Hz"),
+        },
         "guide": {
             "type": str(rng.choice(["flanges", "rollers"])),
             "clearance": text(even(0.004, 0.03), "m"),
@@ -150,7 +156,7 @@ def random_crane(rng: np.random.Generator) -> dict[str, Any]:
             "released_share": even(0.2, 1),
             "play": str(rng.choice(["small", "large"])),
         },
-        "declared": {f"phi{k}": even(1.0, 2.5) for k in (1, 2, 5, 6, 7)},
+        "declared": {f"phi{k}": even(1.0, 2.5) for k in (1, 2, 4, 5, 6, 7)},
         "duty": duty,
         "checks": {"collision_speed": "100 m/s"},
         "scenes": [
@@ -159,6 +165,7 @@ def random_crane(rng: np.random.Generator) -> dict[str, Any]:
             {"type": "storm"},
             {"type": "skew"},
             _collision(rng),
+            {"type": "rail_step", "speed_share": even(0.5, 1)},
         ],
     }
 
@@ -513,3 +520,40 @@ class Statics:
             "buffer_deceleration": (found.force - push) / mass,
             "phi7": 1.25 + 0.7 * max(share - 0.5, 0.0),
         }
+
+    # -- rail ------------------------------------------------------------------------------------------------
+
+    def rail_step(self, scene: dict[str, Any]) -> dict[str, float]:
+        """A mass on a spring whose foot goes up a step, or into a gap and out again, along cosines (EN 13001-2)."""
+        rail, speed = self.data["rail"], scene["speed_share"] * self.speed
+        step, gap = number(rail["step"]), number(rail["gap"])
+        ways = []
+        if step:  # half a wave over the way in which a wheel climbs it
+            ways.append((step / 2, math.pi * speed / math.sqrt(2 * self.radius * step), math.pi))
+        if gap:  # a whole wave as deep as a wheel sinks between its edges
+            ways.append((-(gap**2) / 16 / self.radius, 2 * math.pi * speed / gap, 2 * math.pi))
+        omega = 2 * math.pi * number(rail["frequency"])
+        ends = [_pushed(height, drive, phase, omega) for height, drive, phase in ways]
+        return {"phi4": 1 + max(high for _, high in ends) / G, "rail_contact": 1 + min(low for low, _ in ends) / G}
+
+
+def _pushed(height: float, drive: float, phase: float, omega: float) -> tuple[float, float]:
+    """Least and largest acceleration of a mass on a spring whose foot moves by A (1 - cos W t) up to a phase [m/s^2]."""
+    share = height / (omega**2 - drive**2)
+
+    def acceleration(time: float) -> float:
+        return omega**2 * drive**2 * share * (math.cos(drive * time) - math.cos(omega * time))
+
+    until = phase / drive
+    ends = [acceleration(until)]
+    times = np.linspace(0, until, max(200, round(40 * omega * until)))
+    for sign in (1, -1):
+        values = [sign * acceleration(one) for one in times.tolist()]
+        at = min(max(int(np.argmax(values)), 1), len(times) - 2)
+        near = (float(times[at - 1]), float(times[at + 1]))
+        found = minimize_scalar(lambda one, sign=sign: -sign * acceleration(one), bounds=near, options={"xatol": 1e-13})
+        ends.append(acceleration(float(found.x)))
+    # then it swings on by itself: x'' = -omega^2 (x - y), and its rate -omega^2 x'
+    rate = omega**2 * drive**2 * share * (omega * math.sin(omega * until) - drive * math.sin(drive * until))
+    rest = math.hypot(acceleration(until), rate / omega)
+    return min(*ends, -rest), max(*ends, rest)
