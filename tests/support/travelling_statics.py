@@ -538,7 +538,7 @@ class Statics:
 
 
 def _pushed(height: float, drive: float, phase: float, omega: float) -> tuple[float, float]:
-    """Least and largest acceleration of a mass on a spring whose foot moves by A (1 - cos W t) up to a phase [m/s^2]."""
+    """Least and largest acceleration of a mass on a spring whose foot moves by A (1 - cos W t), to a phase [m/s^2]."""
     share = height / (omega**2 - drive**2)
 
     def acceleration(time: float) -> float:
