@@ -24,8 +24,8 @@ ahead. The head comes to rest within twice the time the rigid body still needs a
 
 **Range** one slope, one drive, all brakes at the head, no take-up weight, friction that does not go with the speed, a
 softening by sag below 5 %.
-**Error** derived, but for the last moments of the head, which are calibrated: finite elements of the coverage tests
-came to two thirds of them.
+**Error** derived, but for the last moments of the head, which are calibrated: finite elements of 24 seeded machines
+came to a sixth of them, of 200 others in no case to their end.
 **Source** `laws.loop_bounds`; d'Alembert; H. Brezis, Operateurs maximaux monotones (1973): the speed of a semigroup of
 contractions never grows.
 """
