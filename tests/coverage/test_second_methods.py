@@ -95,8 +95,8 @@ CHAINS = {
 
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_polygon_effect_is_that_of_finite_elements(name: str) -> None:
-    """Of every far end and damping, with all that a chain can be moved by; a mesh of 120 elements comes to some 1e-3, at
-    the jump of an engagement to 1e-2."""
+    """Of every far end and damping, with all that a chain can be moved by; a mesh of 120 elements comes to some 1e-3,
+    at the jump of an engagement to 1e-2."""
     spec = chain_of(CHAINS[name])
     (scene,) = spec.all_scenes
     carried = frozenset({POLYGON, FAR, WEAK})
