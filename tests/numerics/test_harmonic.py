@@ -327,6 +327,8 @@ class TestWithoutDamping:
         assert float(peaks.smallest) == -math.inf
         assert float(peaks.bound) == math.inf
         assert (float(peaks.largest_low), float(peaks.largest_high)) == (math.inf, math.inf)
+        assert (float(peaks.smallest_low), float(peaks.smallest_high)) == (-math.inf, -math.inf)
+        assert (float(peaks.largest_place), float(peaks.smallest_place)) == (0.0, 0.0)
         if ratio == 1.0:
             assert dynamic_stiffness(chain, w) == math.inf
 

@@ -23,6 +23,7 @@ CHAINS = [
     Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0),
     Chain((WORKING, EMPTY), LOSSLESS, joint_mass=900.0, far_mass=1500.0),
     Chain((WORKING, EMPTY), LOSSLESS, far="on_sprocket", joint_mass=900.0),
+    Chain((WORKING, EMPTY), LOSSLESS, far="held", joint_mass=900.0),
 ]
 
 
@@ -74,6 +75,52 @@ def test_one_harmonic_is_that_of_finite_elements(case: int, law: str) -> None:
         for one, size in zip(found, expected, strict=True):
             assert float(one.largest[0]) == pytest.approx(size, rel=5e-4)
             assert float(one.smallest[0]) == pytest.approx(-size, rel=5e-4)
+
+
+def at_drive(chain: Chain, w: float, near: complex, far: complex, pieces: int) -> np.ndarray:
+    """The same where the sprocket gives way: what its run, or both, pull with moves it, and it moves them."""
+    strands = [chain_fem.Strand(line.length, line.line_mass, line.stiffness) for line in chain.lines]
+    k, count = modulus(chain.damping, w), 2 * pieces + 1
+    whole = np.zeros((count, count), complex)
+    for first, one in zip((0, pieces), strands, strict=True):
+        mass, stiff = chain_fem.matrices(chain_fem.Chain((one,)), pieces, lumped=False)
+        whole[first : first + pieces + 1, first : first + pieces + 1] += stiff * k - w**2 * mass
+    whole[pieces, pieces] -= w**2 * chain.joint_mass
+    whole[-1, -1] -= w**2 * (chain.far_mass if chain.far == "free" else 0.0)
+    ends = [0] if chain.far == "free" else [0, count - 1]
+
+    def pulled(on: complex, off: complex) -> complex:
+        load, u = np.zeros(count, complex), np.zeros(count, complex)
+        u[0] = on
+        if chain.far == "free":
+            load[-1] = -(w**2) * chain.far_mass * off
+        else:
+            u[-1] = off
+        inner = np.setdiff1d(np.arange(count), ends)
+        u[inner] = solve(whole[np.ix_(inner, inner)], (load - whole @ u)[inner])
+        return complex((whole[ends if chain.far == "on_sprocket" else [0]] @ u).sum())
+
+    both = 1.0 if chain.far == "on_sprocket" else 0.0
+    gives = pulled(near, far) / (chain.drive_mass * w**2 - pulled(1.0, both))
+    return at_joint(chain, w, near + gives, far + both * gives, pieces)
+
+
+@pytest.mark.parametrize("law", DAMPINGS)
+@pytest.mark.parametrize("drive", [math.inf, 6e3])
+@pytest.mark.parametrize("case", range(len(CHAINS)))
+def test_each_harmonic_is_that_of_finite_elements_with_its_phase(case: int, drive: float, law: str) -> None:
+    """The run-on and the far end move at unlike places of the pitch, which turns harmonic n by 2 pi n times that."""
+    chain = replace(CHAINS[case], damping=DAMPINGS[law], drive_mass=drive)
+    moved = chain.far != "free" or chain.far_mass > 0
+    own, other, place, speed = (0.7, -0.3, 0.2), (0.4, 0.5, -0.6), 0.3, 21.0
+    near, far = Excitation(np.array(own), place=0.1), Excitation(np.array(other), place=place)
+    found = joint_forces(chain, np.array([speed]), near, far if moved else None)[:2]
+    for n in (1, 2, 3):
+        w = n * speed
+        u = [-b / w**2 * np.exp(-2j * np.pi * n * at) for b, at in ((own[n - 1], 0.1), (other[n - 1], place))]
+        coarse, fine = (at_drive(chain, w, u[0], u[1] if moved else 0j, pieces) for pieces in (40, 80))
+        for one, value in zip(found, (4 * fine - coarse) / 3, strict=True):
+            assert abs(one[0, n - 1] - value) <= 5e-4 * abs(value)
 
 
 def test_a_drive_that_gives_way_moves_less() -> None:
