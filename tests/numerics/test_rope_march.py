@@ -709,3 +709,20 @@ def test_a_panel_whose_series_has_not_faded_is_too_long_unless_it_is_very_short(
     march.history.clear()
     march.history.append((-ROD.transit, h, values))
     assert (march._panel(Played([], [], mode, 0.0, y, 0.0), h)[0] is not None) is taken
+
+
+def test_a_panel_begins_wherever_something_changes_after_the_limiter_has_tripped() -> None:
+    """The drive is off 0.03 s after it and a brake comes 0.05 s after it: until then the drive puts in what it did."""
+    late = Tripped(NONE, Course((0.0, 0.05), (0.0, 6 * Q), (0.0, 0.0)))
+    gate = Tripped(Course(values=(1.0,)), Course((0.0, 0.03), (1.0, 0.0), (0.0, 0.0)))
+    stages = (Stage(Lines(np.zeros(1), np.array([3 * Q]))),)
+    haul = machine(stages=stages, gate=gate, motor_brake=late, drum_brake=Tripped(), level=1.2 * Q)
+    found = March(haul, HAULED).play(0.4)
+    trip = found.mode.trip
+    assert 0 < trip < 0.3
+    starts = [panel.start for panel in found.panels]
+    for after in (0.03, 0.05):
+        assert min(abs(start - (trip + after)) for start in starts) < 1e-12
+    for panel in found.panels:
+        force = 3 * Q if panel.start < trip + 0.03 - 1e-9 else 0.0
+        assert panel.power[:, 0] + Q * panel.states[:, V] == pytest.approx(force * panel.states[:, W], abs=1e-9 * Q)
