@@ -125,7 +125,6 @@ class TestAgainstOthers:
         assert swing.at("speed", t) == pytest.approx(a * (t + ratio / omega * np.sin(omega * t)), rel=1e-11, abs=1e-14)
         assert swing.smallest("acceleration").value == pytest.approx(a * (1 - ratio), rel=1e-11)
 
-
     @pytest.mark.parametrize("ratio", [0.0, 0.3, 4.0])
     def test_amplitude_is_how_far_it_swings_from_then_on(self, ratio: float) -> None:
         """Let go beside the plumb line with a rate, on a trolley that rolls as it likes."""
