@@ -327,6 +327,8 @@ class TestWithoutDamping:
         assert float(peaks.smallest) == -math.inf
         assert float(peaks.bound) == math.inf
         assert (float(peaks.largest_low), float(peaks.largest_high)) == (math.inf, math.inf)
+        assert (float(peaks.smallest_low), float(peaks.smallest_high)) == (-math.inf, -math.inf)
+        assert (float(peaks.largest_place), float(peaks.smallest_place)) == (0.0, 0.0)
         if ratio == 1.0:
             assert dynamic_stiffness(chain, w) == math.inf
 
@@ -426,3 +428,16 @@ class TestExtremes:
                 polygon_response(CHAINS[0], 1.0, push, far, at_far_end=at_far_end)
         with pytest.raises(ValueError, match="the same number of harmonics"):
             polygon_response(CHAINS[5], 1.0, push, Excitation(np.ones(3)))
+
+
+def test_what_is_not_told_of_a_chain_is_not_there() -> None:
+    w = np.array([0.3, 70.0])
+    for law in DAMPINGS:
+        assert Damping(law).modulus(w).tolist() == [1.0, 1.0]
+    assert Damping("kelvin_voigt", share=0.04).modulus(w).tolist() == [1.0, 1.0]
+    assert Damping("zener", share=0.04).modulus(w).tolist() == [1.0, 1.0]
+    assert Damping("zener", time=2e-3).modulus(w).tolist() == [1.0, 1.0]
+    bare = Chain((WORKING, EMPTY), DAMPINGS["hysteretic"])
+    told = Chain((WORKING, EMPTY), DAMPINGS["hysteretic"], "free", 0.0, 0.0, math.inf)
+    assert bare == told
+    assert Excitation(np.ones(2)).place == 0.0

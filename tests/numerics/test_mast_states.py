@@ -154,6 +154,21 @@ def test_a_blow_takes_the_speed_of_the_point_and_the_energy_that_goes_with_it(pa
     assert gone > 0 or path
 
 
+def test_a_blow_is_a_point_at_the_obstacle_that_moves_into_it() -> None:
+    """To rounding of the sizes of way and speed; of the point, which goes with base and modes."""
+    system, z, row = blow(False)
+    n = system.count
+    way, speed = 1e-12 * system.scale[:2]
+    for off, fast, meets in (
+        (0.0, 0.3, True), (0.02, 0.3, True), (-0.02, 0.3, False), (0.0, -0.3, False),
+        (-0.9 * way, 0.3, True), (-1.1 * way, 0.3, False), (0.01, 1.1 * speed, True), (0.01, 0.9 * speed, False),
+    ):  # fmt: skip
+        z[2 : 2 + n] *= -1.0  # unlike swings
+        z[0] = 0.05 + off - row[1:] @ z[2 : 2 + n]
+        z[1] = fast - row[1:] @ z[2 + n : 2 + 2 * n]
+        assert system._meets(z) is meets, (off, fast)
+
+
 def test_a_point_that_has_stood_still_is_where_it_was() -> None:
     """Whatever rounding did to it, at the obstacle and at rest, by the least change of the modes."""
     system, z, row = blow(False)

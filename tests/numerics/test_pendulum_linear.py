@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import jv, yv
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.pendulum.linear import LinearCase, LinearSwing, linear_swing
+from ptmcalc.numerics.pendulum.linear import LinearCase, LinearSwing, _series, linear_swing
 from ptmcalc.numerics.pendulum.pieces import Pieces, braking
 
 G = 9.81
@@ -124,6 +124,42 @@ class TestAgainstOthers:
         assert swing.at("angle", t) == pytest.approx(-a / G * (1 - np.cos(omega * t)), rel=1e-11, abs=1e-14)
         assert swing.at("speed", t) == pytest.approx(a * (t + ratio / omega * np.sin(omega * t)), rel=1e-11, abs=1e-14)
         assert swing.smallest("acceleration").value == pytest.approx(a * (1 - ratio), rel=1e-11)
+
+    @pytest.mark.parametrize("ratio", [0.0, 0.3, 4.0])
+    def test_amplitude_is_how_far_it_swings_from_then_on(self, ratio: float) -> None:
+        """Let go beside the plumb line with a rate, on a trolley that rolls as it likes."""
+        case = LinearCase(G, Pieces.constant(3.0), Pieces.constant(0.0), ratio, 0.07, -0.2)
+        swing = linear_swing(case, 20.0)
+        most = math.hypot(0.07, 0.2 / math.sqrt(G * (1 + ratio) / 3.0))
+        assert swing.amplitude(np.array([0.0, 1.3, 17.0])) == pytest.approx([most] * 3, rel=1e-11)
+        assert swing.largest("angle").value == pytest.approx(most, rel=1e-11)
+
+
+def test_the_bar_goes_down_with_the_swing() -> None:
+    """Nothing in a linear motion has a size of its own, on a rope that changes or one that stays."""
+    rope = Pieces.through(((0.0, 9.0), (4.0, 7.0), (20.0, 7.0)))
+    bars = [linear_swing(LinearCase(G, rope, Pieces.constant(0.3 * one), 0.2, 0.1 * one), 20.0) for one in (1.0, 1e-6)]
+    for time in (1.0, 5.0, 20.0):
+        assert bars[1].bar(time) == pytest.approx(1e-6 * bars[0].bar(time), rel=1e-9)
+
+
+@pytest.mark.parametrize("speed", [-1.5, 0.0, 0.4, 1.5])
+@pytest.mark.parametrize("stiff", [0.2, 9.81, 40.0])
+def test_what_a_series_cuts_off_is_a_geometric_row_above_all_that_follows(speed: float, stiff: float) -> None:
+    """The row of the module's docstring, added up one by one; its terms go on by the equation of motion."""
+    length, h = 6.0, 1.0
+    row, missed = _series(0.3, -0.2, h, (length, speed), stiff, (0.5, 0.1))
+    n = len(row)
+    q, kappa = abs(speed) * h / length, stiff * h**2 / (length * n * (n - 1))
+    r = (q + math.sqrt(q**2 + 4 * kappa)) / 2
+    j = np.arange(1, 200)
+    last = max(abs(row[-1]), r * abs(row[-2]))
+    assert missed == pytest.approx(last * float(((n - 1 + j) * r**j).sum()), rel=1e-12)
+    c = row.tolist()
+    for k in range(n - 2, n + 40):
+        c.append(-(speed * h / length * (k + 1) * k * c[k + 1] + stiff * h**2 / length * c[k]) / ((k + 2) * (k + 1)))
+    beyond = np.abs(c[n:])
+    assert float(beyond @ np.arange(n, n + len(beyond))) <= missed
 
 
 class TestParts:

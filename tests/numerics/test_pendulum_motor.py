@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from ptmcalc.numerics.collocation import radau
+from ptmcalc.numerics.pendulum.equations import HIGH, KEEP, LOW, SPEED, Mode
 from ptmcalc.numerics.pendulum.march import March
-from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Load, Push, Rail, Straight
+from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Load, Push, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
@@ -113,3 +114,53 @@ def test_a_force_that_comes_within_the_first_second_is_not_there_before() -> Non
 def test_a_jump_is_more_than_the_rounding_of_large_terms(after: float, jumps: bool) -> None:
     """t^3 - 100 t^2 comes to 0 at 100, of terms of a million each."""
     assert Pieces((0.0, 100.0), ((0.0, 0.0, -100.0, 1.0), (after,))).jumps == jumps
+
+
+# -- the mode that holds from a time on -------------------------------------------------------------------------------
+
+
+def march_of(axis: Axis) -> tuple[March, np.ndarray]:
+    march = March(Case(G, Rail(), axis, FEATHER), 2.0, 1e-10, radau(9), 1000)
+    return march, march._start()
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("faster", [True, False])
+def test_power_of_a_kept_speed_flows_through_the_gear_as_it_speeds_up_or_slows_down(
+    size: float, way: int, faster: bool
+) -> None:
+    kept = Pieces.through(((0.0, way * 1.0), (2.0, way * (1.4 if faster else 0.3))))
+    march, state = march_of(Axis(MASS * size, Follow(kept), gear=Gear(0.1 * size, 0.9, 0.8), speed=way * 1.0))
+    mode, _ = march._choose(0.0, state, None, {})
+    assert (mode.drive, mode.side, mode.forward) == (KEEP, way, faster)
+
+
+@pytest.mark.parametrize(("force", "piece"), [(5.0, 1), (-5.0, 0)])
+def test_a_motor_at_rest_on_a_knot_is_on_the_piece_it_moves_into(force: float, piece: int) -> None:
+    """Without a step of no length through the other one."""
+    law = Straight((-1.0, 0.0, 1.0), (force,) * 3)
+    march, state = march_of(Axis(MASS, Push(law), friction=1.0))
+    mode, _ = march._choose(0.0, state, None, {})
+    assert (mode.side, mode.piece) == (math.copysign(1, force), piece)
+
+
+def test_a_drive_at_its_limit_meets_the_speed_it_is_to_keep_from_its_own_side() -> None:
+    kept = Pieces.through(((0.0, 1.0), (2.0, 2.0)))
+    march, state = march_of(Axis(MASS, Follow(kept, limit=1.0), speed=0.7))
+    for drive, sign in ((HIGH, 1), (LOW, -1)):
+        leg = march._leg(Mode(drive, -1, 1, True, ()), 0.0)
+        names, values = march.guards.values(leg, np.array([0.4]), state[:, None])
+        assert values[names.index("met"), 0] == pytest.approx(sign * (1.2 - state[SPEED]), rel=1e-12)
+
+
+@pytest.mark.parametrize(("share", "ends"), [(1.0, True), (0.95, True), (0.3, False)])
+def test_newtons_method_that_creeps_is_not_at_its_end(share: float, ends: bool) -> None:
+    """A correction of only so much of what is missing leaves 1 - share of it each time: 0.7^14 is no solution, though
+    each change is nearly as large as the one before."""
+    march, state = march_of(Axis(MASS, None, speed=0.7))
+    state[2:5] = np.sin(1.0), 0.0, -np.cos(1.0)
+    leg, stepper = march._leg(march._choose(0.0, state, None, {})[0], 0.0), march.stepper
+    whole = stepper._inverse
+    stepper._inverse = lambda *given: share * whole(*given)  # type: ignore[method-assign]
+    assert (stepper._solve(leg, 0.0, state, 0.2)[0] is not None) is ends

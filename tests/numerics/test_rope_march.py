@@ -671,3 +671,58 @@ def test_a_hundredth_of_the_rope_is_the_last_that_is_followed(left: float, runs_
     else:
         march._runs_out(done)
     March(machine(), ROD)._runs_out(done)
+
+
+@pytest.mark.parametrize(("share", "taken"), [(0.01, True), (0.9, True), (1.1, False), (30.0, False)])
+def test_what_rounds_to_and_fro_has_converged_and_what_strays_more_has_not(share: float, taken: bool) -> None:
+    """A force that is another in every round, by what changes the speed by so much of 1e-13 of the largest one."""
+    rounds, by = 0, 0.0
+
+    def force(w: np.ndarray) -> np.ndarray:
+        nonlocal rounds
+        rounds += 1
+        return np.full(w.shape, Q + by * (-1) ** rounds)
+
+    bare = {"motor_brake": Tripped(), "drum_brake": Tripped(), "gate": Tripped(Course(values=(1.0,)))}
+    march = March(machine(stages=(Stage(Smooth(force)),), gear=(1.0, 1.0), **bare), HAULED)
+    mode, y = march.begin()
+    mode = mode._replace(turn=1, power=1)
+    h = march.longest / 4
+    panel, _ = march._panel(Played([], [], mode, 0.0, y, 0.0), h)
+    assert panel is not None
+    by = share * 1e-13 * float(np.abs(panel.states[:, [W, V]]).max()) * (MOTOR + DRUM) / (2 * h)
+    assert (march._panel(Played([], [], mode, 0.0, y, 0.0), h)[0] is not None) is taken
+
+
+@pytest.mark.parametrize(("share", "length", "taken"), [(0.8, 1, True), (1.25, 1, False), (1e3, 1.1e-3, False),
+                                                        (1e3, 0.9e-3, True)])  # fmt: skip
+def test_a_panel_whose_series_has_not_faded_is_too_long_unless_it_is_very_short(
+    share: float, length: float, taken: bool
+) -> None:
+    """A wave with a last coefficient of so much of 1e-12: M v' = 2 f - Z v - Q."""
+    march = March(machine(motor_brake=Tripped(), drum_brake=Tripped()), ROD)
+    mode, y = march.begin()
+    h = length * march.longest
+    size = max(0.2, h * G)  # of the speeds
+    values = np.tile(march.history[0][2][0], (rule.COUNT, 1))
+    values[:, 0] += share * 1e-12 * size / h * M / 2 * np.cos(13 * np.arccos(np.clip(2 * rule.NODES - 1, -1, 1)))
+    march.history.clear()
+    march.history.append((-ROD.transit, h, values))
+    assert (march._panel(Played([], [], mode, 0.0, y, 0.0), h)[0] is not None) is taken
+
+
+def test_a_panel_begins_wherever_something_changes_after_the_limiter_has_tripped() -> None:
+    """The drive is off 0.03 s after it and a brake comes 0.05 s after it: until then the drive puts in what it did."""
+    late = Tripped(NONE, Course((0.0, 0.05), (0.0, 6 * Q), (0.0, 0.0)))
+    gate = Tripped(Course(values=(1.0,)), Course((0.0, 0.03), (1.0, 0.0), (0.0, 0.0)))
+    stages = (Stage(Lines(np.zeros(1), np.array([3 * Q]))),)
+    haul = machine(stages=stages, gate=gate, motor_brake=late, drum_brake=Tripped(), level=1.2 * Q)
+    found = March(haul, HAULED).play(0.4)
+    trip = found.mode.trip
+    assert 0 < trip < 0.3
+    starts = [panel.start for panel in found.panels]
+    for after in (0.03, 0.05):
+        assert min(abs(start - (trip + after)) for start in starts) < 1e-12
+    for panel in found.panels:
+        force = 3 * Q if panel.start < trip + 0.03 - 1e-9 else 0.0
+        assert panel.power[:, 0] + Q * panel.states[:, V] == pytest.approx(force * panel.states[:, W], abs=1e-9 * Q)

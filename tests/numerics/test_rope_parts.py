@@ -66,6 +66,9 @@ class TestPanel:
         line = 0.3 + 1e-4 * seed - rule.NODES
         assert rule.root(line, 0.1, 1.0) == pytest.approx(0.3 + 1e-4 * seed, abs=2e-15)
         assert rule.root(line, 0.6, 1.0) == 0.6, "below 0 already"
+        for exact in (1e-3, 3e-3, 0.02):  # digits of the place itself, not of the panel
+            bent = (exact - rule.NODES) * (1 + (3 + seed) * rule.NODES) * np.exp(rule.NODES)
+            assert rule.root(bent, 0.0, 1 / 56) == pytest.approx(min(exact, 1 / 56), rel=1e-12, abs=3e-16)
         steep = 1e9 * (0.7 - rule.NODES)
         assert rule.root(steep, 0.0, 1.0) == pytest.approx(0.7, abs=1e-15)
 

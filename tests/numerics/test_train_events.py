@@ -257,6 +257,18 @@ class TestClutches:
         assert found.last("speed", 1) == pytest.approx(way * (loose**2 / 4 + 6.0 / 3.0), rel=1e-12)
         assert found.last("speed", 0) == pytest.approx(way * (loose**2 / 4 + 2.0 * loose + 1.0 - 6.0), rel=1e-12)
 
+    @pytest.mark.parametrize("of", [2.0**-40, 1.0, 2.0**40])
+    def test_slip_until_their_sides_turn_alike_however_slowly_or_fast_they_do(self, of: float) -> None:
+        """From 3 and 0 rad/s under 2 N m, 9/8 s; both in any unit."""
+        train = Train(
+            (Body("a", 1.0, 0.0, 3.0 * of), Body("b", 3.0)), grips=(Grip("clutch", 0, 1, Signal.constant(2.0 * of)),)
+        )
+        found = run(train, 2.0)
+        assert found.events("clutch") == [(pytest.approx(9 / 8, rel=1e-12), "slips forward", "locked")]
+        assert [found.last("speed", k) for k in (0, 1)] == pytest.approx([0.75 * of] * 2, rel=1e-12)
+        assert found.ledger.lost["clutch"] == pytest.approx(0.75 * 9 / 2 * of**2, rel=1e-12)
+        assert found.ledger.stored == pytest.approx(-0.75 * 9 / 2 * of**2, rel=1e-12)
+
     @pytest.mark.parametrize("way", [1, -1])
     def test_lock_where_their_sides_turn_alike(self, way: int) -> None:
         """Behind gears of 3 and -7: speeds in the ratio of both, to the last digit, for as long as nothing slips."""

@@ -5,7 +5,7 @@ With C = X cos(theta) and S = X sin(theta) of a strand, scaled as in `waves`, an
     working strand at the joint   F_1 = z_1 (X_1 u_on - C_1 u_j)/S_1
     return strand at the joint    F_2 = F_1 + m w^2 u_j
     its far end free, mass M      F_2 = z_2 (X_2 M w^2 u_far - (z_2 S_2 + M w^2 C_2) u_j)/(z_2 C_2 - M w^2 S_2)
-    its far end on the sprocket   F_2 = z_2 (C_2 u_j - X_2 u_off)/S_2
+    its far end held, or on the sprocket   F_2 = z_2 (C_2 u_j - X_2 u_far)/S_2
 
 Behind the last harmonic no wave in the strands has a larger force than z (2/(1 - q))^2 X_1 |u|, q the most that comes
 back of a wave from the other end of a strand.
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.numerics.harmonic.parts import FREE, Chain, Excitation
+from ptmcalc.numerics.harmonic.parts import FREE, ON_SPROCKET, Chain, Excitation
 from ptmcalc.numerics.harmonic.waves import EPS, RESONANT, Waves, ratios_of
 
 FloatArray = NDArray[np.float64]
@@ -44,7 +44,7 @@ def joint_response(
         F(x) = sum_n Im(F_n exp(2 pi i n x))
 
     Args:
-        chain: two strands, far end free or on the sprocket.
+        chain: two strands.
         frequency: w, of the teeth, shape (speeds,) [rad/s].
         near: acceleration of the run-on.
         far: acceleration of the far end; none where not given.
@@ -80,11 +80,11 @@ def joint_forces(
     lost = np.any(ratios.sound <= RESONANT, axis=-1)
     below = np.where(ratios.sound <= RESONANT, 1.0, ratios.below)
     pull = (ratios.near[0] * u_on + ratios.near[1] * u_far) / below
-    if chain.far != FREE:  # both runs of the sprocket pull at the drive
+    rides = chain.far == ON_SPROCKET
+    if rides:  # both runs of the sprocket pull at the drive, and both go with it
         pull = pull - (ratios.far[0] * u_on + ratios.far[1] * u_far) / below
     given = pull / (chain.drive_mass * w**2)
-    off = u_far if chain.far == FREE else u_far + given  # what hangs at a free end does not stand on the drive
-    first, second = _forces(chain, w, u_on + given, off)
+    first, second = _forces(chain, w, u_on + given, u_far + given if rides else u_far)
     rest = _rest(chain, w[:, -1], np.abs(near.harmonics[..., -1]), count, speeds)
     if far is not None:
         rest = rest + _rest(chain, w[:, -1], np.abs(far.harmonics[..., -1]), count, speeds)

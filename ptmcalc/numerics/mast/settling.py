@@ -105,8 +105,6 @@ def _last(ring: Ring, window: float, lean: float) -> tuple[float, float]:
     end = _inside(ring, room)
     if end is None:
         return (0.0 if _stays_near(ring, room) else math.inf), math.inf
-    if end == 0.0:
-        return 0.0, 0.0
     top, bottom = window - lean, window + lean
     waiting, low, high = [(0.0, end)], 0.0, 0.0
     finest = max(_FINEST * end, 1e-300)

@@ -370,7 +370,7 @@ class _Rows:
         if self.system.damped:
             forces[0] += self.dash @ z
         own = float((forces[pressed] ** 2 / self.stiffness[pressed]).sum())
-        return (own + float(forces @ self.left @ forces)) / 2 if len(forces) else 0.0
+        return (own + float(forces @ self.left @ forces)) / 2
 
     # -- accelerations -------------------------------------------------------------------------------------------------
 
@@ -417,7 +417,8 @@ class _Rows:
             return
         for j in range(len(grips)):
             if j != self.held:
-                self.grip[j] = self._signal(1 + j) * (1.0 if j >= (code + 1) // 2 else -1.0)
+                capacity = self._signal(1 + j)
+                self.grip[j] = capacity if j >= (code + 1) // 2 else -capacity
                 self.pushed = self.pushed + self.grip[j]
 
     def rate(self) -> FloatArray:

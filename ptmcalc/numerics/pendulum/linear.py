@@ -326,7 +326,7 @@ def _series(
     q = abs(shrink)
     ratio = (q + math.sqrt(q * q + 4 * small)) / 2
     last = max(abs(c[-1]), ratio * abs(c[-2]))
-    return np.array(c), last * ratio * (_TERMS + 1) / (1 - ratio) ** 2
+    return np.array(c), last * ratio * (_TERMS - (_TERMS - 1) * ratio) / (1 - ratio) ** 2
 
 
 def _polynomial(row: FloatArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:

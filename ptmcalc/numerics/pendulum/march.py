@@ -226,11 +226,10 @@ class March:
             if state[SPEED] == axis.drive.law.knots[piece] and (slows or (side < 0 and state[SPEED] == 0)):
                 piece -= 1
         mode = Mode(drive, piece, side, True, contacts)
-        gear = axis.gear
-        if side and (gear.forward != 1 or gear.reverse != 1):
+        leg = self._leg(mode, time)
+        if side and leg.lossy:
             forward = forced.get("forward")
             if forward is None:
-                leg = self._leg(mode, time)
                 forward = float(leg.into_gear(at, z, leg.now(at, z))[0]) * side >= 0
             mode = mode._replace(forward=bool(forward))
         return mode, state

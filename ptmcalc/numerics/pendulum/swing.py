@@ -177,8 +177,8 @@ def swing(case: Case, end: float, *, tolerance: float = TOLERANCE, most_steps: i
     """
     _refuse(case, end)
     runs = [
-        March(case, end, tolerance * coarser, radau(order), most_steps).go()
-        for coarser, order in ((1.0, _FINE), (_COARSER, _COARSE))
+        March(case, end, kept, radau(order), most_steps).go()
+        for kept, order in ((tolerance, _FINE), (tolerance * _COARSER, _COARSE))
     ]
     fine, coarse = runs
     return Swing(case, min(fine.steps[-1].end, end), fine.events, bool(fine.finished), len(fine.steps), fine, coarse)
