@@ -350,18 +350,22 @@ def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...
     """Belt safety, sag and distance from slack that follow from the extreme tensions; `smallest` of return and
     carry strand [N]."""
     spans = (line.back.span_weight, line.carry.span_weight)
-    loads = {
-        "slack_margin_min": min(
-            low - (sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0)
-            for span, low in zip(spans, smallest, strict=True)
-        )
-    }
+    loads = {"slack_margin_min": min(low - limit for limit, low in zip(slack_limits(line), smallest, strict=True))}
     if line.breaking_force is not None:
         loads["belt_safety_min"] = line.breaking_force / tension_max if tension_max > 0 else np.inf
     sags = [value(sag.sag_ratio, span, low) for span, low in zip(spans, smallest, strict=True) if span is not None]
     if len(sags) == len(spans):
         loads["sag_relative_max"] = max(sags)
     return loads
+
+
+def slack_limits(line: BeltLine) -> tuple[float, float]:
+    """Tension below which the return and the carry strand are slack [N]; 0 where the idlers' pitch is not given."""
+    back, carry = (
+        sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0
+        for span in (line.back.span_weight, line.carry.span_weight)
+    )
+    return back, carry
 
 
 def even_loads(line: BeltLine) -> dict[str, float]:
@@ -435,14 +439,10 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
         needed = loads["starting_force_needed"].value
         ends = [drive_loads(case, needed + part)["starting_reserve"] for part in (2 * change, -2 * change)]
         moved["starting_force_needed"] = Interval(-2 * change, 2 * change)
-        moved["starting_reserve"] = _around(loads["starting_reserve"].value, ends)
-    if "belt_safety_min" in loads and line.breaking_force is not None:
-        tension = line.breaking_force / loads["belt_safety_min"].value
-        ends = [line.breaking_force / (tension + change)]
-        ends.append(line.breaking_force / (tension - change) if tension > change else np.inf)
-        moved["belt_safety_min"] = _around(loads["belt_safety_min"].value, ends)
+        moved["starting_reserve"] = around(loads["starting_reserve"].value, ends)
+    moved |= moved_safety(line, loads, change)
     if "sag_relative_max" in loads:
-        moved["sag_relative_max"] = _moved_sag(line, loads, change)
+        moved["sag_relative_max"] = moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
         moved |= _spread_slip(line, loads, change)
         used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
@@ -501,15 +501,13 @@ def moved(
         elif kind == "tension_run_off_min":
             found[name] = Interval(-change, change) if fixed or ("[" in name and several) else NOTHING
         elif kind == "belt_safety_min" and line.breaking_force is not None:
-            tension = line.breaking_force / value
-            weakest = line.breaking_force / (tension - change) if tension > change else np.inf
-            found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
+            found |= moved_safety(line, loads, change)
         elif kind in GRIP:
             found[name] = _moved_grip(line, name, estimate, change, slack, lowest, grips)
         elif kind == "sag_relative_max":
-            found[name] = _moved_sag(line, loads, change)
+            found[name] = moved_sag(line, loads, change)
         elif kind in DRIVE and asked:
-            found[name] = _moved_drive(loads, 2 * asked * change)[kind]
+            found[name] = moved_drive(loads, 2 * asked * change)[kind]
         elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
@@ -542,20 +540,32 @@ def _moved_grip(
             max(ratio * grip - change * squeeze, 0.0) / (grip + change),
         )
         ends += [capstan.slip_reserve_ratio(one, exponent) if reserve else one for one in ratios]
-    return _around(load.value, ends)
+    return around(load.value, ends)
 
 
-def _moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+def moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
     """The force an imposed speed asks for, and the reserve of the available one over it."""
     needed, reserve = loads["starting_force_needed"].value, loads["starting_reserve"].value
     if not np.isfinite(reserve):
         return {"starting_force_needed": Interval(-change, change), "starting_reserve": ANYTHING}
     available = reserve * needed
     ends = [available / (needed + change), available / (needed - change) if needed > change else np.inf]
-    return {"starting_force_needed": Interval(-change, change), "starting_reserve": _around(reserve, ends)}
+    return {"starting_force_needed": Interval(-change, change), "starting_reserve": around(reserve, ends)}
 
 
-def _moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
+def moved_safety(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    """The belt safety of a largest tension that is off by `change` [N]; nothing of a belt without a breaking force."""
+    if line.breaking_force is None or "belt_safety_min" not in loads:
+        return {}
+    if not change:
+        return {"belt_safety_min": NOTHING}
+    value = loads["belt_safety_min"].value
+    tension = line.breaking_force / value
+    weakest = line.breaking_force / (tension - change) if tension > change else np.inf
+    return {"belt_safety_min": around(value, [line.breaking_force / (tension + change), weakest])}
+
+
+def moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
     """The largest sag is that of one strand at its lowest tension; the other one has no less tension than it takes for
     as much sag, nor less than the lowest of all."""
     ratio = loads["sag_relative_max"].value
@@ -567,7 +577,7 @@ def _moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> 
             highs.append(float(sag.sag_ratio(span, max(tension, lowest) - change)))
             if tension >= lowest * (1 - _SAME):
                 lows.append(float(sag.sag_ratio(span, tension + change)))
-    return _around(ratio, [max(highs), min(lows, default=0.0)])
+    return around(ratio, [max(highs), min(lows, default=0.0)])
 
 
 def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
@@ -582,15 +592,15 @@ def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -
         return [max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0, high]
 
     used = loads["slip_utilisation_max"].value
-    moved = {"slip_utilisation_max": _around(used, ends(used, slack - line.centrifugal_at_speed))}
+    moved = {"slip_utilisation_max": around(used, ends(used, slack - line.centrifugal_at_speed))}
     if "slip_reserve_min" in loads:
         reserve = loads["slip_reserve_min"].value
         ratios = ends(capstan.slip_ratio(reserve, exponent), slack)
-        moved["slip_reserve_min"] = _around(reserve, [capstan.slip_reserve_ratio(end, exponent) for end in ratios])
+        moved["slip_reserve_min"] = around(reserve, [capstan.slip_reserve_ratio(end, exponent) for end in ratios])
     return moved
 
 
-def _around(value: float, ends: list[float]) -> Interval:
+def around(value: float, ends: list[float]) -> Interval:
     """The offsets of some values from one that lies among them."""
     return Interval(min([_less(end, value) for end in ends] + [0.0]), max([_less(end, value) for end in ends] + [0.0]))
 
