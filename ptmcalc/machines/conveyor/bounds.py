@@ -19,6 +19,7 @@ from ptmcalc.laws import capstan, loop_bounds, sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, lowest_frequency, start_duration
+from ptmcalc.machines.conveyor.moved_grip import moved_grip
 from ptmcalc.numerics.lanes import value
 
 FloatArray = NDArray[np.float64]
@@ -427,9 +428,8 @@ def _less(end: float, value: float) -> float:
 def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
     """How far each load of a run may be off when every tension may be off by `change` [N] at any time.
 
-    The grip follows from U' = (U x + change e)/(x - change), with x the smallest run-off tension less the
-    centrifugal one and e = exp(-mu alpha); the reserve, without the centrifugal one, from the ratio of tensions
-    that it stands for. The only drive's own loads move as those of the belt do.
+    The grip follows from the tensions at the drum (`moved_grip`). The only drive's own loads move as those of the belt
+    do.
     """
     line = case.line
     moved = {name: Interval(-change, change) for name in TENSIONS if name in loads}
@@ -444,7 +444,11 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
     if "sag_relative_max" in loads:
         moved["sag_relative_max"] = moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
-        moved |= _spread_slip(line, loads, change)
+        change_off = change if line.fixed_length else 0.0
+        for name in GRIP:
+            if name in loads:
+                drum = {name: line.grip_exponent}
+                moved[name] = moved_grip(name, loads, line.centrifugal_at_speed, drum, change, change_off)
         used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
         if used >= 1:  # else nothing slips, neither here nor in truth
             moved |= {name: anything(name, load) for name, load in loads.items() if family(name) in SLIPS}
@@ -462,18 +466,11 @@ def moved(
 ) -> dict[str, Interval]:
     """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
 
-    The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from
-
-        U' = (U x + change e)/(x - change),   e = exp(-mu alpha) of the drum's `grips`
-
-    with x the least tension at a drum less the centrifugal one; its reserve, without that one, from the ratio of
-    tensions that it stands for. The run-off is the slack side, or the tight one and the slack side as many times less
-    as the ratio of both says: so x is no less than its least tension over the largest ratio, nor than the least
-    anywhere. Where a drum then still holds, nothing slips. The mean of all that moves follows Newton's law whatever the
-    waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by what a wave of
-    that size makes of its speed:
-
-    An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
+    The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from the tensions at its
+    drum (`moved_grip`), `grips` being mu alpha; where it still holds, nothing slips. An imposed speed asks of the
+    drives at `asked` ends of the belt a force that both tensions there enter. The mean of all that moves follows
+    Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
+    rest by what a wave of that size makes of its speed:
 
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
@@ -483,14 +480,15 @@ def moved(
     least = min(line.impedance(RETURN), line.impedance(CARRY))
     delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
-    slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
-    lowest = min((one.low for name, one in loads.items() if family(name) == "tension_min"), default=-np.inf)
+    change_off = change if fixed or several else 0.0
+
+    def grip(name: str) -> Interval:
+        return moved_grip(name, loads, line.centrifugal_at_speed, grips, change, change_off)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
-        grip = name.replace(family(name), "slip_utilisation_max", 1)
-        used = loads.get(grip)
-        return used is not None and used.high + _moved_grip(line, grip, used, change, slack, lowest, grips).high < 1
+        used = name.replace(family(name), "slip_utilisation_max", 1)
+        return used in loads and loads[used].high + grip(used).high < 1
 
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
@@ -503,7 +501,7 @@ def moved(
         elif kind == "belt_safety_min" and line.breaking_force is not None:
             found |= moved_safety(line, loads, change)
         elif kind in GRIP:
-            found[name] = _moved_grip(line, name, estimate, change, slack, lowest, grips)
+            found[name] = grip(name)
         elif kind == "sag_relative_max":
             found[name] = moved_sag(line, loads, change)
         elif kind in DRIVE and asked:
@@ -515,32 +513,6 @@ def moved(
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
             found[name] = anything(name, estimate)
     return found
-
-
-def _moved_grip(
-    line: BeltLine, name: str, load: Estimate, change: float, slack: float, lowest: float, grips: Mapping[str, float]
-) -> Interval:
-    """How far the grip of a drum, or the least of several, may be off."""
-    reserve = family(name) == "slip_reserve_min"
-    _, _, drum = name.partition("[")
-    exponents = [grips[drum[:-1]]] if drum and drum[:-1] in grips else list(grips.values())
-    if not exponents or not np.isfinite(load.value):
-        return ANYTHING
-    ends = []
-    for exponent in exponents:
-        squeeze = float(np.exp(-exponent))
-        most = capstan.slip_ratio(load.low, exponent) if reserve else load.high
-        lift = 0.0 if reserve else line.centrifugal_at_speed
-        grip = max((slack - lift) / max(most / squeeze, 1.0) if squeeze > 0 else 0.0, min(slack, lowest) - lift)
-        if not grip > change:
-            return ANYTHING
-        ratio = capstan.slip_ratio(load.value, exponent) if reserve else load.value
-        ratios = (
-            (ratio * grip + change * squeeze) / (grip - change),
-            max(ratio * grip - change * squeeze, 0.0) / (grip + change),
-        )
-        ends += [capstan.slip_reserve_ratio(one, exponent) if reserve else one for one in ratios]
-    return around(load.value, ends)
 
 
 def moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
@@ -578,26 +550,6 @@ def moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> I
             if tension >= lowest * (1 - _SAME):
                 lows.append(float(sag.sag_ratio(span, tension + change)))
     return around(ratio, [max(highs), min(lows, default=0.0)])
-
-
-def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
-    exponent = line.grip_exponent
-    assert exponent is not None
-    slack = min(loads[name].value for name in ("tension_run_off_min", "tension_min") if name in loads)
-    off_change = change if line.fixed_length else 0.0
-    squeeze = float(np.exp(-exponent))
-
-    def ends(used: float, grip: float) -> list[float]:
-        high = (used * grip + change * squeeze) / (grip - off_change) if grip > off_change else np.inf
-        return [max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0, high]
-
-    used = loads["slip_utilisation_max"].value
-    moved = {"slip_utilisation_max": around(used, ends(used, slack - line.centrifugal_at_speed))}
-    if "slip_reserve_min" in loads:
-        reserve = loads["slip_reserve_min"].value
-        ratios = ends(capstan.slip_ratio(reserve, exponent), slack)
-        moved["slip_reserve_min"] = around(reserve, [capstan.slip_reserve_ratio(end, exponent) for end in ratios])
-    return moved
 
 
 def around(value: float, ends: list[float]) -> Interval:
