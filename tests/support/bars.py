@@ -44,7 +44,7 @@ KNOWN_WIDE = {
     "belt_damping": 60.0,
     "moving_belt": 50.0,
     "viscous_idlers": 60.0,
-    "network": 600.0,
+    "network": 15.0,
     "stiff_stop": 300.0,
     "energy_step": 20.0,
     "energy_step 1": 20.0,
