@@ -39,11 +39,7 @@ THIRD = 1 / 3
 WIDEST = 10.0
 """The median bar over the true error, of machines whose true error counts."""
 KNOWN_WIDE = {
-    "takeup_mass": 25.0,
-    "coulomb_idlers": 30.0,
-    "belt_damping": 60.0,
-    "moving_belt": 50.0,
-    "viscous_idlers": 60.0,
+    "belt_damping": 20.0,
     "network": 15.0,
     "stiff_stop": 300.0,
     "energy_step": 20.0,

@@ -17,7 +17,7 @@ from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, LOWEST, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, lowest_frequency, start_duration
 from ptmcalc.machines.conveyor.moved_grip import moved_grip
 from ptmcalc.numerics.lanes import value
@@ -425,8 +425,11 @@ def _less(end: float, value: float) -> float:
     return 0.0 if end == value else end - value
 
 
-def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
-    """How far each load of a run may be off when every tension may be off by `change` [N] at any time.
+def spread(
+    case: StartCase, loads: Mapping[str, Estimate], change: float, at_grip: float = math.inf
+) -> dict[str, Interval]:
+    """How far each load of a run may be off when every tension may be off by `change` [N] at any time, and by `at_grip`
+    at a drum while its grip is worst, if that is less.
 
     The grip follows from the tensions at the drum (`moved_grip`). The only drive's own loads move as those of the belt
     do.
@@ -444,27 +447,47 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
     if "sag_relative_max" in loads:
         moved["sag_relative_max"] = moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
-        change_off = change if line.fixed_length else 0.0
+        there = min(change, at_grip)
+        off = there if line.fixed_length else 0.0
         for name in GRIP:
             if name in loads:
                 drum = {name: line.grip_exponent}
-                moved[name] = moved_grip(name, loads, line.centrifugal_at_speed, drum, change, change_off)
+                moved[name] = moved_grip(name, loads, line.centrifugal_at_speed, drum, there, off)
         used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
         if used >= 1:  # else nothing slips, neither here nor in truth
             moved |= {name: anything(name, load) for name, load in loads.items() if family(name) in SLIPS}
     return moved | {name: moved[family(name)] for name in loads if family(name) in moved}
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """By how much tensions may be off [N]: their largest values, their smallest ones, and those at a drum while its
+    grip is worst."""
+
+    largest: float
+    smallest: float
+    at_grip: float
+
+    @classmethod
+    def any_time(cls, change: float) -> "Change":
+        """Every tension, at any time."""
+        return cls(change, change, change)
+
+    def of(self, load: str) -> float:
+        """Of a tension."""
+        return self.smallest if family(load) in LOWEST else self.largest
+
+
 def moved(
     line: BeltLine,
     loads: Mapping[str, Estimate],
-    change: float,
+    change: Change,
     slowing: float,
     grips: Mapping[str, float],
     off: bool = False,
     asked: int = 0,
 ) -> dict[str, Interval]:
-    """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
+    """How far loads may be off when tensions may be off by `change`, of any scene and any number of drives.
 
     The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from the tensions at its
     drum (`moved_grip`), `grips` being mu alpha; where it still holds, nothing slips. An imposed speed asks of the
@@ -476,14 +499,15 @@ def moved(
     """
     found: dict[str, Interval] = {}
     fixed = line.fixed_length or off
-    stretch = change * (line.back.length + line.carry.length) / line.stiffness
+    most = max(change.largest, change.smallest)
+    stretch = most * (line.back.length + line.carry.length) / line.stiffness
     least = min(line.impedance(RETURN), line.impedance(CARRY))
-    delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
+    delay = 2 * most / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
-    change_off = change if fixed or several else 0.0
+    change_off = change.at_grip if fixed or several else 0.0
 
     def grip(name: str) -> Interval:
-        return moved_grip(name, loads, line.centrifugal_at_speed, grips, change, change_off)
+        return moved_grip(name, loads, line.centrifugal_at_speed, grips, change.at_grip, change_off)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
@@ -495,17 +519,18 @@ def moved(
         if kind in OF_STOP and value == np.inf:
             continue  # a belt that never stops does so whatever its waves are
         if kind in TENSIONS:
-            found[name] = Interval(-change, change)
+            found[name] = Interval(-change.of(name), change.of(name))
         elif kind == "tension_run_off_min":
-            found[name] = Interval(-change, change) if fixed or ("[" in name and several) else NOTHING
+            moves = fixed or ("[" in name and several)
+            found[name] = Interval(-change.smallest, change.smallest) if moves else NOTHING
         elif kind == "belt_safety_min" and line.breaking_force is not None:
-            found |= moved_safety(line, loads, change)
+            found |= moved_safety(line, loads, change.largest)
         elif kind in GRIP:
             found[name] = grip(name)
         elif kind == "sag_relative_max":
-            found[name] = moved_sag(line, loads, change)
+            found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
-            found[name] = moved_drive(loads, 2 * asked * change)[kind]
+            found[name] = moved_drive(loads, 2 * asked * most)[kind]
         elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":

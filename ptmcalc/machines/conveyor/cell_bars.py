@@ -12,6 +12,8 @@ the cells brings to r = 2/3 of its error only, the order 0.6, has still to come
 
     bar = D (r + r^2 + ...) = 2 D
 
+A scene ends up to a step after its window: what comes to its extreme at its end is known to its last step besides.
+
 In a scene in which a drum stops from one moment to the next, fronts are steps, and between two of them that meet almost
 together stands a pulse that no grid sees, differing from what was before or is after it by the height F of one of them:
 there no tension is known better than F.
@@ -89,21 +91,22 @@ def _still_to_come(grids: Grids, name: str) -> float:
     """What all finer grids together may change of a load."""
     extremes = [one.values[name][0] if name in one.values else math.inf for one in grids]
     trace = {"tension_dynamic_run_on_max": "tension_run_on_max", "tension_curve_max": "tension_max"}
-    return _to_come(extremes, _gap(grids, trace.get(family(name), name)))
+    return _to_come(grids, trace.get(family(name), name), extremes)
 
 
 def _of_trace(grids: Grids, name: str) -> float:
     """The same of the extreme of a trace that all grids have."""
-    return _to_come([one.traces[name].extreme()[0] for one in grids], _gap(grids, name))
+    return _to_come(grids, name, [one.traces[name].extreme()[0] for one in grids])
 
 
-def _to_come(extremes: Sequence[float], gap: float) -> float:
+def _to_come(grids: Grids, trace: str, extremes: Sequence[float]) -> float:
     one, two, three = extremes
     if one == two == three:
         return 0.0
     if not all(map(math.isfinite, extremes)):
         return math.inf
-    return _SLOWEST / (1 - _SLOWEST) * (abs(three - two) + abs(two - one) / 2 + gap / 2)
+    gap, at_end = _gap(grids, trace), grids[-1].traces[trace].at_end if trace in grids[-1].traces else 0.0
+    return _SLOWEST / (1 - _SLOWEST) * (abs(three - two) + abs(two - one) / 2 + gap / 2) + at_end
 
 
 def _gap(grids: Grids, name: str) -> float:
@@ -126,7 +129,8 @@ def _moved(case: Moving, fine: Values, change: float) -> dict[str, Interval]:
     """What the largest error of any tension [N] makes of the loads that are no tensions."""
     loads = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     slowing = deceleration(case.spec, case.scene, case.line)
-    return bounds.moved(case.line, loads, change, slowing, grips(case.spec), off=case.spec.takeup.mass is not None)
+    heavy = case.spec.takeup.mass is not None
+    return bounds.moved(case.line, loads, bounds.Change.any_time(change), slowing, grips(case.spec), off=heavy)
 
 
 def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: float) -> dict[str, Interval]:

@@ -34,6 +34,12 @@ class Trace:
     step: float
     sense: int = 1
 
+    @property
+    def at_end(self) -> float:
+        """What it changes by in its last step, if its extreme is there."""
+        signed = self.sense * self.values
+        return float(signed[-1] - signed[-2]) if len(signed) > 1 and signed[-1] > signed[:-1].max() else 0.0
+
     def extreme(self) -> tuple[float, float]:
         """The load and where it comes; of values of which some are infinite the first of these."""
         signed = self.sense * self.values
