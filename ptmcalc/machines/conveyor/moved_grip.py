@@ -93,6 +93,8 @@ def _used(drum: Drum, load: Estimate, exponent: float) -> Interval:
 
 
 def _reserve(drum: Drum, load: Estimate, exponent: float) -> Interval:
+    if load.high <= 0:
+        return ANYTHING  # a side without tension: how far it is from some the load does not tell
     most, least = (capstan.slip_ratio(end, exponent) if end > 0 else math.inf for end in (load.low, load.high))
     moved = drum.moved(Interval(least, most), math.exp(-exponent))
     low, high = (capstan.slip_reserve_ratio(end, exponent) for end in (moved.high, moved.low))
