@@ -447,7 +447,7 @@ def spread(
     if "sag_relative_max" in loads:
         moved["sag_relative_max"] = moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
-        there = min(change, at_grip)
+        there = min(change, at_grip) if _grips("slip_utilisation_max", loads) else change
         off = there if line.fixed_length else 0.0
         for name in GRIP:
             if name in loads:
@@ -504,10 +504,11 @@ def moved(
     least = min(line.impedance(RETURN), line.impedance(CARRY))
     delay = 2 * most / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
-    change_off = change.at_grip if fixed or several else 0.0
 
     def grip(name: str) -> Interval:
-        return moved_grip(name, loads, line.centrifugal_at_speed, grips, change.at_grip, change_off)
+        there = change.at_grip if _grips(name, loads) else max(most, change.at_grip)
+        off = there if fixed or several else 0.0
+        return moved_grip(name, loads, line.centrifugal_at_speed, grips, there, off)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
@@ -538,6 +539,13 @@ def moved(
         elif kind in CHANGED_BY_MOTION and not (kind in SLIPS and holds(name)):
             found[name] = anything(name, estimate)
     return found
+
+
+def _grips(name: str, loads: Mapping[str, Estimate]) -> bool:
+    """Whether the drum of a load of grip does not slip: else its grip is worst with hardly any tension on one side, at
+    any time."""
+    used = loads.get(name.replace(family(name), "slip_utilisation_max", 1))
+    return used is not None and used.high < 1
 
 
 def moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
