@@ -30,8 +30,8 @@ _SHIFT_STEPS = 2
 _SECOND_ORDER, _SLOWEST = 0.25, 0.9  # ratio of the differences of three grids: at best, and hardly converging
 _TAIL_SHARE = 5.0
 _STEPS_PER_SCALE = 20
-_SECONDS = {"delays": (1.4e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.0e-8)}
-_OVERHEAD = 4e-3
+_SECONDS = {"delays": (1.0e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.0e-8)}
+_OVERHEAD = 3e-3
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:

@@ -60,6 +60,6 @@ RIGID: Solver[Conveyor, Start] = Solver(
     represents=frozenset(),
     gives=OF_BELT.union(DRIVE, OF_START, OF_STARTING, PER_DRIVE),
     run=run,
-    cost=lambda spec, scene, carried, level: 6e-3,
+    cost=lambda spec, scene, carried, level: 3e-3,
     source="Newton's law; bounds derived in ptmcalc.laws.loop_bounds",
 )

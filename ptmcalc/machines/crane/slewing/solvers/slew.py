@@ -130,7 +130,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     whole = 3 * start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
     if not math.isfinite(whole):
         return 0.01
-    return (0.1 + 0.01 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)
+    return (0.08 + 8e-3 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)
 
 
 SLEW: Solver[SlewingCrane, SlewingScene] = Solver(
