@@ -164,3 +164,13 @@ def test_newtons_method_that_creeps_is_not_at_its_end(share: float, ends: bool) 
     whole = stepper._inverse
     stepper._inverse = lambda *given: share * whole(*given)  # type: ignore[method-assign]
     assert (stepper._solve(leg, 0.0, state, 0.2)[0] is not None) is ends
+
+
+@pytest.mark.parametrize(("off", "drive"), [(0.5e-11, KEEP), (-0.5e-11, KEEP), (2e-11, LOW), (-2e-11, HIGH)])
+@pytest.mark.parametrize("speed", [3.0, 5e3])
+def test_a_speed_is_kept_that_is_the_one_to_keep_but_for_rounding_of_the_largest(
+    speed: float, off: float, drive: str
+) -> None:
+    march, state = march_of(Axis(MASS, Follow(Pieces.constant(speed), limit=1.0), speed=speed))
+    state[SPEED] = speed * (1 + off)
+    assert march._drive(0.0, state) == drive
