@@ -1,6 +1,7 @@
 """Motors whose force is straight between knots, against the exponentials that follow from it, and where steps begin."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -174,3 +175,26 @@ def test_a_speed_is_kept_that_is_the_one_to_keep_but_for_rounding_of_the_largest
     march, state = march_of(Axis(MASS, Follow(Pieces.constant(speed), limit=1.0), speed=speed))
     state[SPEED] = speed * (1 + off)
     assert march._drive(0.0, state) == drive
+
+
+@pytest.mark.parametrize(("short", "drive"), [(-1e-6, KEEP), (0.0, KEEP), (0.5e-11, KEEP), (2e-11, HIGH), (1e-6, HIGH)])
+def test_a_drive_that_has_just_what_its_speed_takes_keeps_it(short: float, drive: str) -> None:
+    kept = Pieces.through(((0.0, 1.0), (2.0, 3.0)))
+    axis = Axis(MASS, Follow(kept, limit=1e9), speed=1.0)
+    march, state = march_of(axis)
+    leg = march._leg(march._choose(0.0, state, None, {})[0], 0.0)
+    at, z = np.zeros(1), state[:, None]
+    takes = float(leg.forces(at, z, leg.now(at, z))[1][0])
+    assert takes == pytest.approx(MASS * 1.0, rel=1e-6)
+    weak, state = march_of(replace(axis, drive=Follow(kept, limit=takes * (1 - short))))
+    assert weak._choose(0.0, state, None, {})[0].drive == drive
+
+
+def test_guards_are_small_beside_the_largest_of_their_kind() -> None:
+    """A rope's pull beside the weight, forces beside the largest of the axis, speeds and places beside the fastest."""
+    load = Load(50.0, Pieces.constant(4.0))
+    axis = Axis(MASS, Follow(Pieces.constant(9.0), limit=1e4), friction=700.0, speed=9.0)
+    guards = March(Case(G, Rail(), axis, load), 2.0, 1e-10, radau(9), 1000).guards
+    assert guards.weight == pytest.approx(50.0 * G, rel=1e-12)
+    assert (guards.force, guards.speed) == (700.0, 9.0)
+    assert guards.position == pytest.approx(9.0 * math.sqrt(4.0 / G), rel=1e-12)
