@@ -9,7 +9,7 @@ import pytest
 from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.pendulum.equations import HIGH, KEEP, LOW, SPEED, Mode
 from ptmcalc.numerics.pendulum.march import March
-from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Load, Push, Rail, Straight
+from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
@@ -198,3 +198,19 @@ def test_guards_are_small_beside_the_largest_of_their_kind() -> None:
     assert guards.weight == pytest.approx(50.0 * G, rel=1e-12)
     assert (guards.force, guards.speed) == (700.0, 9.0)
     assert guards.position == pytest.approx(9.0 * math.sqrt(4.0 / G), rel=1e-12)
+
+
+def test_without_forces_of_its_own_an_axis_is_measured_by_a_thousandth_of_the_weight_at_its_arm() -> None:
+    load = Load(50.0, Pieces.constant(4.0))
+    for pivot, arm in ((Rail(), 1.0), (Jib(Pieces.constant(12.0)), 12.0)):
+        march = March(Case(G, pivot, Axis(MASS, None, speed=1.0), load), 2.0, 1e-10, radau(9), 1000)
+        assert march.guards.force == pytest.approx(1e-3 * 50.0 * G * arm, rel=1e-12)
+
+
+@pytest.mark.parametrize("end", [0.9, 1.0, 1.1])
+def test_a_buffer_in_the_first_step_is_met_however_long_that_is(end: float) -> None:
+    """Half a second to it at 2 m/s, then v cos(w t): on a rope of a hundred metres that is one step to the end."""
+    axis = Axis(MASS, None, speed=2.0, buffers=(Buffer(1.0, "linear", MASS * 4.0),))
+    found = swing(Case(G, Rail(), axis, Load(1e-9, Pieces.constant(100.0))), end)
+    assert found._fine.steps[0].length == end
+    assert float(found.at("speed", end)) == pytest.approx(2.0 * math.cos(2.0 * (end - 0.5)), rel=1e-8)
