@@ -20,6 +20,13 @@ At the run-on of a gravity take-up the bound is attained with equal signs, c_n >
 dynamic tension lies between 0 and twice its quasi-static value. The trace of the same Green's function bounds the
 lowest frequency: sum 1/w_n^2 = integral G ds/EA, so w_1 >= (integral G ds/EA)^(-1/2) (Dunkerley).
 
+The speed of a section differs from that of the rigid body by sum F phi_n(0) phi_n(s)/w_n sin w_n t, and
+
+    sum phi_n^2/w_n^2      = C(s)         Green's function of displacement: how far s gives way under a unit force
+                                          there, less the motion of the whole
+
+gives |v - V| <= F sqrt((1/m - 1/M) C(s)) in the same way.
+
 Stiffness and its distribution enter only the weights of a fixed loop and the frequency; a tail mass and any jump
 of impedance are inside.
 """
@@ -147,14 +154,14 @@ def tension_green(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
         return np.asarray(behind * ((_belt_ahead(loop, strand, x) + loop.drive_mass) / loop.total_mass))
     masses, first, last = _accelerations(loop, strand, np.asarray(x, float))
     if loop.imposed_speed:
-        return _power(masses, first, last)
+        return _square(masses, first, last)
     start = -np.sum(masses * (first + last) / 2, axis=0) / loop.total_mass
-    return np.asarray(_power(masses, first + start, last + start) + loop.drive_mass * start**2)
+    return np.asarray(_square(masses, first + start, last + start) + loop.drive_mass * start**2)
 
 
-def _power(masses: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
-    """Integral of the square of an acceleration that is linear over each mass [kg]."""
-    return np.asarray(np.sum(masses * (first**2 + first * last + last**2) / 3, axis=0))
+def _square(parts: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Integral of the square of what is linear over each part."""
+    return np.asarray(np.sum(parts * (first**2 + first * last + last**2) / 3, axis=0))
 
 
 def _belt_ahead(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
@@ -218,6 +225,84 @@ def stray(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
         ahead = _belt_ahead(loop, strand, x)
         return np.asarray(np.sqrt(loop.belt_mass * mass_behind(loop, strand, x) * (1 + ahead / loop.drive_mass)))
     return np.asarray(np.sqrt(loop.belt_mass * loop.total_mass / loop.drive_mass * green))
+
+
+def give(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
+    """How far a section gives way under a unit force there, less the motion of the whole loop.
+
+        C = integral N^2 ds/EA,   N(s') = N_0 + m(s')/M - H(s' - s)
+
+    N is the tension under the force and what it accelerates. N_0 is 0 at a gravity take-up; in a fixed loop it keeps
+    the total elongation. With the speed imposed the drum stands still, and m/M is left out.
+
+    Args:
+        loop: the loop.
+        strand: RETURN or CARRY.
+        x: fraction of the strand's length [1].
+
+    Returns:
+        C [m/N].
+
+    **Range** 0 <= x <= 1; stiffness constant along each strand.
+    **Error** exact; a sum of squares.
+    **Source** derived here: the strain energy of a force that is in balance with what it accelerates; checked against
+    sums over modes of finite elements.
+    """
+    compliances, first, last = _tensions(loop, strand, np.asarray(x, float))
+    if loop.fixed_length:
+        held = -np.sum(compliances * (first + last) / 2, axis=0) / (loop.return_compliance + loop.carry_compliance)
+        first, last = first + held, last + held
+    return _square(compliances, first, last)
+
+
+def _tensions(loop: LoopMasses, strand: int, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """m/M - H under a unit force at a section, piece by piece from the run-off on: compliances [m/N] and the values at
+    both ends of each, all of shape (3, *x.shape)."""
+    whole = np.inf if loop.imposed_speed else loop.total_mass
+    none = np.zeros_like(x)
+    c2, c1 = loop.return_compliance, loop.carry_compliance
+    before = loop.return_mass, loop.return_mass + loop.tail_mass, loop.belt_mass
+    back, tail, all_of_it = (none + mass / whole for mass in before)
+    here = mass_behind(loop, strand, x) / whole
+    if strand == RETURN:
+        pieces = [
+            (c2 * x, none, here),
+            (c2 * (1 - x), here - 1, back - 1),
+            (none + c1, tail - 1, all_of_it - 1),
+        ]
+    else:
+        pieces = [
+            (none + c2, none, back),
+            (c1 * x, tail, here),
+            (c1 * (1 - x), here - 1, all_of_it - 1),
+        ]
+    compliances, first, last = (np.array(part) for part in zip(*pieces, strict=True))
+    return compliances, first, last
+
+
+def speed_stray(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
+    """Most by which the speed of a section differs from that of the rigid body after a step, per unit acceleration.
+
+        step of rim force:     e = M sqrt((1/m - 1/M) C)
+        step of acceleration:  e = sqrt(M_belt C)
+
+    so that |v - V| <= a e at all times, a = F/M or the imposed acceleration.
+
+    Args:
+        loop: the loop.
+        strand: RETURN or CARRY.
+        x: fraction of the strand's length [1].
+
+    Returns:
+        e(s) [s].
+
+    **Range** linear undamped strands, any tail mass and jump of impedance; no slip. Not for a drive without mass.
+    **Error** a bound; exact at the free end of a uniform gravity loop behind a drum of imposed speed, where it is the
+    time of a wave round the belt.
+    **Source** derived here (module docstring).
+    """
+    pushed = loop.belt_mass if loop.imposed_speed else loop.belt_mass * loop.total_mass / loop.drive_mass
+    return np.asarray(np.sqrt(pushed * give(loop, strand, x)))
 
 
 def lowest_frequency_bound(loop: LoopMasses) -> float:

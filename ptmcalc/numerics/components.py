@@ -30,28 +30,31 @@ class Components:
     """
 
     values: NDArray[np.complex128]
-    """eigenvalues, in pairs [1/s]"""
+    """eigenvalues, of conjugates the one whose imaginary part is above 0 [1/s]"""
     shares: NDArray[np.complex128]
     """what finds each in a state"""
     shapes: NDArray[np.complex128]
-    """what guards and, behind them, signals see of each, shape (components, rows)"""
+    """what guards and, behind them, signals see of each, and of its conjugate, shape (components, rows)"""
     posed: NDArray[np.bool_]
     magnitudes: FloatArray
     """of what the rows add up"""
     speeds: FloatArray = field(init=False)
     """how fast each moves or fades [rad/s]"""
+    share_parts: FloatArray = field(init=False)
+    """real and imaginary parts of the shares, one beside the other"""
     share_sizes: FloatArray = field(init=False)
     sights: FloatArray = field(init=False)
     """magnitudes of the shapes"""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "speeds", np.abs(self.values))
+        object.__setattr__(self, "share_parts", self.shares.T.copy().view(float))
         object.__setattr__(self, "share_sizes", np.abs(self.shares).T)
         object.__setattr__(self, "sights", np.abs(self.shapes))
 
     def amplitudes(self, states: FloatArray) -> NDArray[np.complex128]:
         """The components of states, shape (states, components), or (components,) of one state."""
-        found: NDArray[np.complex128] = states @ self.shares.T
+        found: NDArray[np.complex128] = (states @ self.share_parts).view(complex)
         found[np.abs(found) <= _NOT_THERE * (np.abs(states) @ self.share_sizes)] = 0.0
         return found
 
@@ -93,8 +96,10 @@ def components(rate: FloatArray, rows: FloatArray, own: int) -> Components:
     gap[~posed] = np.eye(len(inputs))
     beyond = np.linalg.solve(gap.transpose(0, 2, 1), (left @ effect)[:, :, None])[:, :, 0]
     shapes = (rows[:, :own] @ right).T
-    found, seen = np.hstack([left, beyond]).astype(complex), shapes.astype(complex)
-    return Components(values.astype(complex), found, seen, posed, np.abs(rows))
+    shapes[values.imag > 0] *= 2.0  # its conjugate adds as much to what is seen
+    one = values.imag >= 0
+    found = np.hstack([left, beyond])[one].astype(complex)
+    return Components(values[one].astype(complex), found, shapes[one].astype(complex), posed[one], np.abs(rows))
 
 
 def _polish(left: NDArray[Any], values: NDArray[Any], block: FloatArray, posed: NDArray[np.bool_]) -> None:

@@ -7,19 +7,23 @@ Duhamel's integral of exponentials is a divided difference of exp over the expon
     x = a (l_2 - l_1) t^3 exp[p_1 t, p_2 t, -l_1 t, -l_2 t]      x' = a (l_2 - l_1) t^2 (exp[all but q] + q t exp[all])
 
 q an exponent not beyond w; see `numerics.exponentials`. Nothing cancels where exponents meet (resonance of real
-exponents, critical damping, no spring) nor in short times.
+exponents, critical damping, no spring) nor in short times. From where all exponents times t lie farther apart than 1,
+nothing cancels in the sum of partial fractions either, which costs many times less:
+
+    x = a (l_2 - l_1) sum_i exp(z_i t)/prod_(j != i) (z_i - z_j),   z = p_1, p_2, -l_1, -l_2
 """
 
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.distinct import distinct
-from ptmcalc.numerics.exponentials import differences, grown
+from ptmcalc.numerics.exponentials import FEW, differences, superposed
 from ptmcalc.numerics.free_motion import free_motion
 
 FloatArray = NDArray[np.float64]
@@ -83,19 +87,20 @@ class DecayPulse:
         """
         t = np.asarray(time, float)
         flat = t.ravel()
-        order = None if np.all(flat[1:] >= flat[:-1]) else np.argsort(flat, kind="stable")
+        order = None if (flat[1:] >= flat[:-1]).all() else np.argsort(flat, kind="stable")
         rising = flat if order is None else flat[order]
-        count = int(np.searchsorted(rising, self.duration, "right"))
+        count = int(rising.searchsorted(self.duration, "right"))
         if count == len(rising):
-            x, v = self._during(rising)
+            motion = self._during(rising)
         else:
             there = count > 0 and rising[count - 1] == self.duration  # once: even samples are faster
             before = self._during(rising[:count] if there else np.append(rising[:count], self.duration))
-            after = self._after(float(before[0][-1]), float(before[1][-1]), rising[count:] - self.duration)
-            x, v = (np.concatenate([one[:count], other]) for one, other in zip(before, after, strict=True))
+            after = self._after(float(before[0, -1]), float(before[1, -1]), rising[count:] - self.duration)
+            motion = np.concatenate([before[:, :count], after], axis=1)
         if order is not None:
-            x[order], v[order] = x.copy(), v.copy()
-        return x.reshape(t.shape), v.reshape(t.shape)
+            motion[:, order] = motion.copy()
+        x, v = motion.reshape(2, *t.shape)
+        return x, v
 
     def largest(self) -> Summit:
         """Largest deflection during and after the pulse: where the speed is 0, or where the pulse ends.
@@ -183,18 +188,16 @@ class DecayPulse:
         ripple = 4 * (1 + 4 * self.damping_ratio) * slope / w
         return (abs(float(self.force(self._crest))) + ripple) / w / w
 
-    def _after(self, x: float, v: float, time: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Free motion from a deflection and a speed."""
+    def _after(self, x: float, v: float, time: FloatArray) -> FloatArray:
+        """Free motion from a deflection and a speed, shape (2, times)."""
         w, zeta = self.natural_frequency, self.damping_ratio
         if w == 0 or zeta >= 1:
             maps = free_motion(np.array([w]), np.array([zeta]), time[:, None])[:, 0]
-            return maps[:, 0, 0] * x + maps[:, 0, 1] * v, maps[:, 1, 0] * x + maps[:, 1, 1] * v
+            return np.asarray(maps @ (x, v)).T
         decay, damped = zeta * w, w * math.sqrt((1 - zeta) * (1 + zeta))
-        turned = grown(complex(-decay, damped), time)
-        across = (v + decay * x) / damped
-        place = turned * complex(x, -across)
-        speed = turned * complex(v, (w * w * x + decay * v) / damped)
-        return place.real, speed.real
+        place = complex(x, -(v + decay * x) / damped)
+        speed = complex(v, (w * w * x + decay * v) / damped)
+        return superposed((complex(-decay, damped),), np.array([[place], [speed]]), time)
 
     def _better(self, best: Summit, places: FloatArray) -> Summit:
         """The best of a summit and those between places, which rise."""
@@ -233,12 +236,20 @@ class DecayPulse:
         y, speed = sign * x - f / w**2, sign * v - slope / w**2
         return (f + w * math.hypot(w * y, speed) + abs(slope) / w + 2 * zeta * f) / w / w
 
-    def _during(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        points, least, everything, rest = _exponents(self.natural_frequency, self.damping_ratio, self.slow, self.fast)
-        whole, part = differences(points, (everything, rest), t)
+    def _during(self, t: FloatArray) -> FloatArray:
+        """Motion in the pulse, shape (2, times)."""
+        of = _exponents(self.natural_frequency, self.damping_ratio, self.slow, self.fast)
+        late = int(t.searchsorted(of.apart, "right"))
+        if len(t) - late < FEW:
+            return self._early(of, t)
+        sums = superposed(of.rates, self.acceleration * of.weights, t[late:])
+        return np.concatenate([self._early(of, t[:late]), sums], axis=1)
+
+    def _early(self, of: "_Exponents", t: FloatArray) -> FloatArray:
+        whole, part = differences(of.points, (of.everything, of.rest), t)
         scale = self.acceleration * (self.fast - self.slow) * t * t
         turned = whole * t
-        return scale * turned.real, scale * (part + points[least] * turned).real
+        return np.array([scale * turned.real, scale * (part + of.points[of.least] * turned).real])
 
 
 def _first_of(best: Summit, x: FloatArray, times: FloatArray) -> Summit:
@@ -253,18 +264,45 @@ def _spread(first: float, last: float) -> FloatArray:
     return np.geomspace(first, last, max(_PLACES, 8 * math.ceil(math.log10(last / first))))
 
 
+class _Exponents(NamedTuple):
+    """The exponents of system and force; the one that is left out of the speed's difference, all, and the rest.
+
+    From the time `apart` on all are farther apart than 1, and x and v of a = 1 the real parts of sums of exp(`rates` t)
+    with `weights`, shape (2, rates).
+    """
+
+    points: tuple[complex, ...]
+    least: int
+    everything: tuple[int, ...]
+    rest: tuple[int, ...]
+    apart: float
+    rates: tuple[complex, ...]
+    weights: NDArray[np.complex128]
+
+
 @lru_cache(maxsize=64)
-def _exponents(
-    natural_frequency: float, damping_ratio: float, slow: float, fast: float
-) -> tuple[tuple[complex, ...], int, tuple[int, ...], tuple[int, ...]]:
-    """The exponents of system and force, the one that is left out of the speed's difference, all, and the rest."""
+def _exponents(natural_frequency: float, damping_ratio: float, slow: float, fast: float) -> _Exponents:
     points = (*_roots(natural_frequency, damping_ratio), complex(-slow), complex(-fast))
     everything = tuple(range(4))
     _, *apart = max((abs(points[i] - points[j]), i, j) for i in everything for j in range(i))
     least = min(apart, key=lambda i: abs(points[i]))  # left out of the whole already
     if abs(points[least]) > natural_frequency:
         least = min(everything, key=lambda i: abs(points[i]))
-    return points, least, everything, everything[:least] + everything[least + 1 :]
+    rest = everything[:least] + everything[least + 1 :]
+    nearest = min(abs(points[i] - points[j]) for i in everything for j in range(i))
+    if nearest == 0:
+        return _Exponents(points, least, everything, rest, math.inf, (), np.empty((2, 0), complex))
+    paired = points[0].imag != 0  # the second is the conjugate of the first: twice the real part
+    used = tuple(i for i in everything if not (paired and i == 1))
+    shares = []
+    for i in used:
+        share = complex(2 * (fast - slow) if paired and i == 0 else fast - slow)
+        for j in everything:
+            share /= points[i] - points[j] if j != i else 1
+        shares.append(share)
+    rates = tuple(points[i] for i in used)
+    weights = np.array([shares, np.multiply(shares, rates)])
+    return _Exponents(points, least, everything, rest, 1 / nearest, rates, weights)
 
 
 def _roots(natural_frequency: float, damping_ratio: float) -> tuple[complex, complex]:

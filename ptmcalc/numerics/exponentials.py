@@ -1,12 +1,11 @@
 """Divided differences of exp over times: what an oscillator makes of exponential forces, without cancellation.
 
 exp[z_0, ..., z_n] is a quotient of two differences of lower order where its points lie farther apart than 1, and a
-power series about their mean where they do not; where all do, it is one sum. Of the two points whose conjugates exist,
-0 and 1, only sets with the first are computed; the others are their conjugates. What does not depend on the times is
-kept for the next call.
+power series about their mean where they do not. Of the two points whose conjugates exist, 0 and 1, only sets with the
+first are computed; the others are their conjugates. What does not depend on the times is kept for the next call. Where
+all points lie farther apart than 1, the whole is a sum of exponentials (`superposed`).
 """
 
-import itertools
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -23,8 +22,9 @@ Set = tuple[int, ...]
 
 _TERMS = 18
 """Of a series about the mean of points within 1 of each other, |offset| <= 3/4: (3/4)^18/18! is below rounding."""
+_ONES = np.ones((_TERMS, 1))
 _KEPT = 64
-_FEW = 256
+FEW = 256
 """Times below which a table of exponentials would save nothing."""
 _UNEVEN = 2 * float(np.finfo(float).eps)
 """Share of the last time by which evenly spaced times may be off."""
@@ -59,42 +59,6 @@ def differences(points: tuple[complex, ...], wanted: tuple[Set, ...], t: FloatAr
     **Error** rounding: a quotient loses no more than a digit, its points being apart.
     **Source** Hermite, Genocchi; module docstring.
     """
-    late = int(t.searchsorted(_apart_from(points, wanted), "right"))
-    if len(t) - late < _FEW:
-        return _by_tree(points, wanted, t)
-    early, sums = _by_tree(points, wanted, t[:late]), _by_sums(points, wanted, t[late:])
-    return [np.concatenate(both) for both in zip(early, sums, strict=True)]
-
-
-def _by_sums(points: tuple[complex, ...], wanted: tuple[Set, ...], t: FloatArray) -> list[Values]:
-    """Where all points lie farther apart than 1 every quotient is one of differences, so the whole is their sum,
-
-    exp[z_i t] = t^-n sum exp(z_i t)/prod (z_i - z_j)
-    """
-    paired = points[0].imag != 0  # the second exponential is the conjugate of the first
-    used = {0 if k == 1 and paired else k for one in wanted for k in one}
-    each = {k: grown(points[k], t) if points[k].imag else np.exp(points[k].real * t) for k in used}
-    powers = list(itertools.accumulate([t] * (len(points) - 1), np.multiply, initial=np.ones(1)))
-    return [np.asarray(_sum(points, one, each, paired) / powers[len(one) - 1]) for one in wanted]
-
-
-def _sum(points: tuple[complex, ...], chosen: Set, each: dict[int, Values], paired: bool) -> Values:
-    """The sum of one set; of numbers and their conjugates twice the real part."""
-    real = _is_real(points, chosen)
-    total: Values = np.zeros(len(next(iter(each.values()))))
-    for k, weight in _weights(points, chosen):
-        if real and paired and k < 2:
-            if k == 0:
-                total = total + 2 * (weight * each[0]).real
-        elif k == 1 and paired:
-            total = total + weight * np.conj(each[0])
-        else:
-            total = total + (weight.real if real else weight) * each[k]
-    return np.asarray(total)
-
-
-def _by_tree(points: tuple[complex, ...], wanted: tuple[Set, ...], t: FloatArray) -> list[Values]:
-    """By quotients of differences, and series where these would cancel."""
     nodes = _tree(points, wanted)
     count = len(t)
     start = dict.fromkeys((node.chosen for node in nodes), count)
@@ -123,35 +87,36 @@ def _by_tree(points: tuple[complex, ...], wanted: tuple[Set, ...], t: FloatArray
     return [_value(values, *_key(points, one), 0) for one in wanted]
 
 
-def grown(rate: complex, t: FloatArray) -> Values:
-    """exp(z t) at rising times; a rotation where they are evenly spaced.
+def superposed(rates: tuple[complex, ...], weights: Values, t: FloatArray) -> FloatArray:
+    """Real parts of sums of exponentials at rising times; a product of two tables where they are evenly spaced.
 
-        exp(z (t_b + s)) = exp(z t_b) exp(z s)
+        x_i = Re sum_k w_ik exp(z_k t),   exp(z (t_b + s)) = exp(z t_b) exp(z s)
 
-    so that of n evenly spaced times 2 n^(1/2) have an exponential of their own.
+    so that of n evenly spaced times 2 n^(1/2) have exponentials of their own.
 
     Args:
-        rate: z, not growing [1/s].
+        rates: z, not growing [1/s].
+        weights: w, shape (m, rates).
         t: rising, not below 0, shape (n,) [s].
 
+    Returns:
+        x, shape (m, n).
+
     **Error** rounding: the spacing may miss a time by 2 eps t, what rounding leaves of times made evenly, or every time
-    has an exponential of its own.
+    has exponentials of its own.
     """
-    count = len(t)
-    if count < _FEW:
-        return np.asarray(np.exp(rate * t))
-    step = (t[-1] - t[0]) / (count - 1)
-    width = 1 << ((count - 1).bit_length() + 1) // 2
-    inside = np.arange(width) * step
-    blocks = t[::width]
-    whole, rest = divmod(count, width)
-    missed = np.abs(t[: whole * width].reshape(whole, width) - blocks[:whole, None] - inside).max()
-    if rest:
-        missed = max(missed, np.abs(t[whole * width :] - blocks[whole] - inside[:rest]).max())
-    if not missed <= _UNEVEN * t[-1]:
-        return np.asarray(np.exp(rate * t))
-    table = np.multiply.outer(np.exp(rate * blocks), np.exp(rate * inside))
-    return np.asarray(table.ravel()[:count])
+    count, z = len(t), np.array(rates)
+    if count >= FEW:
+        width = 1 << ((count - 1).bit_length() + 1) // 2
+        blocks, inside = t[::width], np.arange(width) * ((t[-1] - t[0]) / (count - 1))
+        missed = np.add.outer(blocks, inside).ravel()[:count]
+        missed -= t
+        if np.abs(missed, out=missed).max() <= _UNEVEN * t[-1]:
+            ahead = weights.conj()[:, None] * np.exp(np.multiply.outer(blocks, z.conj()))
+            beside = np.exp(np.multiply.outer(inside, z))  # Re(a b) is the product of the parts of a* and of b
+            table = ahead.view(float).reshape(-1, 2 * len(z)) @ beside.view(float).T
+            return np.asarray(table.reshape(len(weights), -1)[:, :count])
+    return np.asarray((weights @ np.exp(np.multiply.outer(z, t))).real)
 
 
 def _quotient(node: _Node, values: dict[Set, Values], t: FloatArray, turn: int) -> Values:
@@ -173,7 +138,7 @@ def _series(node: _Node, t: FloatArray) -> Values:
     """exp(c t) sum h_k t^k/(k + n)!, h_k the complete symmetric sums of the points about their mean c."""
     if len(node.chosen) == 1:
         return np.asarray(np.exp(node.centre.real * t) if node.real else np.exp(node.centre * t))
-    powers = np.multiply.accumulate(np.broadcast_to(node.radius * t, (_TERMS, len(t))), axis=0)
+    powers = np.multiply.accumulate(_ONES * (node.radius * t))
     factors = node.factors
     total: Values = factors[0].real + factors[1:].real @ powers
     if node.real:
@@ -182,19 +147,6 @@ def _series(node: _Node, t: FloatArray) -> Values:
 
 
 # --- what does not depend on the times ----------------------------------------------------------------------------
-
-
-@lru_cache(maxsize=_KEPT)
-def _weights(points: tuple[complex, ...], chosen: Set) -> tuple[tuple[int, complex], ...]:
-    """1/prod (z_i - z_j) of every point of a set."""
-    return tuple((i, 1 / math.prod((points[i] - points[j] for j in chosen if j != i), start=1 + 0j)) for i in chosen)
-
-
-@lru_cache(maxsize=_KEPT)
-def _apart_from(points: tuple[complex, ...], wanted: tuple[Set, ...]) -> float:
-    """Time from which on all points of every set are farther apart than 1; infinite where two are one."""
-    nearest = min((abs(points[i] - points[j]) for one in wanted for i in one for j in one if j < i), default=0.0)
-    return 1 / nearest if nearest > 0 else math.inf
 
 
 @lru_cache(maxsize=_KEPT)

@@ -54,8 +54,10 @@ class Flow:
         self._powers = expm.Powers(rate)
         speeds = np.abs(np.linalg.eigvals(rate[:own, :own]))
         self._largest = max(float(speeds.max(initial=0.0)), input_speed)
+        self._slowest = float(speeds[speeds > 0].min(initial=math.inf))
         self._components: Components | None = None
         self._chunks: dict[float, Chunk] = {}
+        self._ends: dict[float, FloatArray] = {}
 
     def panel(self, state: FloatArray, longest: float, sizes: Callable[[], FloatArray]) -> float:
         """A panel that resolves every component still seen in a signal of these sizes: a power of two in units, or the
@@ -79,6 +81,10 @@ class Flow:
         units. What swings alone tops itself again and again, and each summit would have to be looked at anyway."""
         slowest = self.components.span(state, self.faded, sizes())[0]
         return self.unit * 2.0 ** math.floor(math.log2(RESOLVED / slowest)) if slowest < math.inf else math.inf
+
+    def glides(self, panel: float) -> bool:
+        """Whether a panel is short enough for the slowest component of all, seen or not."""
+        return panel * self._slowest <= self.resolved
 
     @property
     def finest(self) -> float:
@@ -113,6 +119,19 @@ class Flow:
             changes = self.changes(np.array([panel])) if half is None else expm.twice(half.changes)
             chunk = self._chunks[panel] = Chunk(changes, self.guards)
         return chunk
+
+    def end(self, panel: float) -> FloatArray:
+        """exp(A h) - I of the panels that resolve everything, h, and of those 2, 4, 8 ... times as long; kept."""
+        change: FloatArray | None = self._ends.get(panel)
+        if change is None:
+            if panel in self._chunks:
+                change = self._chunks[panel].changes[-1]
+            elif panel <= self.finest:
+                change = self._powers.change(panel)
+            else:
+                change = expm.twice(self.end(panel / 2)[None])[0]
+            self._ends[panel] = change
+        return change
 
     def keeps(self, panel: float) -> bool:
         """Whether what panels of a length need is at hand."""
@@ -164,7 +183,10 @@ class Flow:
 
     def seen(self, panel: float, states: FloatArray) -> FloatArray:
         """Signals at the nodes of panels of one length from these states on, shape (nodes, panels, signals)."""
-        result: FloatArray = np.matmul(states, self._chunks[panel].at_nodes.transpose(0, 2, 1)) @ self.watch.T
+        chunk = self._chunks[panel]
+        if chunk.seen is None:
+            chunk.seen = np.matmul(self.watch, chunk.at_nodes).transpose(0, 2, 1).copy()
+        result: FloatArray = np.matmul(states, chunk.seen)
         return result
 
     def seen_once(self, panels: FloatArray, states: FloatArray) -> FloatArray:
@@ -183,13 +205,16 @@ class Chunk:
     def __init__(self, changes: FloatArray, guards: FloatArray) -> None:
         self.changes, self.guards = changes, guards
         self.at_nodes = at_nodes = expm.whole(changes.copy())
-        n = at_nodes.shape[1]
-        controls = panels.TO_BERNSTEIN @ np.matmul(guards, at_nodes).reshape(COUNT, -1)
-        self._controls = controls.reshape(-1, n).T
-        self._powers = np.stack([np.eye(n), at_nodes[-1]])
+        self._controls: FloatArray | None = None
+        self._powers = at_nodes[[0, -1]]
+        self.seen: FloatArray | None = None
+        """what signals see of a state from the nodes on, once it was asked for, shape (nodes, n, signals)"""
 
     def controls(self, starts: FloatArray) -> FloatArray:
         """Bernstein coefficients of the guards in panels from these states on, shape (panels, nodes, guards)."""
+        if self._controls is None:
+            controls = panels.TO_BERNSTEIN @ np.matmul(self.guards, self.at_nodes).reshape(COUNT, -1)
+            self._controls = controls.reshape(-1, starts.shape[1]).T
         result: FloatArray = (starts @ self._controls).reshape(len(starts), COUNT, len(self.guards))
         return result
 

@@ -15,16 +15,20 @@ from ptmcalc.numerics.flow import Flow
 from ptmcalc.numerics.panels import NODES, TO_BERNSTEIN, WEIGHTS, FloatArray
 
 
-class Band(NamedTuple):
-    """Where guards and signals lie in a panel."""
+class Bands(NamedTuple):
+    """Where guards and signals lie in each of some panels."""
 
     nodes: FloatArray
-    """at its nodes, shape (nodes, rows)"""
+    """at their nodes, shape (panels, nodes, rows)"""
     low: FloatArray
     high: FloatArray
-    """bounds of all they come to in between, shape (rows,)"""
+    """bounds of all they come to in between, shape (panels, rows)"""
     envelope: FloatArray
-    """how much of the bounds is the fast part"""
+    """how much of the bounds is the fast part, shape (panels, rows)"""
+
+    def part(self, panels: slice, first: int = 0) -> "Bands":
+        """Some of the panels, without the rows before `first`."""
+        return Bands(*(one[panels, ..., first:] for one in self))
 
 
 class Glide:
@@ -35,7 +39,7 @@ class Glide:
         self._rows = np.concatenate([flow.guards, flow.watch])
         self._lengths: dict[float, _Length | None] = {}
 
-    def bands(self, panel: float, states: FloatArray) -> list[Band] | None:
+    def bands(self, panel: float, states: FloatArray) -> Bands | None:
         """Where all rows lie in panels of one length from these states on; None where the length is too long for a
         component that cannot be told from the others.
 
@@ -54,21 +58,17 @@ class Glide:
         envelope = (np.abs(found) * length.growth) @ length.sights
         coefficients = np.matmul(TO_BERNSTEIN, nodes - fast)
         low, high = coefficients.min(axis=1) - envelope, coefficients.max(axis=1) + envelope
-        return [Band(*parts) for parts in zip(nodes, low, high, envelope, strict=True)]
+        return Bands(nodes, low, high, envelope)
 
-    def clear(self, bands: list[Band], states: FloatArray) -> int:
+    def clear(self, bands: Bands, states: FloatArray) -> int:
         """How many panels in a row no guard can reach 0 in; `states` are those between them, both ends among them."""
-        count = len(self.flow.guards)
-        if not count:
-            return len(bands)
-        low = np.array([band.low[:count] for band in bands])
-        reached = (low < -self.flow.noise(states)).any(axis=1)
-        return int(reached.argmax()) if reached.any() else len(bands)
+        low = bands.low[:, : len(self.flow.guards)] < -self.flow.noise(states)
+        reached: NDArray[np.bool_] = np.any(low, axis=1)
+        return int(reached.argmax()) if reached.any() else len(reached)
 
-    def watched(self, band: Band) -> Band:
-        """The signals of a band, without the guards."""
-        first = len(self.flow.guards)
-        return Band(*(part[..., first:] for part in band))
+    def watched(self, bands: Bands, panels: slice = slice(None)) -> Bands:
+        """The signals in some of the panels, without the guards."""
+        return bands.part(panels, len(self.flow.guards))
 
     def _length(self, panel: float) -> "_Length | None":
         if panel not in self._lengths:
@@ -99,7 +99,7 @@ class Glide:
             length = max(waiting)
             square = waiting.pop(length)
             if length > self.flow.finest:
-                change = self.flow.chunk(length / 2).at_nodes[-1]
+                change = self.flow.end(length / 2) + np.eye(len(square))
                 waiting[length / 2] = waiting.get(length / 2, 0.0) + square + change @ square @ change.T
                 continue
             seen = np.matmul(self.flow.watch, self.flow.chunk(length).at_nodes)

@@ -3,11 +3,13 @@
     z' = A z + b f(t),   f(k T + s) = sin(w s + p) for 0 <= s < T
 
 The system and the sine together are one linear system, whose exponential at the places of one pass gives every pass:
-z_k -> z_(k+1) = M z_k + g is the same affine map each time. Its iterates come by doubling, since M^2m and the offset
-of 2m passes follow from those of m: a thousand passes are ten small matrix products, at resonance as anywhere.
+z_k -> z_(k+1) = M z_k + g is the same affine map each time. Its powers come by doubling, those of a block of passes and
+those from block to block: a thousand passes are ten small matrix products, at resonance as anywhere.
 """
 
+import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,25 +56,33 @@ def iterates(matrix: FloatArray, offset: FloatArray, start: FloatArray, count: i
     **Error** rounding, count times that of M: the error of an angle per pass adds up.
     **Source** doubling: M_2m = M_m^2, g_2m = M_m g_m + g_m, both in one matrix.
     """
-    return _with_one(matrix, offset, start, count)[:, :-1]
+    return _seen(np.eye(len(start), len(start) + 1), matrix, offset, start, count)
 
 
-def _with_one(matrix: FloatArray, offset: FloatArray, start: FloatArray, count: int) -> FloatArray:
-    """The same with a 1 behind each state, so that map and shift are one product; shape (count, n + 1)."""
-    n = len(start)
-    states = np.empty((count, n + 1))
-    states[0, :n], states[0, n] = start, 1.0
-    whole = np.zeros((n + 1, n + 1))
-    whole[:n, :n], whole[:n, n], whole[n, n] = matrix, offset, 1.0
+def _seen(rows: FloatArray, matrix: FloatArray, offset: FloatArray, start: FloatArray, count: int) -> FloatArray:
+    """Rows, shape (m, n + 1), times each of the states with a 1 behind it, shape (count, m).
+
+    By blocks: the first state of each, times what the rows see of a block from its first state.
+    """
+    n, width = len(start), 1 << (count - 1).bit_length() // 2
+    step = np.zeros((n + 1, n + 1))  # with a 1 behind each state map and shift are one product
+    step[:n, :n], step[:n, n], step[n, n] = matrix, offset, 1.0
+    inside = _powers(step, width)
+    firsts = _powers(inside[width], -(-count // width) - 1) @ np.append(start, 1.0)
+    return np.asarray(firsts @ (rows @ inside[:width]).reshape(-1, n + 1).T).reshape(-1, len(rows))[:count]
+
+
+def _powers(matrix: FloatArray, most: int) -> FloatArray:
+    """M^0 ... M^most, by doubling, shape (most + 1, n, n)."""
+    found = np.empty((most + 1, *matrix.shape))
+    found[0] = np.eye(len(matrix))
+    found[1:2] = matrix
     filled = 1
-    while True:
-        more = min(filled, count - filled)
-        np.matmul(states[:more], whole.T, out=states[filled : filled + more])
+    while filled < most:
+        more = min(filled, most - filled)
+        np.matmul(found[1 : more + 1], found[filled], out=found[filled + 1 : filled + more + 1])
         filled += more
-        if filled >= count:
-            break
-        whole = whole @ whole
-    return states
+    return found
 
 
 class Passes:
@@ -85,25 +95,30 @@ class Passes:
         whole = np.zeros((n + 2, n + 2))
         whole[:n, :n], whole[:n, n] = rate, gain
         whole[n, n + 1], whole[n + 1, n] = wave.frequency, -wave.frequency
-        self._scale = balance(whole)
         self._rate = whole
-        self._powers = Powers(whole * self._scale / self._scale[:, None])
-        self._driven = np.array([np.sin(wave.phase), np.cos(wave.phase)])
-        step = self._step(np.array([wave.period]))[0]
-        self._states = _with_one(step[:, :n], step[:, n], np.zeros(n) + np.asarray(start, float), passes)
-        self.starts = self._states[:, :n]
+        scale = balance(whole)
+        self._powers = Powers(whole * scale / scale[:, None])
+        self._back = scale[:n, None]
+        self._into = np.eye(n + 2, n + 1) / scale[:, None]  # balanced, of a state with a 1 behind it
+        self._into[n:, n] = math.sin(wave.phase) / scale[n], math.cos(wave.phase) / scale[n + 1]
+        self._start = np.zeros(n) + np.asarray(start, float)
+
+    @cached_property
+    def starts(self) -> FloatArray:
+        """States at the beginning of all passes, shape (passes, n)."""
+        return self.at([0.0], np.eye(self._n))[:, 0]
 
     def _step(self, times: FloatArray) -> FloatArray:
         """Maps (M, g) from the beginning of a pass, shape (times, n, n + 1)."""
-        n = self._n
-        maps = self._powers.at(times)[:, :n] * self._scale[:n, None] / self._scale
-        return np.concatenate([maps[:, :, :n], (maps[:, :, n:] @ self._driven)[:, :, None]], axis=-1)
+        return np.asarray((self._powers.at(times)[:, : self._n] * self._back) @ self._into)
 
     def at(self, places: ArrayLike, watch: FloatArray) -> FloatArray:
         """Rows of `watch`, shape (m, n), times the state at places in [0, 1] of every pass: (passes, places, m)."""
-        maps = self._step(np.atleast_1d(np.asarray(places, float)) * self.wave.period)
-        seen = np.matmul(watch, maps).reshape(-1, self._n + 1)
-        return np.asarray((self._states @ seen.T).reshape(self.passes, len(maps), len(watch)))
+        places = np.atleast_1d(np.asarray(places, float))
+        maps = self._step(np.append(places, 1.0) * self.wave.period)
+        rows = (watch @ maps[:-1]).reshape(-1, self._n + 1)
+        seen = _seen(rows, maps[-1, :, :-1], maps[-1, :, -1], self._start, self.passes)
+        return seen.reshape(self.passes, len(places), len(watch))
 
     def largest(self, row: FloatArray, samples: int = 41) -> tuple[float, int, float]:
         """Largest value of one row of the state, its pass and place: the root of its slope beside the largest sample.

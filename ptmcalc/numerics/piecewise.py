@@ -33,12 +33,14 @@ _POLISHES = 3
 _FIRST_PANELS = 8
 _EARLY = 0.01
 _GLIDES = 64
-"""Panels that one long panel has to be worth, and that go by before another is tried."""
+"""Panels that one long panel has to be worth, and that go by before others are tried again; the first come sooner."""
 _STEADY = 8
 """Long panels tried at once after which a length that was too long is tried again."""
 _SURE = 64
 """Panels after which it is asked whether longer ones will do: what moves by itself only fades."""
-_FEW = 2
+_LONGER = 4
+"""How many times as long a long panel is tried next, or as short."""
+_FEW = 4
 """Long panels that are tried at once after some were too long."""
 _IDLE = 4
 """Crossings of one guard in a row that change nothing, from which on only more than the error of a curve counts."""
@@ -195,13 +197,13 @@ class _March:
         """Along a linear flow to the first crossing of a guard, or to `stop`; `blur` is how far below 0 they may be."""
         unheard, self.unheard = self.unheard, None
         count, soon = _FIRST_PANELS if unheard is None else 1, flow.soonest(state)
-        before, fine, sure = 0, 0.0, 0
+        before, fine, sure = _GLIDES - _FIRST_PANELS, 0.0, 0  # after the first panels a long one is tried
         while (left := stop - record.time) > 4 * _EPS * abs(stop):
             if sure <= 0 or soon < math.inf:
                 fine = flow.panel(state, min(left, soon), record.sizes)
                 sure = _SURE if soon == math.inf else 0
             panel = min(fine, left)
-            if before >= _GLIDES and left >= _GLIDES * panel:
+            if before >= _GLIDES and left >= _GLIDES * panel and flow.glides(_GLIDES * panel):
                 before, passed = 0, self._glide(record, flow, state, panel, stop)
                 if passed is not state:
                     state, sure = passed, 0
@@ -236,10 +238,10 @@ class _March:
         length, longest, tries = _GLIDES * panel, flow.longest(state, record.sizes), 1
         wary = False  # some were too long
         while length >= _GLIDES * panel:
-            self._pay(record, LONG * tries)
             if length > min(stop - record.time, longest):
                 length /= 2
                 continue
+            self._pay(record, LONG * tries)
             starts = flow.chunk(length).starts(state, min(tries, int((stop - record.time) / length)))
             passed = self._passed(record, glide, length, starts)
             if passed:
@@ -247,9 +249,9 @@ class _March:
                 state = starts[passed]
                 longest = flow.longest(state, record.sizes)
             if passed < len(starts) - 1:
-                length, tries, wary = length / 2, _FEW, True
-            elif not wary and 2 * length <= longest:
-                length, tries = 2 * length, 1
+                length, tries, wary = length / _LONGER, _FEW, True
+            elif not wary and length < longest:
+                length, tries = min(_LONGER * length, longest), 1
             else:  # as long as they may be, or long enough after they were too long: then longer ones are tried again
                 wary = wary and tries < _STEADY
                 tries = min(2 * tries, _STEADY)
@@ -262,12 +264,11 @@ class _March:
         if bands is None:
             return 0
         passed = glide.clear(bands, starts)
-        signals = [glide.watched(band) for band in bands[:passed]]
         if record.samples is not None:
-            shown = _SHOWN * record.sizes()
-            passed = next((k for k, band in enumerate(signals) if (band.envelope > shown).any()), passed)
+            ringing = (glide.watched(bands).envelope > _SHOWN * record.sizes()).any(axis=1)
+            passed = min(passed, int(ringing.argmax())) if ringing.any() else passed
         if passed:
-            record.see_long(glide, length, starts[:passed], signals[:passed])
+            record.see_long(glide, length, starts[:passed], glide.watched(bands, slice(passed)))
         return passed
 
     @staticmethod

@@ -13,7 +13,7 @@ from ptmcalc.numerics.panels import COUNT, NODES, WEIGHTS, FloatArray
 
 if TYPE_CHECKING:
     from ptmcalc.numerics.flow import Flow
-    from ptmcalc.numerics.glide import Band, Glide
+    from ptmcalc.numerics.glide import Bands, Glide
 
 _BATCH = 256
 """Panels that are worked off at once."""
@@ -59,26 +59,26 @@ class _Panels(NamedTuple):
 
 
 class _Long(NamedTuple):
-    """A long panel, and the band its signals lie in."""
+    """Long panels of one length: when and from which states they start, and where their signals lie."""
 
     glide: "Glide"
-    start: float
     panel: float
-    state: FloatArray
-    band: "Band"
+    starts: FloatArray
+    states: FloatArray
+    bands: "Bands"
 
 
 def _divided(panels: list[_Long]) -> Iterator[_Long]:
-    """The parts of long panels: all that belong together at once."""
+    """The parts of single long panels: all that belong together at once."""
     alike: dict[tuple[Glide, float], list[_Long]] = {}
     for one in panels:
         alike.setdefault((one.glide, one.panel / _PARTS), []).append(one)
     for (glide, part), ones in alike.items():
-        states = np.concatenate([glide.flow.chunk(part).starts(one.state, _PARTS)[:-1] for one in ones])
+        states = np.concatenate([glide.flow.chunk(part).starts(one.states[0], _PARTS)[:-1] for one in ones])
+        starts = np.add.outer(np.concatenate([one.starts for one in ones]), part * np.arange(_PARTS)).ravel()
         bands = glide.bands(part, states)
         assert bands is not None  # what a panel resolves, its parts do
-        for k, (state, band) in enumerate(zip(states, bands, strict=True)):
-            yield _Long(glide, ones[k // _PARTS].start + (k % _PARTS) * part, part, state, glide.watched(band))
+        yield _Long(glide, part, starts, states, glide.watched(bands))
 
 
 @dataclass(slots=True)
@@ -118,8 +118,10 @@ class Record:
     _sizes: FloatArray = field(default_factory=lambda: np.empty(0))
     _sized: int = 0
     _passed: list["_Long"] = field(default_factory=list)
+    _unread: int = 0
+    """panels among these"""
     _kept: list["_Long"] = field(default_factory=list)
-    """long panels in which some signal could still have an extreme"""
+    """single long panels in which some signal could still have an extreme"""
     _squares: dict["Glide", dict[float, FloatArray]] = field(default_factory=dict)
     """sums of z z^T over the states that long panels of each length start from"""
 
@@ -165,7 +167,8 @@ class Record:
         self.bottom.see(starts, lengths, watch, reach=reach)
         self._sizes = np.maximum(self._sizes, np.maximum(self.top.best, self.bottom.best))
         if len(self.products):
-            power = by_nodes[:, :, self.products[:, 0]] * by_nodes[:, :, self.products[:, 1]]
+            power = by_nodes.take(self.products[:, 0], axis=2)
+            power *= by_nodes.take(self.products[:, 1], axis=2)
             self.integrals += lengths @ (WEIGHTS @ power.reshape(COUNT, -1)).reshape(len(lengths), -1)
         self._ends(starts[-1] + lengths[-1], watch[-1, -1])
         self.steps += len(watch)
@@ -187,51 +190,59 @@ class Record:
 
     # -- long panels --------------------------------------------------------------------------------------------
 
-    def see_long(self, glide: "Glide", panel: float, states: FloatArray, bands: list["Band"]) -> None:
+    def see_long(self, glide: "Glide", panel: float, states: FloatArray, bands: "Bands") -> None:
         """Take in long panels from now and from these states on, with the bands signals lie in; they are read later."""
         if self.samples is not None:
             self.settle()  # in the order of time
-        for k, (state, band) in enumerate(zip(states, bands, strict=True)):
-            start = self.time + k * panel
-            self._passed.append(_Long(glide, start, panel, state, band))
-            self._sizes = np.maximum(self._sizes, np.abs(band.nodes[-1]))
-            if self.samples is not None:
-                self.samples.times.append(start + panel * NODES)
-                self.samples.values.append(band.nodes)
+        count = len(states)
+        starts: FloatArray = self.time + panel * np.arange(count, dtype=float)
+        self._passed.append(_Long(glide, panel, starts, states, bands))
+        self._unread += count
+        self._sizes = np.maximum(self._sizes, np.abs(bands.nodes[:, -1]).max(axis=0))
+        if self.samples is not None:
+            self.samples.times.append(np.add.outer(starts, panel * NODES).ravel())
+            self.samples.values.append(bands.nodes.reshape(-1, bands.nodes.shape[2]))
         if len(self.products):
             squares = self._squares.setdefault(glide, {})
             squares[panel] = squares.get(panel, 0.0) + states.T @ states
-        self._ends(self.time + len(bands) * panel, bands[-1].nodes[-1])
-        self.steps += len(bands)
-        self.long += len(bands)
-        if len(self._passed) >= _BATCH:
+        self._ends(self.time + count * panel, bands.nodes[-1, -1])
+        self.steps += count
+        self.long += count
+        if self._unread >= _BATCH:
             self._look()
 
     def _look(self) -> None:
         """Extremes in the long panels that were passed: at their nodes; between them at once where a signal has no
         fast part, and later where it has one that could make it an extreme."""
-        passed, self._passed = self._passed, []
+        passed, self._passed, self._unread = self._passed, [], 0
         if not passed:
             return
-        starts, lengths = np.array([one.start for one in passed]), np.array([one.panel for one in passed])
-        nodes, low, high, envelope = (np.array(parts) for parts in zip(*(one.band for one in passed), strict=True))
+        counts = [len(one.starts) for one in passed]
+        starts, lengths = (
+            np.concatenate([one.starts for one in passed]),
+            np.repeat([one.panel for one in passed], counts),
+        )
+        nodes, low, high, envelope = (np.concatenate(one) for one in zip(*(one.bands for one in passed), strict=True))
         smooth: NDArray[np.bool_] = np.less_equal(envelope, self._least(passed))
         reach = reach_of(nodes)
         self.top.see(starts, lengths, nodes, smooth, reach)
         self.bottom.see(starts, lengths, nodes, smooth, reach)
         low[smooth], high[smooth] = np.inf, -np.inf
         low[:, self.unsought], high[:, self.unsought] = np.inf, -np.inf
-        read = [one._replace(band=one.band._replace(low=low[k], high=high[k])) for k, one in enumerate(passed)]
-        promising = self._promising(read)
-        self._kept += [one for one, beyond in zip(read, promising, strict=True) if beyond.any()]
+        read = type(passed[0].bands)(nodes, low, high, envelope)
+        owners = [(one, k) for one in passed for k in range(len(one.starts))]
+        for place in np.flatnonzero(self._promising(passed, low, high).any(axis=1)).tolist():
+            one, k = owners[place]
+            bands = read.part(slice(place, place + 1))
+            self._kept.append(_Long(one.glide, one.panel, one.starts[k : k + 1], one.states[k : k + 1], bands))
 
     def _least(self, panels: list["_Long"]) -> FloatArray:
         """What an extreme in panels may be missed by: what may be left out of a signal anyway."""
         return min(one.glide.flow.faded for one in panels) * np.maximum(self.top.best, self.bottom.best)
 
-    def _promising(self, panels: list["_Long"]) -> FloatArray:
-        """By how much signals could lie beyond their extremes in panels, shape (panels, signals), or 0."""
-        low, high = np.array([one.band.low for one in panels]), np.array([one.band.high for one in panels])
+    def _promising(self, panels: list["_Long"], low: FloatArray, high: FloatArray) -> FloatArray:
+        """By how much signals could lie beyond their extremes in panels with these bounds, shape (panels, signals), or
+        0."""
         beyond: FloatArray = np.maximum(high - self.top.best, -low - self.bottom.best)
         beyond[beyond <= self._least(panels)] = 0.0
         return beyond
@@ -244,14 +255,15 @@ class Record:
         while self._kept:
             self.top.settle()
             self.bottom.settle()
-            beyond = self._promising(self._kept)
+            low, high = (np.concatenate([getattr(one.bands, side) for one in self._kept]) for side in ("low", "high"))
+            beyond = self._promising(self._kept, low, high)
             chosen: NDArray[np.bool_] = np.any(beyond, axis=1)
             if self.looks < _LOOKS_ONE_BY_ONE:
                 chosen &= np.isin(np.arange(len(chosen)), beyond.argmax(axis=0))
             kept, self._kept = self._kept, []
             self._passed = list(_divided([kept[k] for k in np.flatnonzero(chosen)]))
             self._kept = [kept[k] for k in np.flatnonzero(np.any(beyond, axis=1) & ~chosen)]
-            self.looks += len(self._passed)
+            self.looks += _PARTS * len(np.flatnonzero(chosen))
             self._look()
             rounds += 1
             if self.looks + _ROUND * rounds > self.most_looks:

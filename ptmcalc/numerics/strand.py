@@ -25,7 +25,7 @@ a step; while slipping the belt speed follows from the friction law and the drum
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from typing import TypeVar
 
 import numpy as np
@@ -37,7 +37,9 @@ from ptmcalc.numerics.loop import BACKWARD, Drive, Extreme, FloatArray, Grid, Lo
 
 _EVENTS_PER_STEP = 8
 _ROOT_STEPS = 60
-_STRETCH = 32
+_STRETCH, _AT_ONCE = 32, 128
+_READ = 8192
+"""Times that are read at once: as many as the cache holds."""
 _Values = TypeVar("_Values", float, FloatArray)
 _GAUSS, _FADED = 32, 40.0
 _SHOWN = 60
@@ -60,23 +62,32 @@ def run_on(loop: Loop, drive: Drive, window: float, grid: Grid, when: FloatArray
     Between the samples it is the polynomial that the waves were advanced with.
     """
     marched = _Marched(loop, drive, window, grid)
-    return loop.carry.static_end + between(marched.drum.on, grid, when)
+    return loop.carry.static_end + between(marched.run_on(), grid, when)
 
 
 def between(history: FloatArray, grid: Grid, when: FloatArray) -> FloatArray:
     """A history of samples at the times `when`, by the polynomials through the samples of every panel."""
     many = grid.panel
-    which = np.minimum(when / (grid.step * many), (len(history) - 1) // many - 1).astype(np.intp)
-    place = when / (grid.step * many) - which
     panels = np.lib.stride_tricks.sliding_window_view(history, many + 1)[::many]
     coefficients = _to_chebyshev(many) @ panels.T
-    twice, newer, older = 4 * place - 2, np.zeros(len(place)), np.zeros(len(place))
-    for one in coefficients[:0:-1]:  # the recurrence of Clenshaw
-        np.subtract(one[which], older, out=older)
-        older += twice * newer
+    found = np.empty(len(when))
+    for begin in range(0, len(when), _READ):
+        part = slice(begin, begin + _READ)
+        found[part] = _summed(coefficients, when[part] / (grid.step * many))
+    return found
+
+
+def _summed(coefficients: FloatArray, place: FloatArray) -> FloatArray:
+    """Sums of Chebyshev polynomials at places counted in panels, by the recurrence of Clenshaw."""
+    which = np.minimum(place, coefficients.shape[1] - 1).astype(np.intp)
+    twice, newer, older = 4 * (place - which) - 2, np.zeros(len(place)), np.zeros(len(place))
+    spare = np.empty(len(place))
+    for one in coefficients[:0:-1]:
+        np.subtract(one.take(which), older, out=older)
+        older += np.multiply(twice, newer, out=spare)
         newer, older = older, newer
     twice *= newer / 2
-    return np.asarray(coefficients[0][which] - older + twice)
+    return np.asarray(coefficients[0].take(which) - older + twice)
 
 
 @cache
@@ -97,9 +108,9 @@ class _Node:
         self.full = weights(self.rate * step)
         self.step_size = step
         self.panel = panel
-        self.kernel = panel_weights(self.rate * step, panel).T / impedance
-        self.fading = self.full[0] ** np.arange(1, panel + 1)
-        self.ends = Fading(float(self.fading[-1]))
+        fading = self.full[0] ** np.arange(1, panel + 1)
+        self.kernel = np.concatenate([panel_weights(self.rate * step, panel).T / impedance, fading[None]])
+        self.ends = Fading(float(fading[-1]))
         self.speed = 0.0
         self.forcing = 0.0
 
@@ -110,15 +121,13 @@ class _Node:
             self.go_on(float(speeds[-1]), float(forcing[-1]))
             return speeds
         panels = forcing.reshape(-1, self.panel)
-        forced = panels @ self.kernel[1:]
-        starts = np.empty(len(forced))
-        starts[0], starts[1:] = self.forcing, panels[:-1, -1]
-        forced += starts[:, None] * self.kernel[0]
-        ends = self.ends.run(self.speed, forced[:, -1])
-        starts[0], starts[1:] = self.speed, ends[:-1]
-        forced += starts[:, None] * self.fading
+        inputs = np.empty((len(panels), self.panel + 2))  # of each: forcing at start and samples, speed at the start
+        inputs[:, 1:-1] = panels
+        inputs[0, 0], inputs[1:, 0] = self.forcing, panels[:-1, -1]
+        ends = self.ends.run(self.speed, inputs[:, :-1] @ self.kernel[:-1, -1])
+        inputs[0, -1], inputs[1:, -1] = self.speed, ends[:-1]
         self.go_on(float(ends[-1]), float(forcing[-1]))
-        return forced.ravel()
+        return np.asarray((inputs @ self.kernel).ravel())
 
     def go_on(self, speed: float, forcing: float) -> None:
         """Take this as the present sample."""
@@ -140,27 +149,32 @@ def weights(x: float) -> tuple[float, float, float]:
 
 
 class Fading:
-    """y_k = d y_(k-1) + u_k for many k at once: the powers of d over a stretch, and the same rule from one stretch to
-    the next with the power of d over a whole one."""
+    """y_k = d y_(k-1) + u_k for many k at once: a convolution with the powers of d; for very many the same powers over
+    stretches, and from one of these to the next the same rule with the power of d over a whole one."""
 
     def __init__(self, decay: float) -> None:
-        apart = np.subtract.outer(np.arange(_STRETCH), np.arange(_STRETCH))
-        self.within = np.where(apart >= 0, decay ** np.maximum(apart, 0.0), 0.0).T
-        self.fading = decay ** np.arange(1.0, _STRETCH + 1)
+        self.powers = decay ** np.arange(_AT_ONCE + 1.0)
+        self.fading = self.powers[1 : _STRETCH + 1]
         self.decay = decay
         self.longer: Fading | None = None
+
+    @cached_property
+    def within(self) -> FloatArray:
+        """What is given at one place of a stretch, at each of them."""
+        ahead = np.concatenate([np.zeros(_STRETCH - 1), self.powers[:_STRETCH]])
+        return np.lib.stride_tricks.sliding_window_view(ahead, _STRETCH)[::-1].copy()
 
     def run(self, start: float, given: FloatArray) -> FloatArray:
         """y_1 ... y_n from y_0 = `start`."""
         n = len(given)
-        if n <= _STRETCH:
-            return np.asarray(given @ self.within[:n, :n] + start * self.fading[:n])
+        if n <= _AT_ONCE:
+            return np.convolve(np.concatenate([[start], given]), self.powers[: n + 1])[1 : n + 1]
         whole = -(-n // _STRETCH)
         padded = np.zeros((whole, _STRETCH))
         padded.ravel()[:n] = given
-        found: FloatArray = padded @ self.within
         if self.longer is None:
             self.longer = Fading(float(self.fading[-1]))
+        found: FloatArray = padded @ self.within
         starts = np.empty(whole)
         starts[0], starts[1:] = start, self.longer.run(start, found[:-1, -1])
         found += starts[:, None] * self.fading
@@ -215,11 +229,12 @@ class _Drum:
         self.forces = drive.force(times) if drive.force else None
         self.speeds = drive.speed(times) if drive.speed else None
         self.node = _Node(loop.drum_mass, self.z_carry + self.z_off, step, grid.panel)
-        self.grip = loop.grip
         self.squeeze = math.exp(-loop.grip.exponent) if loop.grip else 0.0
         self.slipping = 0  # +1: the drum runs ahead of the belt, -1: the belt ahead of the drum
         self.slipped = False
-        self.belt, self.drum, self.on, self.off = np.zeros((4, len(times)))
+        self.grip = loop.grip
+        self.belt = np.zeros(len(times))
+        self.drum = self.belt if self.grip is None else np.zeros(len(times))
         self.arriving = (0.0, 0.0)  # N at the run-on, P at the run-off, at the last sample
         self.at = (0.0, 0.0)  # belt and drum speed there
         self.force: list[float] | None = None
@@ -238,6 +253,9 @@ class _Drum:
         """
         here = slice(first, first + len(n_on))
         belt, drum = self.belt[here], self.drum[here]
+        if not self.grip:
+            self._stuck(here, n_on, p_off, belt)
+            return belt
         kept = 0
         if not self.slipping:
             kept = self._stuck(here, n_on, p_off, belt)
@@ -247,12 +265,6 @@ class _Drum:
         if kept < len(belt):
             self._by_steps(first + kept, n_on[kept:], p_off[kept:], belt[kept:], drum[kept:])
         return belt
-
-    def tensions(self, n_on: FloatArray, p_off: FloatArray) -> None:
-        """Dynamic tensions of run-on and run-off, after all blocks."""
-        self.on[:] = n_on + self.z_carry * self.belt
-        if self.fixed:
-            self.off[:] = p_off - self.z_off * self.belt
 
     def _stuck(self, here: slice, n_on: FloatArray, p_off: FloatArray, belt: FloatArray) -> int:
         """Speeds of a belt that sticks, into `belt`; for how many samples it does."""
@@ -478,13 +490,13 @@ class _Delays:
         def at_tail(first: int, end: int) -> None:
             p_tail, n_tail = from_drum[first:end], from_off[first:end]
             v_tail = self.tail_speed[first:end] = tail.block(p_tail - n_tail)
-            into_carry[carry + first : carry + end] = p_tail - 2 * z_carry * v_tail
-            into_back[back + first : back + end] = n_tail + 2 * z_back * v_tail
+            np.subtract(p_tail, 2 * z_carry * v_tail, out=into_carry[carry + first : carry + end])
+            np.add(n_tail, 2 * z_back * v_tail, out=into_back[back + first : back + end])
 
         def at_drum(first: int, end: int) -> None:
             n_on, p_off = into_carry[first:end], into_back[first:end]
             belt = drum.block(first, n_on, p_off)
-            from_drum[carry + first : carry + end] = n_on + 2 * z_carry * belt
+            np.add(n_on, 2 * z_carry * belt, out=from_drum[carry + first : carry + end])
             from_off[back + first : back + end] = p_off - 2 * z_back * belt if fixed else -p_off
 
         at_tail(1, min(1 + shorter, last))
@@ -493,7 +505,6 @@ class _Delays:
             at_drum(first, end)
             if middle < last:
                 at_tail(middle, min(middle + 2 * shorter, last))
-        drum.tensions(into_carry[:last], into_back[:last])
 
     def waves(self) -> FloatArray:
         """What leaves drum, tail, tail and run-off, at the samples of the window."""
@@ -643,10 +654,25 @@ class _Marched:
         self.tail = _Node(loop.tail_mass, sum(loop.impedances), grid.step, grid.panel)
         self.interior.run(self.drum, self.tail)
 
+    def run_on(self) -> FloatArray:
+        """Dynamic tension of the run-on at every sample."""
+        belt = self.drum.belt
+        tension = self.drum.z_carry * belt
+        tension += self.interior.carry[1, : len(belt)]
+        return tension
+
+    def run_off(self) -> FloatArray:
+        """Dynamic tension of the run-off at every sample."""
+        belt = self.drum.belt
+        if not self.loop.fixed_length:
+            return np.zeros(len(belt))
+        return np.asarray(self.interior.back[0, : len(belt)] - self.drum.z_off * belt)
+
     def motion(self) -> Motion:
         """What `march` answers."""
         loop, drum, interior = self.loop, self.drum, self.interior
-        belt, rim, on, off = (one[: self.steps + 1] for one in (drum.belt, drum.drum, drum.on, drum.off))
+        rim = drum.belt.copy() if drum.grip is None else drum.drum
+        belt, rim, on, off = (one[: self.steps + 1] for one in (drum.belt, rim, self.run_on(), self.run_off()))
         carry_max, carry_min = interior.extremes(loop.carry, carry=True)
         back_max, back_min = interior.extremes(loop.back, carry=False)
         ahead = loop.back.length

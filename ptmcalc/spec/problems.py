@@ -143,7 +143,10 @@ def _wrong_form(path: KeyPath, given: object, form: str, model: Model, document:
     reason = f"{quote(dotted(path)) if path else 'the file'} takes {form}, found {describe(given)}"
     field = keys_at(model, path[:-1], document.data).get(str(path[-1])) if path else None
     example = example_of(field) if field else example_like(annotation_at(model, path, document.data), given)
-    if form == _FORMS["int_type"] and isinstance(given, str) and given.strip().isdecimal():
-        example = given.strip()
+    if form == _FORMS["int_type"]:
+        if isinstance(given, str) and given.strip().isdecimal():
+            example = given.strip()
+        elif isinstance(given, float) and given >= 1:  # a nearby count, not any one
+            example = str(round(given))
     key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
     return Diagnostic("SPC111", reason, document.value_span(path), path, f"write `{key}{example}`")

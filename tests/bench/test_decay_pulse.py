@@ -40,15 +40,14 @@ def test_series_only_where_they_are_needed(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_evenly_spaced_samples_share_their_exponentials(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The complex ones, which cost most: some hundred for ten thousand samples."""
+    """Some hundred for ten thousand samples, those of the first samples among them."""
     made: list[int] = []
     exp = np.exp
 
     def counted(values: Any, *arguments: Any, **options: Any) -> Any:
-        if np.iscomplexobj(values):
-            made.append(np.size(values))
+        made.append(np.size(values))
         return exp(values, *arguments, **options)
 
     monkeypatch.setattr(exponentials.np, "exp", counted)
     pulse()
-    assert sum(made) <= 0.05 * SAMPLES
+    assert sum(made) <= 0.09 * SAMPLES

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from support.bars import MACHINES as ALL
-from support.bars import Limit, Trial, misses, near, opposites, tried, wide, widest
+from support.bars import THIRD, Limit, Trial, misses, near, opposites, tried, wide, widest
 from support.belt_scenes import Brake, Drive, Rig, loads_of
 from support.machines import check_of, load_of, report_of, scene_of, spec_of
 
@@ -119,7 +119,7 @@ def test_the_sample_has_brakes_and_none_both_takeups_and_both_slopes(cases: list
     assert {len(case.rig.brakes) for case in cases} == {0, 1, 2}
     assert {case.rig.rigid for case in cases} == {True, False}
     assert {case.rig.sections[0][1] > 0 for case in cases} == {True, False}
-    assert sum(case.claims["stop_distance"].bounded for case in cases) > 0.7 * MACHINES
+    assert sum(case.claims["stop_distance"].bounded for case in cases) > 0.9 * MACHINES
     assert {"tension_max", "tension_min", "stop_time", "stop_distance"} <= {name for _, name, _ in told(cases)}
 
 
@@ -139,11 +139,14 @@ def test_no_verdict_is_the_opposite_of_the_elements(cases: list[Case]) -> None:
 def test_every_interval_holds_finite_elements_on_a_larger_sample() -> None:
     cases = drawn_cases(ALL, SEED + 1)
     assert [one for one in told(cases) if one[2] > 1] == []
-    assert opposites([case.trial for case in cases]) == []
+    trials = [case.trial for case in cases]
+    assert misses(trials, "stiff_stop", ignored=("tension_dynamic_run_on_max",)) == []
+    assert opposites(trials) == []
+    assert wide(trials, "stiff_stop") <= widest("stiff_stop")
 
 
-def test_a_tenth_of_the_intervals_would_not(cases: list[Case]) -> None:
-    assert max(ratio for _, _, ratio in told(cases)) > 0.1
+def test_a_third_of_the_intervals_would_not(cases: list[Case]) -> None:
+    assert misses([case.trial for case in cases], "stiff_stop", THIRD, ("tension_dynamic_run_on_max",)) != []
 
 
 def test_a_belt_of_one_metre_gets_its_verdicts() -> None:

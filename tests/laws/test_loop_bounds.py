@@ -365,6 +365,73 @@ def profile_answers(w: np.ndarray, shape: str, imposed_speed: bool, rise_time: f
     return in_rise, after
 
 
+# --- speeds -----------------------------------------------------------------------------------------------------
+
+
+@cache
+def speeds(belt: fem.Belt, imposed_speed: bool, count: int = ELEMENTS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Modes of the nodes, of a loop of elements, what a step of the drive gives each of them per unit of acceleration,
+    and their frequencies: v(s, t) = a t - sum of modes[s, n] drive[n]/w[n] sin w[n] t."""
+    mass, stiff, _ = fem.elements(belt, (count, count))
+    if imposed_speed:
+        values, inner = eigh(stiff[1:, 1:], mass[1:, 1:])
+        modes = np.vstack([np.zeros(len(values)), inner])
+        drive = -inner.T @ mass[1:].sum(axis=1)
+    else:
+        values, modes = eigh(stiff, mass)
+        values, modes = values[1:], modes[:, 1:]
+        drive = modes[0] * mass.sum()
+    return modes, drive, np.sqrt(values)
+
+
+def at_nodes(law: Callable[[LoopMasses, int, np.ndarray], np.ndarray], loop: LoopMasses, count: int) -> np.ndarray:
+    """A law at the nodes, the drum's run-on first and then against the motion; not at a free end."""
+    x = 1 - np.arange(count) / count
+    return np.concatenate([law(loop, CARRY, x), law(loop, RETURN, x)])
+
+
+class TestSpeeds:
+    @pytest.mark.parametrize(("fixed_length", "imposed_speed"), CASES)
+    def test_a_section_gives_way_as_its_modes_do(self, fixed_length: bool, imposed_speed: bool) -> None:
+        """Under a unit force on a node elements are exact but for the mass of theirs: the sum is that of any mesh."""
+        for belt in belts(fixed_length, 6, seed=9):
+            loop = masses_of(belt, imposed_speed)
+            modes, _, w = speeds(belt, imposed_speed, 60)
+            nodes = slice(0, 120)
+            sums = (modes[nodes] ** 2 / w**2).sum(axis=1)
+            assert at_nodes(loop_bounds.give, loop, 60) == pytest.approx(sums, rel=2e-3, abs=1e-6 * sums.max())
+
+    @pytest.mark.parametrize(("fixed_length", "imposed_speed"), CASES)
+    def test_no_section_is_faster_or_slower_than_the_rigid_body_by_more(
+        self, fixed_length: bool, imposed_speed: bool
+    ) -> None:
+        """Nor could it be if all modes came together; some section of some loop comes near it."""
+        nearest, reached = 0.0, []
+        for belt in belts(fixed_length):
+            loop = masses_of(belt, imposed_speed)
+            modes, drive, w = speeds(belt, imposed_speed)
+            share = (modes * drive / w)[1 : 2 * ELEMENTS]
+            bound = at_nodes(loop_bounds.speed_stray, loop, ELEMENTS)[1:]
+            assert np.all(np.abs(share).sum(axis=1) <= bound * (1 + 1e-9))
+            nearest = max(nearest, float((np.abs(share).sum(axis=1) / bound).max()))
+            swings = np.abs(together(share, np.sin(np.outer(w, ring_times(w))))).max(axis=1)
+            reached.append(float((swings / bound).max()))
+        assert nearest > 0.95
+        assert np.median(reached) > 1 / 3
+
+    def test_the_free_end_of_an_even_loop_lags_by_the_time_of_a_wave(self) -> None:
+        """A drum that sets off at once: the end stands still until the wave comes, and then catches up as much."""
+        belt = fem.Belt((400.0, 400.0), (60.0, 60.0), 2e7, 1.0, 0.0, rigid_takeup=False)
+        wave = 800.0 * math.sqrt(60.0 / 2e7)
+        assert loop_bounds.speed_stray(masses_of(belt, SPEED), RETURN, 0.0) == pytest.approx(wave, rel=1e-12)
+
+    def test_the_drum_of_a_fixed_loop_is_one_place(self) -> None:
+        for belt in belts(FIXED, 4):
+            loop = masses_of(belt, FORCE)
+            ends = [float(loop_bounds.give(loop, strand, x)) for strand, x in ((CARRY, 1.0), (RETURN, 0.0))]
+            assert ends[0] == pytest.approx(ends[1], rel=1e-12)
+
+
 # --- the lowest frequency ---------------------------------------------------------------------------------------
 
 

@@ -24,7 +24,7 @@ def driven(input_rates: np.ndarray) -> np.ndarray:
 def test_an_oscillator_beside_the_frequency_of_its_input(beside: float, alike: bool) -> None:
     w = 24.0 * (1 + beside)
     found = components(driven(np.array([[0.0, w], [-w, 0.0]])), np.eye(4), 2)
-    assert found.posed.tolist() == [not alike] * 2
+    assert found.posed.tolist() == [not alike], "of a number and its conjugate, one"
     slowest, fastest = found.span(np.array([1.0, 0.0, 1.0, 0.0]), 1e-11, np.zeros(0))
     assert (slowest, fastest) == pytest.approx((24.0, 24.0))
 

@@ -40,6 +40,25 @@ class TestMotion:
         for found, column in ((x, expected[:, 0]), (v, expected[:, 1])):
             assert np.abs(found - column).max() <= 1e-12 * np.abs(column).max() + 1e-300
 
+    @pytest.mark.parametrize("zeta", [0.0, 0.04, 1.3, 3.0])
+    @pytest.mark.parametrize(("slow", "fast"), [(3.0, 96.0), (96.0, 3.0), (0.0, 20.0)])
+    @pytest.mark.parametrize("end", [3.0, 6.0])
+    def test_many_times_are_as_few(self, zeta: float, slow: float, fast: float, end: float) -> None:
+        """Partial fractions, from where they lose nothing on, beside the divided differences of the motion to come."""
+        pulse = DecayPulse(5.0, zeta, slow, fast, 2.0, end)
+        times = np.linspace(0.0, 6.0, 1001)
+        few = np.concatenate([pulse.at(times[k : k + 100]) for k in range(0, 1001, 100)], axis=1)
+        to_come = np.maximum.accumulate(np.abs(few)[:, ::-1], axis=1)[:, ::-1]
+        assert np.all(np.abs(np.array(pulse.at(times)) - few) <= 3e-13 * to_come)
+
+    @pytest.mark.parametrize("unit", [2.0**-330, 2.0**-20, 2.0**20, 2.0**330])
+    def test_the_unit_of_time_changes_no_digit_of_many(self, unit: float) -> None:
+        times = np.linspace(0.0, 6.0, 1001)
+        x, v = DecayPulse(5.0, 0.04, 3.0, 96.0, 2.0, 5.0).at(times)
+        y, u = DecayPulse(5.0 / unit, 0.04, 3.0 / unit, 96.0 / unit, 2.0 / unit / unit, 5.0 * unit).at(times * unit)
+        assert np.array_equal(x, y)
+        assert np.array_equal(v, u * unit)
+
     def test_times_in_any_order_and_shape(self) -> None:
         times = np.random.default_rng(1).uniform(0, 8, (7, 11))
         x, v = PAPER.at(times)

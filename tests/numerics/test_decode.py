@@ -261,6 +261,17 @@ def test_what_a_stretch_does_not_follow_is_twice_what_it_has_changed_by() -> Non
     assert looked > 20
 
 
+def test_a_sample_stands_in_the_middle_of_every_stretch() -> None:
+    """So that an even power about it leaves its acceleration alone; each stretch is about half as long again."""
+    time = np.linspace(-1.0, 1.0, 601)
+    for size in decode._SIZES:
+        fits = decode._at_all(time, time**4, size)[0]
+        assert fits[1, 300] == pytest.approx(0.0, abs=1e-10)
+        assert fits[5, 300] + fits[6, 300] == 600
+    sizes = np.array(decode._SIZES)
+    np.testing.assert_allclose(sizes[1:] / sizes[:-1], 1.46, rtol=0.03)
+
+
 def test_a_window_too_short_for_a_cubic_is_made_long_enough() -> None:
     found = decode.fit(TIME, CUBIC(TIME) + np.sin(40 * TIME), 2)
     assert set((found.last - found.first).tolist()) == {4}

@@ -58,6 +58,13 @@ class TestPanels:
         resolves(decays().longest(np.array([1.0, 1e-13, 1.0]), sizes), FAST)
         assert decays().longest(np.array([0.0, 0.0, 1.0]), sizes) == math.inf
 
+    def test_glide_where_anything_is_slow_enough(self) -> None:
+        """Beside something that does not move at all, nor by itself: exp(-t/4), exp(-50 t), 1."""
+        flow = Flow(np.diag([-0.25, -50.0, 0.0]), np.zeros((0, 3)), np.eye(3), 3)
+        assert flow.glides(0.999 * RESOLVED / 0.25)
+        assert not flow.glides(1.001 * RESOLVED / 0.25)
+        assert not Flow(np.zeros((1, 1)), np.zeros((0, 1)), np.eye(1), 1).glides(1e-9)
+
     @pytest.mark.parametrize("resolved", [RESOLVED, 0.7 * RESOLVED])
     def test_stand_on_a_lattice_of_their_own(self, resolved: float) -> None:
         flow, unit = decays(resolved=resolved), resolved / RESOLVED
@@ -86,6 +93,18 @@ class TestMotion:
         expected = [expm(self.RATE * 0.0625 * k) @ self.STATE for k in range(count + 1)]
         assert starts == pytest.approx(np.array(expected), rel=1e-13, abs=1e-14)
         assert self.flow().moved(self.STATE, 0.37) == pytest.approx(expm(self.RATE * 0.37) @ self.STATE, rel=1e-13)
+
+    @pytest.mark.parametrize("doublings", [-3, 0, 1, 5])
+    @pytest.mark.parametrize("kept", [(), (0,), (0, 3)])
+    def test_the_end_of_a_panel_is_that_of_its_halves(self, doublings: int, kept: tuple[int, ...]) -> None:
+        """However long, and whether panels of some lengths are at hand."""
+        flow = self.flow()
+        for one in kept:
+            flow.chunk(flow.finest * 2.0**one)
+        panel = flow.finest * 2.0**doublings
+        expected = expm(self.RATE * panel) - np.eye(3)
+        for _ in range(2):
+            assert flow.end(panel) == pytest.approx(expected, rel=1e-12, abs=1e-15)
 
     def test_guards_have_a_value_and_a_slope(self) -> None:
         value, slope = self.flow().guard(1, self.STATE)

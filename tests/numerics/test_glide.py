@@ -11,6 +11,8 @@ import pytest
 from support.modes import Modes, Part, turning
 
 from ptmcalc.numerics import piecewise
+from ptmcalc.numerics.flow import RESOLVED, Flow
+from ptmcalc.numerics.glide import Band, Glide
 from ptmcalc.numerics.piecewise import march
 from ptmcalc.numerics.record import Record
 
@@ -136,3 +138,31 @@ class TestCost:
         seen_faintly = replace(system, watch=system.watch[:1], products=())
         faint = march(seen_faintly, "swing", np.array([size, 0, 1e-6 * size, 0, 1.0]), 10.0, keep=True)
         assert faint.steps < found.steps / 4
+
+
+class TestLongestPanel:
+    """What is resolved is the radians that a component turns by in a panel; one part in 1e9 is rounding of them."""
+
+    PANEL = 0.25
+
+    def bands(self, own: int, share: float, refined: float = 1.0) -> list[Band] | None:
+        """A slow and a fast swing, the fast one turning by a share of what is resolved; own or an input."""
+        fast = share * RESOLVED * refined / self.PANEL
+        rate = np.block([[turning(1e-3), np.zeros((2, 2))], [np.zeros((2, 2)), turning(fast)]])
+        watch = np.array([[1.0, 0.0, 1.0, 0.0]])
+        flow = Flow(rate, np.zeros((0, 4)), watch, own, 0.0 if own == 4 else fast, resolved=RESOLVED * refined)
+        return Glide(flow).bands(self.PANEL, np.array([[1.0, 0.0, 0.3, 0.0]]))
+
+    @pytest.mark.parametrize("refined", [1.0, 0.5])
+    def test_resolves_every_input(self, refined: float) -> None:
+        assert self.bands(2, 1 + 1e-8, refined) is None
+        assert self.bands(2, 1 + 1e-10, refined) is not None
+        assert self.bands(2, 1.6, refined) is None
+
+    @pytest.mark.parametrize("refined", [1.0, 0.5])
+    def test_what_it_does_not_resolve_is_an_envelope(self, refined: float) -> None:
+        """All of the fast swing, 0.3, and nothing where it is resolved."""
+        for share, envelope in ((1 + 1e-8, 0.3), (1.6, 0.3), (1 + 1e-10, 0.0), (0.5, 0.0)):
+            bands = self.bands(4, share, refined)
+            assert bands is not None
+            assert bands[0].envelope[0] == pytest.approx(envelope, rel=1e-9)

@@ -99,6 +99,15 @@ def test_largest_lies_within_the_passes(count: int) -> None:
         assert 0 <= place <= 1
 
 
+@pytest.mark.parametrize("size", [2.0**-40, 2.0**40])
+def test_the_answer_is_as_large_as_the_wave(size: float) -> None:
+    """However the balance shares out what is so large or small beside the rates."""
+    plain, other = (
+        Passes(oscillator(31.0, 0.02), gain, WAVE, 9).at([0.0, 0.3], np.eye(2)) for gain in (GAIN, size * GAIN)
+    )
+    assert other == pytest.approx(size * plain, rel=1e-12, abs=1e-14 * size)
+
+
 def test_several_modes_and_a_start() -> None:
     """Two coupled masses, from a state that is not rest: scipy's exponential, pass by pass."""
     rate = np.array([[0, 0, 1, 0], [0, 0, 0, 1], [-900, 400, -0.3, 0.1], [300, -500, 0.2, -0.9]], float)

@@ -383,3 +383,15 @@ def test_a_history_ends_with_its_last_sample(panel: int) -> None:
 def test_a_history_of_single_steps_is_straight_between_them() -> None:
     found = strand.between(np.array([1.0, 5.0, 2.0]), Grid(0.5, 2, 2, 0.0), np.array([0.0, 0.25, 0.75, 1.0]))
     assert found == pytest.approx([1.0, 3.0, 3.5, 2.0], rel=1e-14)
+
+
+@pytest.mark.parametrize("decay", [0.0, 0.3, 0.97, 1.0])
+@pytest.mark.parametrize("count", [1, 31, 32, 33, 127, 128, 129, 600, 5000])
+def test_what_fades_is_advanced_at_once_as_step_by_step(decay: float, count: int) -> None:
+    given = np.random.default_rng(count).normal(size=count)
+    value, expected = 3.0, []
+    for one in given.tolist():
+        value = decay * value + one
+        expected.append(value)
+    found = strand.Fading(decay).run(3.0, given)
+    assert found == pytest.approx(np.array(expected), rel=1e-12, abs=1e-12 * np.abs(expected).max())

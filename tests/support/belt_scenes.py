@@ -384,5 +384,5 @@ def loads_of(rig: Rig, motion: Motion, until: float | None = None) -> Found:
     if len(rest):
         last = int(rest[0])
         loads["stop_time"] = float(times[last])
-        loads["stop_distance"] = float(belt[:last].sum()) * float(times[1] - times[0])
+        loads["stop_distance"] = float(belt[:last].sum() - belt[0] / 2) * float(times[1] - times[0])
     return Found(loads)

@@ -266,10 +266,14 @@ def _weight_numbers(spec: ChainDrive, case: StartCase) -> tuple[float, float]:
 def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     """Change of any tension when the take-up weight is taken without inertia.
 
-        d = T_0 (3.4 a_0/(2 g) + kappa)
+        run-on, by its dynamic part:  d = 3 (M a_0/4 + kappa a M_chain)
+        any other:                    d = T_0 (3.4 a_0/(2 g) + kappa)
+
+    The motion is linear, and so is what the weight changes of it in the force that starts it.
 
     **Range** below the threshold; unbounded above.
-    **Error** calibrated on belts, whose loop is the same: the largest drop seen of the run-off tension was
+    **Error** calibrated: on 431 seeded chains started by a step the change of the run-on tension came to 2.1 of the
+    bracket, to 0.15 in the median; on belts, whose loop is the same, the largest drop of the run-off tension was
     T_0 3.4 a_0/(2 g) at small kappa.
     **Source** take-up weight on two falls; coverage samples of belts and chains.
     """
@@ -279,7 +283,13 @@ def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     if weight_criterion(spec, scene).exceeded:
         return _anything(loads)
     kappa, drive = _weight_numbers(spec, case)
-    return _unless_slack(spec, case, case.line.run_off * (3.4 * drive / 2 + kappa), loads)
+    change = case.line.run_off * (3.4 * drive / 2 + kappa)
+    pushed = case.line.takeup_mass / 4 * drive * spec.gravity + kappa * case.acceleration * case.masses.belt_mass
+    others = _unless_slack(spec, case, change, loads)
+    if not all(one.bounded for one in others.values()):
+        return others
+    at_drive = start_bounds.spread(spec, case, 3 * pushed, 3 * pushed, loads)
+    return {**others, **{name: one for name, one in at_drive.items() if name != "tension_min"}}
 
 
 def _unless_slack(spec: ChainDrive, case: StartCase, change: float, loads: Loads) -> Offsets:

@@ -17,8 +17,9 @@ from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, LOWEST, OF_STOP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, lowest_frequency, start_duration
+from ptmcalc.machines.conveyor.moved_grip import moved_grip
 from ptmcalc.numerics.lanes import value
 
 FloatArray = NDArray[np.float64]
@@ -350,18 +351,22 @@ def derived_loads(line: BeltLine, tension_max: float, smallest: tuple[float, ...
     """Belt safety, sag and distance from slack that follow from the extreme tensions; `smallest` of return and
     carry strand [N]."""
     spans = (line.back.span_weight, line.carry.span_weight)
-    loads = {
-        "slack_margin_min": min(
-            low - (sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0)
-            for span, low in zip(spans, smallest, strict=True)
-        )
-    }
+    loads = {"slack_margin_min": min(low - limit for limit, low in zip(slack_limits(line), smallest, strict=True))}
     if line.breaking_force is not None:
         loads["belt_safety_min"] = line.breaking_force / tension_max if tension_max > 0 else np.inf
     sags = [value(sag.sag_ratio, span, low) for span, low in zip(spans, smallest, strict=True) if span is not None]
     if len(sags) == len(spans):
         loads["sag_relative_max"] = max(sags)
     return loads
+
+
+def slack_limits(line: BeltLine) -> tuple[float, float]:
+    """Tension below which the return and the carry strand are slack [N]; 0 where the idlers' pitch is not given."""
+    back, carry = (
+        sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0
+        for span in (line.back.span_weight, line.carry.span_weight)
+    )
+    return back, carry
 
 
 def even_loads(line: BeltLine) -> dict[str, float]:
@@ -420,12 +425,14 @@ def _less(end: float, value: float) -> float:
     return 0.0 if end == value else end - value
 
 
-def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
-    """How far each load of a run may be off when every tension may be off by `change` [N] at any time.
+def spread(
+    case: StartCase, loads: Mapping[str, Estimate], change: float, at_grip: float = math.inf
+) -> dict[str, Interval]:
+    """How far each load of a run may be off when every tension may be off by `change` [N] at any time, and by `at_grip`
+    at a drum while its grip is worst, if that is less.
 
-    The grip follows from U' = (U x + change e)/(x - change), with x the smallest run-off tension less the
-    centrifugal one and e = exp(-mu alpha); the reserve, without the centrifugal one, from the ratio of tensions
-    that it stands for. The only drive's own loads move as those of the belt do.
+    The grip follows from the tensions at the drum (`moved_grip`). The only drive's own loads move as those of the belt
+    do.
     """
     line = case.line
     moved = {name: Interval(-change, change) for name in TENSIONS if name in loads}
@@ -435,81 +442,96 @@ def spread(case: StartCase, loads: Mapping[str, Estimate], change: float) -> dic
         needed = loads["starting_force_needed"].value
         ends = [drive_loads(case, needed + part)["starting_reserve"] for part in (2 * change, -2 * change)]
         moved["starting_force_needed"] = Interval(-2 * change, 2 * change)
-        moved["starting_reserve"] = _around(loads["starting_reserve"].value, ends)
-    if "belt_safety_min" in loads and line.breaking_force is not None:
-        tension = line.breaking_force / loads["belt_safety_min"].value
-        ends = [line.breaking_force / (tension + change)]
-        ends.append(line.breaking_force / (tension - change) if tension > change else np.inf)
-        moved["belt_safety_min"] = _around(loads["belt_safety_min"].value, ends)
+        moved["starting_reserve"] = around(loads["starting_reserve"].value, ends)
+    moved |= moved_safety(line, loads, change)
     if "sag_relative_max" in loads:
-        moved["sag_relative_max"] = _moved_sag(line, loads, change)
+        moved["sag_relative_max"] = moved_sag(line, loads, change)
     if "slip_utilisation_max" in loads and line.grip_exponent is not None:
-        moved |= _spread_slip(line, loads, change)
+        there = min(change, at_grip) if _grips("slip_utilisation_max", loads) else change
+        off = there if line.fixed_length else 0.0
+        for name in GRIP:
+            if name in loads:
+                drum = {name: line.grip_exponent}
+                moved[name] = moved_grip(name, loads, line.centrifugal_at_speed, drum, there, off)
         used = loads["slip_utilisation_max"].high + moved["slip_utilisation_max"].high
         if used >= 1:  # else nothing slips, neither here nor in truth
             moved |= {name: anything(name, load) for name, load in loads.items() if family(name) in SLIPS}
     return moved | {name: moved[family(name)] for name in loads if family(name) in moved}
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """By how much tensions may be off [N]: their largest values, their smallest ones, and those at a drum while its
+    grip is worst."""
+
+    largest: float
+    smallest: float
+    at_grip: float
+
+    @classmethod
+    def any_time(cls, change: float) -> "Change":
+        """Every tension, at any time."""
+        return cls(change, change, change)
+
+    def of(self, load: str) -> float:
+        """Of a tension."""
+        return self.smallest if family(load) in LOWEST else self.largest
+
+
 def moved(
     line: BeltLine,
     loads: Mapping[str, Estimate],
-    change: float,
+    change: Change,
     slowing: float,
     grips: Mapping[str, float],
     off: bool = False,
     asked: int = 0,
 ) -> dict[str, Interval]:
-    """How far loads may be off when every tension may be off by `change` [N], of any scene and any number of drives.
+    """How far loads may be off when tensions may be off by `change`, of any scene and any number of drives.
 
-    The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from
-
-        U' = (U x + change e)/(x - change),   e = exp(-mu alpha) of the drum's `grips`
-
-    with x the least tension at a drum less the centrifugal one; its reserve, without that one, from the ratio of
-    tensions that it stands for. The run-off is the slack side, or the tight one and the slack side as many times less
-    as the ratio of both says: so x is no less than its least tension over the largest ratio, nor than the least
-    anywhere. Where a drum then still holds, nothing slips. The mean of all that moves follows Newton's law whatever the
-    waves are, so the head's way is off by no more than the belt is stretched, and its time to rest by what a wave of
-    that size makes of its speed:
-
-    An imposed speed asks of the drives at `asked` ends of the belt a force that both tensions there enter.
+    The run-off tension of a constant take-up does not move unless `off` says so. Grip follows from the tensions at its
+    drum (`moved_grip`), `grips` being mu alpha; where it still holds, nothing slips. An imposed speed asks of the
+    drives at `asked` ends of the belt a force that both tensions there enter. The mean of all that moves follows
+    Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
+    rest by what a wave of that size makes of its speed:
 
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
     found: dict[str, Interval] = {}
     fixed = line.fixed_length or off
-    stretch = change * (line.back.length + line.carry.length) / line.stiffness
+    most = max(change.largest, change.smallest)
+    stretch = most * (line.back.length + line.carry.length) / line.stiffness
     least = min(line.impedance(RETURN), line.impedance(CARRY))
-    delay = 2 * change / (least * slowing) if slowing > 0 else np.inf
+    delay = 2 * most / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
-    slack = min((one.low for name, one in loads.items() if family(name) == "tension_run_off_min"), default=-np.inf)
-    lowest = min((one.low for name, one in loads.items() if family(name) == "tension_min"), default=-np.inf)
+
+    def grip(name: str) -> Interval:
+        there = change.at_grip if _grips(name, loads) else max(most, change.at_grip)
+        off = there if fixed or several else 0.0
+        return moved_grip(name, loads, line.centrifugal_at_speed, grips, there, off)
 
     def holds(name: str) -> bool:
         """Whether the drum of a load of slip keeps its grip."""
-        grip = name.replace(family(name), "slip_utilisation_max", 1)
-        used = loads.get(grip)
-        return used is not None and used.high + _moved_grip(line, grip, used, change, slack, lowest, grips).high < 1
+        used = name.replace(family(name), "slip_utilisation_max", 1)
+        return used in loads and loads[used].high + grip(used).high < 1
 
     for name, estimate in loads.items():
         kind, value = family(name), estimate.value
         if kind in OF_STOP and value == np.inf:
             continue  # a belt that never stops does so whatever its waves are
         if kind in TENSIONS:
-            found[name] = Interval(-change, change)
+            found[name] = Interval(-change.of(name), change.of(name))
         elif kind == "tension_run_off_min":
-            found[name] = Interval(-change, change) if fixed or ("[" in name and several) else NOTHING
+            moves = fixed or ("[" in name and several)
+            found[name] = Interval(-change.smallest, change.smallest) if moves else NOTHING
         elif kind == "belt_safety_min" and line.breaking_force is not None:
-            tension = line.breaking_force / value
-            weakest = line.breaking_force / (tension - change) if tension > change else np.inf
-            found[name] = _around(value, [line.breaking_force / (tension + change), weakest])
+            found |= moved_safety(line, loads, change.largest)
         elif kind in GRIP:
-            found[name] = _moved_grip(line, name, estimate, change, slack, lowest, grips)
+            found[name] = grip(name)
         elif kind == "sag_relative_max":
-            found[name] = _moved_sag(line, loads, change)
+            found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
-            found[name] = _moved_drive(loads, 2 * asked * change)[kind]
+            found[name] = moved_drive(loads, 2 * asked * most)[kind]
         elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
@@ -519,43 +541,36 @@ def moved(
     return found
 
 
-def _moved_grip(
-    line: BeltLine, name: str, load: Estimate, change: float, slack: float, lowest: float, grips: Mapping[str, float]
-) -> Interval:
-    """How far the grip of a drum, or the least of several, may be off."""
-    reserve = family(name) == "slip_reserve_min"
-    _, _, drum = name.partition("[")
-    exponents = [grips[drum[:-1]]] if drum and drum[:-1] in grips else list(grips.values())
-    if not exponents or not np.isfinite(load.value):
-        return ANYTHING
-    ends = []
-    for exponent in exponents:
-        squeeze = float(np.exp(-exponent))
-        most = capstan.slip_ratio(load.low, exponent) if reserve else load.high
-        lift = 0.0 if reserve else line.centrifugal_at_speed
-        grip = max((slack - lift) / max(most / squeeze, 1.0) if squeeze > 0 else 0.0, min(slack, lowest) - lift)
-        if not grip > change:
-            return ANYTHING
-        ratio = capstan.slip_ratio(load.value, exponent) if reserve else load.value
-        ratios = (
-            (ratio * grip + change * squeeze) / (grip - change),
-            max(ratio * grip - change * squeeze, 0.0) / (grip + change),
-        )
-        ends += [capstan.slip_reserve_ratio(one, exponent) if reserve else one for one in ratios]
-    return _around(load.value, ends)
+def _grips(name: str, loads: Mapping[str, Estimate]) -> bool:
+    """Whether the drum of a load of grip does not slip: else its grip is worst with hardly any tension on one side, at
+    any time."""
+    used = loads.get(name.replace(family(name), "slip_utilisation_max", 1))
+    return used is not None and used.high < 1
 
 
-def _moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+def moved_drive(loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
     """The force an imposed speed asks for, and the reserve of the available one over it."""
     needed, reserve = loads["starting_force_needed"].value, loads["starting_reserve"].value
     if not np.isfinite(reserve):
         return {"starting_force_needed": Interval(-change, change), "starting_reserve": ANYTHING}
     available = reserve * needed
     ends = [available / (needed + change), available / (needed - change) if needed > change else np.inf]
-    return {"starting_force_needed": Interval(-change, change), "starting_reserve": _around(reserve, ends)}
+    return {"starting_force_needed": Interval(-change, change), "starting_reserve": around(reserve, ends)}
 
 
-def _moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
+def moved_safety(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
+    """The belt safety of a largest tension that is off by `change` [N]; nothing of a belt without a breaking force."""
+    if line.breaking_force is None or "belt_safety_min" not in loads:
+        return {}
+    if not change:
+        return {"belt_safety_min": NOTHING}
+    value = loads["belt_safety_min"].value
+    tension = line.breaking_force / value
+    weakest = line.breaking_force / (tension - change) if tension > change else np.inf
+    return {"belt_safety_min": around(value, [line.breaking_force / (tension + change), weakest])}
+
+
+def moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> Interval:
     """The largest sag is that of one strand at its lowest tension; the other one has no less tension than it takes for
     as much sag, nor less than the lowest of all."""
     ratio = loads["sag_relative_max"].value
@@ -567,30 +582,10 @@ def _moved_sag(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> 
             highs.append(float(sag.sag_ratio(span, max(tension, lowest) - change)))
             if tension >= lowest * (1 - _SAME):
                 lows.append(float(sag.sag_ratio(span, tension + change)))
-    return _around(ratio, [max(highs), min(lows, default=0.0)])
+    return around(ratio, [max(highs), min(lows, default=0.0)])
 
 
-def _spread_slip(line: BeltLine, loads: Mapping[str, Estimate], change: float) -> dict[str, Interval]:
-    exponent = line.grip_exponent
-    assert exponent is not None
-    slack = min(loads[name].value for name in ("tension_run_off_min", "tension_min") if name in loads)
-    off_change = change if line.fixed_length else 0.0
-    squeeze = float(np.exp(-exponent))
-
-    def ends(used: float, grip: float) -> list[float]:
-        high = (used * grip + change * squeeze) / (grip - off_change) if grip > off_change else np.inf
-        return [max((used * grip - change * squeeze) / (grip + off_change), 0.0) if grip > 0 else 0.0, high]
-
-    used = loads["slip_utilisation_max"].value
-    moved = {"slip_utilisation_max": _around(used, ends(used, slack - line.centrifugal_at_speed))}
-    if "slip_reserve_min" in loads:
-        reserve = loads["slip_reserve_min"].value
-        ratios = ends(capstan.slip_ratio(reserve, exponent), slack)
-        moved["slip_reserve_min"] = _around(reserve, [capstan.slip_reserve_ratio(end, exponent) for end in ratios])
-    return moved
-
-
-def _around(value: float, ends: list[float]) -> Interval:
+def around(value: float, ends: list[float]) -> Interval:
     """The offsets of some values from one that lies among them."""
     return Interval(min([_less(end, value) for end in ends] + [0.0]), max([_less(end, value) for end in ends] + [0.0]))
 

@@ -14,6 +14,7 @@ from ptmcalc.contract.result import family
 from ptmcalc.laws import sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, short_stops
+from ptmcalc.machines.conveyor.bounds import Change
 from ptmcalc.machines.conveyor.braking import deceleration
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
@@ -50,12 +51,15 @@ _TAIL_MASS_FACTOR = 5.0
 _SAG_FACTOR = 0.4
 _SCENE_SAG_FACTOR = 1.0
 _GENTLE_SAG = 0.5
-_COULOMB_FACTOR = 1.5
-_TAKEUP_FACTOR = 9.0
+_COULOMB_FACTOR = {"loop": 0.75, "free": 1.5}
+_TAKEUP_FACTOR, _TAKEUP_OF_GRIP = 9.0, 3.0
 _SPEED_FACTOR = {"start": 3.0, "stop": 12.0}
-_DAMPING_FACTOR = 6.0
+_SPEED_OF_FIRST_WAVES = 2.0
+_DAMPING_FACTOR, _DAMPING_OF_GRIP = 6.0, 3.0
 _DAMPING_OF_SLOPES = 1.0
-_TRAVEL_OF_SWING = {"loop": 3.0, "start": 4.0, "stop": 10.0, "jam": 20.0}
+_TRAVEL_OF_SWING = {"loop": 3.0, "start": 4.0, "jam": 20.0}
+_TRAVEL_OF_STOP = {"loop": (4.0, 10.0, 2.5), "free": (10.0, 5.0, 5.0)}
+_TRAVEL_OF_GRIP = 3.0
 _TRAVEL_OF_STRAY = {"loop": 3.0, "step": 3.0, "rise": 10.0}
 
 
@@ -72,14 +76,16 @@ def _anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
 
 def _moved(
-    spec: Conveyor, scene: ConveyorScene, line: BeltLine, loads: Loads, change: float, off: bool = False
+    spec: Conveyor, scene: ConveyorScene, line: BeltLine, loads: Loads, change: float | Change, off: bool = False
 ) -> Offsets:
-    """Offsets of the loads of any scene when every tension may be off by `change` [N]."""
+    """Offsets of the loads of any scene when tensions may be off by a change, every one by the same [N] if it is a
+    number."""
     slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
     asked = 0
     if isinstance(scene, Start) and scene.profile.imposes_speed:
         asked = len({drive.at for drive in spec.all_drives.values()})
-    return bounds.moved(line, loads, change, slowing, grips(spec), off, asked)
+    parts = change if isinstance(change, Change) else Change.any_time(change)
+    return bounds.moved(line, loads, parts, slowing, grips(spec), off, asked)
 
 
 def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
@@ -374,13 +380,14 @@ def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 def coulomb_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when a relaxed belt is taken as one with the running friction frozen in it.
 
-        d = 1.5 W_idlers
+        d = k W_idlers,   k = 1.5, and 0.75 of a loop of fixed length
 
     The tension profiles differ by W_idlers before the start; a front that meets half the friction arrives with so much
-    more force.
+    more force. A loop of fixed length keeps its mean tension, so a half of what differs goes to either side.
 
     **Range** W_idlers/(m_belt a) below 0.1; unbounded above.
-    **Error** calibrated: of 100 starts the belt in cells was off by 0.74 at most in place of 1.5.
+    **Error** calibrated: of 360 starts the belt in cells was off by 0.94 at most in place of 1.5, and by 0.51 in place
+    of 0.75.
     **Source** front speeds with Coulomb friction (F - w x/2 against F - w L), lecture notes Kramatorsk 2007 completed.
     """
     criterion = coulomb_criterion(spec, scene)
@@ -389,7 +396,8 @@ def coulomb_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets
     if _slides_on(spec, scene):
         return {}
     line = belt_line(spec, scene)
-    return _moved(spec, scene, line, loads, _COULOMB_FACTOR * (line.back.friction[-1] + line.carry.friction[-1]))
+    factor = _COULOMB_FACTOR["loop" if line.fixed_length else "free"]
+    return _moved(spec, scene, line, loads, factor * (line.back.friction[-1] + line.carry.friction[-1]))
 
 
 def _slides_on(spec: Conveyor, scene: ConveyorScene) -> bool:
@@ -429,14 +437,16 @@ def _takeup_numbers(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> tup
 def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when the take-up weight is taken without inertia.
 
-        d = 9 T_0 a_0/(2 g)
+        d = k T_0 a_0/(2 g),   k = 9, and 3 at a drum while its grip is worst
 
     The weight follows half of what the belt's ends at the take-up differ by; what it pulls more or less is as its
     acceleration, and that, in a linear belt, as the one of the drum alone, a_0. Echoes add to it; kappa below its
-    threshold, the weight is too light to hold them up.
+    threshold, the weight is too light to hold them up. The grip is worst when the run-on is highest, and the run-off is
+    lowest at another time.
 
     **Range** below the threshold; unbounded above, and where the belt slides on its drum before it starts.
-    **Error** calibrated: of 300 starts and stops the largest value was 6.5 in place of 9, the next one 3.5.
+    **Error** calibrated: of 300 starts and stops the largest value was 6.5 in place of 9, the next one 3.5; of 240
+    others, 1.7 in place of 3.
     **Source** take-up weight on two falls; coverage sample.
     """
     if spec.takeup.mass is None:
@@ -445,7 +455,8 @@ def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return _anything(spec, scene, loads)
     line = running(spec, scene)
     _, drum = _takeup_numbers(spec, scene, line)
-    change = _TAKEUP_FACTOR * line.takeup_tension * drum / (2 * spec.gravity)
+    unit = line.takeup_tension * drum / (2 * spec.gravity)
+    change = Change(_TAKEUP_FACTOR * unit, _TAKEUP_FACTOR * unit, _TAKEUP_OF_GRIP * unit)
     return _moved(spec, scene, line, loads, change, off=True)
 
 
@@ -471,13 +482,16 @@ def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when all of the resistance is taken as independent of the speed.
 
-        d = k s W_idlers,   k = 3 a start, 12 any other scene
+        d = k s W_idlers,   k = 3 a start, 12 any other scene, 2 the lowest tensions and the grip of a stop
 
     At rest W_idlers is too large by s W_idlers; a wave that finds so much less against it may double it. A stop goes on
-    longer with less resistance, and fronts that meet once more before the belt sticks add up.
+    longer with less resistance, and fronts that meet once more before the belt sticks add up. The lowest tensions of
+    a stop and its worst grip come with its first waves, while the belt still runs at nearly the speed at which both
+    resistances are the same.
 
     **Range** s below 5 %; unbounded above, and where the belt slides on its drum before it starts.
-    **Error** calibrated on 250 machines: the largest k were 2.1 and 8.9, the next one of a stop 2.9.
+    **Error** calibrated on 250 machines: the largest k were 2.1 and 8.9, the next one of a stop 2.9; on 240 others 0.8
+    of the lowest tension in a stop, 1.5 of that at the run-off, and 0.6 of those that make the grip worst.
     **Source** balance of the belt.
     """
     share = spec.resistance.speed_share
@@ -487,7 +501,9 @@ def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return _anything(spec, scene, loads)
     line = belt_line(spec, scene)
     factor = _SPEED_FACTOR["start" if isinstance(scene, Start) else "stop"]
-    return _moved(spec, scene, line, loads, factor * share * (line.back.friction[-1] + line.carry.friction[-1]))
+    first = _SPEED_OF_FIRST_WAVES if isinstance(scene, Stopping) else factor
+    unit = share * (line.back.friction[-1] + line.carry.friction[-1])
+    return _moved(spec, scene, line, loads, Change(factor * unit, first * unit, first * unit))
 
 
 def damping_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
@@ -517,13 +533,16 @@ def damping_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets
     """Change of any tension when the belt is taken as elastic.
 
         c = min(k sqrt(d (1 + n)), 2) (S_max - S_min)/2,   n the contour times of the window
-        k = 1 a start of a running profile that rises over a contour time at least, else 6
+        k = T/t_r a start of a running profile that rises over t_r, a contour time T at least; else 6, and 3 at a drum
+            while its grip is worst
 
     A front that has gone round n times is about sqrt(d n) of the contour wide, and peaks are made of fronts that meet.
-    A rise of a contour time or more sends no front but a slope, of which dampers round the corners only.
+    A rise of a contour time or more sends no front but a slope, of which dampers round the corners only: by the rise
+    over the width of a front.
 
     **Range** d below 0.001; unbounded above, and in a jam.
-    **Error** calibrated: the largest value of the sample was 3.8 in place of 6, and 0.28 in place of 1.
+    **Error** calibrated: the largest value of the sample was 3.8 in place of 6; of 360 others 4.9, 2.0 in place of 3,
+    and 0.55 in place of 1.
     **Source** width of a front in a Kelvin-Voigt belt, sqrt(2 t_r t); coverage sample.
     """
     criterion = damping_criterion(spec, scene)
@@ -534,12 +553,14 @@ def damping_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets
     line = running(spec, scene)
     contours = moving(spec, scene).window / line.contour_time
     swing = (loads["tension_max"].value - loads["tension_min"].value) / 2
-    factor = _DAMPING_FACTOR
+    factor, of_grip = _DAMPING_FACTOR, _DAMPING_OF_GRIP
     if isinstance(scene, Start) and scene.belt == "frozen" and delay_lines_do(spec, scene):
-        case = start_case(spec, scene)
-        factor = _DAMPING_OF_SLOPES if (case.rise_time or 0.0) >= line.contour_time else factor
-    share = min(factor * math.sqrt(criterion.value * (1 + contours)), 2.0)
-    return _moved(spec, scene, line, loads, share * swing)
+        rise = start_case(spec, scene).rise_time or 0.0
+        if rise >= line.contour_time:
+            factor = of_grip = _DAMPING_OF_SLOPES * line.contour_time / rise
+    width = math.sqrt(criterion.value * (1 + contours))
+    change, at_grip = (min(one * width, 2.0) * swing for one in (factor, of_grip))
+    return _moved(spec, scene, line, loads, Change(change, change, at_grip))
 
 
 def travel_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
@@ -559,16 +580,20 @@ def travel_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 def travel_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension when waves are taken to run both ways at one speed.
 
-        d = k (v/c) (S_max - S_min)/2       k = 4 a start, 3 sqrt(1 + n) of a loop of fixed length, 10 a stop, 20 a jam
+        d = k (v/c) (S_max - S_min)/2       k = 4 a start, 3 sqrt(1 + n) of a loop of fixed length, 20 a jam
         d = k (v/c) a b_max g               k = 3 by a torque at once, 10 any rise, 3 (1 + n) a loop of fixed length
+
+    In a stop k = 10 of the highest tensions and 5 of the lowest, of a loop of fixed length 4 and 10. At a drum while
+    its grip is worst k = 3 of (S_max - S_min)/2 in a start, 5 in a stop, 2.5 in a stop of such a loop.
 
     The lesser of both in a plain start, with a b_max g the largest stray of the tension from the rigid body's
     (`laws.loop_bounds.stray`); n are the contour times of the window. Waves that run round a closed loop either way
     part by v/c in each; elsewhere every wave runs both ways, and its round trip changes by (v/c)^2 only.
 
     **Range** v/c below 0.03; unbounded above.
-    **Error** calibrated on 900 machines: the largest k were 2.2, 1.3 sqrt(1 + n), 5.4 and 8.9; over the stray 1.8, 6.3
-    and 1.5 (1 + n).
+    **Error** calibrated on 900 machines: the largest k were 2.2, 1.3 sqrt(1 + n), 8.9 of a jam; over the stray 1.8, 6.3
+    and 1.5 (1 + n). On 490 others: of a stop 5.9 and 2.6, of a loop 1.7 and 5.5; of the grip 1.7, 3.6
+    and 1.5.
     **Source** waves that meet are displaced by v/c of their way; coverage samples.
     """
     line = running(spec, scene)
@@ -577,17 +602,21 @@ def travel_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return _anything(spec, scene, loads)
     high, low = loads["tension_max"], loads["tension_min"]
     swing = ((high.high if high.bounded else high.value) - (low.low if low.bounded else low.value)) / 2
-    if not isinstance(scene, Start):
-        factor = _TRAVEL_OF_SWING["jam" if isinstance(scene, Jam) else "stop"]
-        return _moved(spec, scene, line, loads, factor * share * swing)
     closed = line.fixed_length
+    if isinstance(scene, Jam):
+        return _moved(spec, scene, line, loads, _TRAVEL_OF_SWING["jam"] * share * swing)
+    if not isinstance(scene, Start):
+        parts = (k * share * swing for k in _TRAVEL_OF_STOP["loop" if closed else "free"])
+        return _moved(spec, scene, line, loads, Change(*parts))
     rounds = 1 + moving(spec, scene).window / line.contour_time if closed else 1.0
     change = _TRAVEL_OF_SWING["loop" if closed else "start"] * share * math.sqrt(rounds) * swing
+    at_grip = min(change, _TRAVEL_OF_GRIP * share * swing)
     if not delay_lines_do(spec, scene):
-        return _moved(spec, scene, line, loads, change)
+        return _moved(spec, scene, line, loads, Change(change, change, at_grip))
     case = start_case(spec, scene)
     factor = _TRAVEL_OF_STRAY["loop" if closed else "step" if case.shape == start_profile.STEP else "rise"]
-    return bounds.spread(case, loads, min(change, factor * share * rounds * bounds.largest_stray(case)))
+    change = min(change, factor * share * rounds * bounds.largest_stray(case))
+    return bounds.spread(case, loads, change, at_grip)
 
 
 EFFECTS = (

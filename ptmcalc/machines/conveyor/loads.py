@@ -67,6 +67,9 @@ TENSIONS = (
 )
 """Loads that move with the tension somewhere on the belt, newton by newton."""
 
+LOWEST = ("tension_run_off_min", "tension_min", "slack_margin_min")
+"""Tensions at their lowest."""
+
 GRIP = ("slip_utilisation_max", "slip_reserve_min")
 """Loads of the drive drum's grip."""
 

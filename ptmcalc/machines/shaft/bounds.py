@@ -2,7 +2,8 @@
 
 Steady cycle. With the motor's torque held at its mean the kinetic energy follows the work of the load alone. A working
 motor adds D(w) - D(w_0), which has no mean over the cycle and a range of no more than k dw, so its work swings by no
-more than k dw Theta/4; and somewhere the speed is w_0, at which the drive carries the mean load.
+more than k dw Theta/4; and somewhere the speed is w_0, at which the drive carries the mean load. The mean of its torque
+is that of the load, so its root mean square differs from it by terms of second order alone.
 
 Run-up. From J w' = D(w) - R(phi) - J' w^2/2 and the extremes of J, R and J' over the angle.
 
@@ -110,6 +111,7 @@ class Working:
     highest: Interval
     lowest: Interval
     torque: Interval
+    torque_rms: Interval
 
 
 def with_working_motor(cycle: Held, irregularity: Interval) -> Working | None:
@@ -125,10 +127,10 @@ def with_working_motor(cycle: Held, irregularity: Interval) -> Working | None:
     swing_high = 2 * irregularity.high * w**2
     reach = d
     for _ in range(200):
-        slope = _steepest(cycle, w - reach, w + reach)
-        if slope is None or reach >= w / 2:
+        falls = _falls(cycle, w - reach, w + reach)
+        if falls is None or reach >= w / 2:
             return None
-        extra = slope * reach * cycle.machine.period / 4
+        extra = falls.high * reach * cycle.machine.period / 4
         level = high * d / 4 * (2 * w + d / 2) + extra
         spread = 2 * extra / low + 2 * level * (1 / low - 1 / high)
         wider = (swing_high + spread) / (2 * (w - reach / 2))
@@ -147,7 +149,37 @@ def with_working_motor(cycle: Held, irregularity: Interval) -> Working | None:
         Interval(w, w + reach),
         Interval(w - reach, w),
         Interval(torques[0], torques[1]),
+        _rms_torque(cycle, reach, falls),
     )
+
+
+def _rms_torque(cycle: Held, reach: float, falls: Interval) -> Interval:
+    """Range of the root mean square over time of the motor's torque, for speeds within a range dw about w_0.
+
+    The drive's torque D, which falls by `falls` with the speed, has the mean of all torques as its mean over the angle,
+    so the motor's has M_0 but for what viscous friction makes of the mean speed:
+
+        |<M> - M_0| <= d (k_max - k_min)/(k_max + k_min) dw/(eta i)
+
+    Over time an angle counts as 1/w. A covariance is no more than a quarter of the product of the ranges, R and
+    dw/w_low (Gruess; Popoviciu for the variance), and not below 0 of two that both fall with the speed, as M does where
+    it is not viscous friction alone that makes D fall.
+
+        <M> <= <M>_t <= <M> + R dw/w_low/4
+        <M>_t^2 <= M_rms^2 <= <M>^2 + R^2/4 + 2 M_high R dw/w_low/4
+    """
+    drive, machine, slowest = cycle.machine.drive, cycle.machine, cycle.speed - reach
+    passed = drive.efficiency * drive.ratio
+    unlike = (falls.high - falls.low) / (falls.high + falls.low)
+    off = machine.viscous * unlike * reach / passed
+    torque = cycle.motor_torque(cycle.speed)
+    spread = max(falls.high - machine.viscous, machine.viscous - falls.low) * reach / passed
+    turned = spread * reach / slowest / 4
+    least, most = torque - off, torque + off
+    highest = max(abs(cycle.motor_torque(speed)) for speed in (slowest, cycle.speed + reach))
+    square = max(abs(least), abs(most)) ** 2 + spread**2 / 4 + 2 * highest * turned
+    lost = turned if falls.low < machine.viscous else 0.0
+    return Interval(max(least - lost, -(most + turned), 0.0), math.sqrt(square))
 
 
 def _always_drives(cycle: Held, torque: float) -> bool:
@@ -161,9 +193,9 @@ def _always_drives(cycle: Held, torque: float) -> bool:
     return torque * survey.inertia_low + drive.ratio * drive.motor_inertia * min(resistance, 0.0) > 0
 
 
-def _steepest(cycle: Held, low: float, high: float) -> float | None:
-    """Largest fall of the drive's torque with the speed on the main shaft [N*m*s/rad] between two speeds; None where it
-    does not fall all the way."""
+def _falls(cycle: Held, low: float, high: float) -> Interval | None:
+    """Least and largest fall of the drive's torque between two speeds, with the speed on the main shaft [N*m*s/rad];
+    None where it does not fall all the way."""
     machine = cycle.machine
     drive, last = machine.drive, len(machine.drive.stages) - 1
     speeds = np.linspace(low, high, 65)
@@ -173,7 +205,7 @@ def _steepest(cycle: Held, low: float, high: float) -> float | None:
     bend = float(np.abs(np.diff(falls, 2)).max(initial=0.0))
     if not knots:
         falls = np.concatenate([falls - bend / 4, falls + bend / 4])
-    return float(falls.max()) if falls.min() > 0 else None
+    return Interval(float(falls.min()), float(falls.max())) if falls.min() > 0 else None
 
 
 def slope_at_balance(cycle: Held) -> float:

@@ -125,12 +125,13 @@ def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
     """Interval of every load of a cycle with the motor's torque held that holds a working motor.
 
         |A - A_held| <= k dw Theta/4 but for a constant,  w = w_0 somewhere
+        M_rms^2 <= M_0^2 + R^2/4 + M_high R dw/(2 w_low),  R = k_m dw,  M_rms >= M_0
 
     **Range** h below 1, a torque that falls with the speed all over the range, power through the gear from the motor
     throughout; unbounded else.
     **Error** a bound.
     **Source** derived in `machines.shaft.bounds`: a function without a mean and with a range L has an integral that
-    swings by no more than L Theta/4.
+    swings by no more than L Theta/4; the torque's mean over the angle is that of the load.
     """
     machine = machine_in(spec, scene)
     cycle = bounds.held(machine)
@@ -147,7 +148,7 @@ def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
         "speed_mean": found.mean,
         "speed_max": found.highest,
         "speed_min": found.lowest,
-        "torque_motor_rms": found.torque,
+        "torque_motor_rms": found.torque_rms,
         "torque_motor_max": Interval(loads["torque_motor_max"].low, found.torque.high),
     }
     if machine.viscous > 0:

@@ -33,6 +33,7 @@ TWO = replace(HILL, drives=PAIR, tension=30e3)
 BOTH_ENDS = replace(HILL, drives={"head": Drive(torque=3200.0), "booster": Drive(torque=1000.0, at="tail")})
 RAMP_TIME = 3.0
 COARSE, FINE = 200, 400
+FINER = {("screw", "stop"): (FINE, 2 * FINE)}  # the grip of even running, which only there comes as the elements
 
 
 def ramp(time: float) -> float:
@@ -109,7 +110,8 @@ def witness(rig_name: str, scene_key: str) -> tuple[dict[str, float], dict[str, 
     """Loads of the finite elements on two meshes, over the window of the tool."""
     rig, _, motion = CASES[rig_name, scene_key]
     window = window_of(told(rig_name, scene_key))
-    coarse, fine = (loads_of(rig, motion(rig, window, elements)).loads for elements in (COARSE, FINE))
+    meshes = FINER.get((rig_name, scene_key), (COARSE, FINE))
+    coarse, fine = (loads_of(rig, motion(rig, window, elements)).loads for elements in meshes)
     return coarse, fine
 
 

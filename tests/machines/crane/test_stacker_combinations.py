@@ -122,7 +122,7 @@ CHANGES = [
     ),
     (OVERHEAD, {"scenes__10__speed_share": 0.55}, {"11.1,4"}),
     (OVERHEAD, {"hoisting__speed": "0.21 m/s"}, {"11.1,5"}),
-    (RACK, {"travel__speed": "2.1 m/s"}, {"11.2,2", "11.2,5"}),  # of starts, stops and the rail
+    (RACK, {"travel__speed": "2.1 m/s"}, {"11.2,5"}),  # starts and stops swing the most before they are at that speed
     (RACK, {"rail__step": "0.6 mm"}, {"11.2,5"}),
     (RACK, {"travel__acceleration": "0.42 m/s^2"}, {"11.2,2"}),
     (RACK, {"fork__speed": "0.31 m/s"}, {"11.2,3"}),
@@ -136,7 +136,7 @@ def test_a_change_of_an_event_changes_the_combinations_that_hold_it(
     name: str, changes: dict[str, Any], moved: set[str]
 ) -> None:
     before, after = _forces(_report(name)), _forces(report_of(changed(_data(name), **changes)))
-    assert {number for number in before if before[number] != after[number]} == moved
+    assert {number for number in before if before[number] != pytest.approx(after[number], rel=1e-9)} == moved
 
 
 def test_a_combination_without_a_run_says_which_scene_is_missing() -> None:

@@ -56,21 +56,13 @@ def rms_torque(spec: Travelling) -> float:
     for share, load in spectrum(spec):
         part = spec.model_copy(update={"load": max(load, 1e-12) * spec.load})
         for against in (True, False):
-            resistance = _resistance(part, against)
+            resistance = resisting.even(part, Run(), model.working_pressure(part), against=against)
             even = model.even_motor_torque(part, resistance)
             begin, torque = _rigid_start(part, resistance) if counted else (0.0, 0.0)
             begin = min(begin, on)
             torques += [torque, even]
             times += [share * begin, share * (on - begin)]
     return duty.rms_torque(torques, times)
-
-
-def _resistance(spec: Travelling, against: bool) -> float:
-    """With wind and slope against the travel or with it [N]."""
-    scene = Run()
-    rolling = resisting.rolling(spec, scene)
-    outside = resisting.even(spec, scene, model.working_pressure(spec)) - rolling
-    return rolling + outside if against else rolling - outside
 
 
 def _rigid_start(spec: Travelling, resistance: float) -> tuple[float, float]:

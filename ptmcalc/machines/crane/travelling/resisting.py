@@ -33,8 +33,9 @@ def rolling(spec: Travelling, scene: TravelScene) -> float:
     return float(travel.travel_resistance(1.0, model.weight(spec, scene), coefficient(spec), 0.0, 0.0))
 
 
-def even(spec: Travelling, scene: TravelScene, pressure: float | None) -> float:
-    """All that resists even travel against the wind and up the slope [N]."""
+def even(spec: Travelling, scene: TravelScene, pressure: float | None, *, against: bool = True) -> float:
+    """All that resists even travel against the wind and up the slope, or with the wind and down [N]."""
     wind = model.wind_force(spec, pressure) + model.wind_on_load(spec, scene, pressure)
+    sign = 1 if against else -1
     weight = model.weight(spec, scene)
-    return float(travel.travel_resistance(1.0, weight, coefficient(spec), slope_angle(spec), wind))
+    return float(travel.travel_resistance(1.0, weight, coefficient(spec), sign * slope_angle(spec), sign * wind))
