@@ -162,6 +162,19 @@ def test_errors_are_told_as_derived(law: str, count: int) -> None:
                 assert one.bound[k] == pytest.approx(left[k] + sum(abs(forces[k])), rel=1e-12)
 
 
+@pytest.mark.parametrize("law", DAMPINGS)
+def test_largest_and_smallest_are_those_of_the_sum_over_a_pitch(law: str) -> None:
+    """A force that is steep one way and flat the other: its summit is not its trough turned over."""
+    chain, near = replace(CHAINS[1], damping=DAMPINGS[law]), Excitation(np.array([0.7, 0.5, -0.3, 0.0]))
+    x = np.arange(2048) / 2048
+    forces = joint_forces(chain, np.array([21.0]), near)[:2]
+    for one, told in zip(forces, joint_response(chain, 21.0, near), strict=True):
+        course = sum((one[0, n - 1] * np.exp(2j * np.pi * n * x)).imag for n in range(1, 5))
+        assert float(told.largest[0]) == pytest.approx(course.max(), rel=1e-4)
+        assert float(told.smallest[0]) == pytest.approx(course.min(), rel=1e-4)
+        assert abs(course.max() + course.min()) > 1e-2 * course.max()
+
+
 def test_a_strand_that_hardly_fades_bounds_nothing() -> None:
     light = replace(CHAINS[1], damping=Damping("hysteretic", share=1e-19))
     assert math.isinf(joint_forces(light, np.array([20.0]), Excitation(np.ones(3)))[2][0])

@@ -1,6 +1,7 @@
 """Motors whose force is straight between knots, against the exponentials that follow from it, and where steps begin."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.pendulum.equations import HIGH, KEEP, LOW, SPEED, Mode
 from ptmcalc.numerics.pendulum.march import March
-from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Load, Push, Rail, Straight
+from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
@@ -164,3 +165,52 @@ def test_newtons_method_that_creeps_is_not_at_its_end(share: float, ends: bool) 
     whole = stepper._inverse
     stepper._inverse = lambda *given: share * whole(*given)  # type: ignore[method-assign]
     assert (stepper._solve(leg, 0.0, state, 0.2)[0] is not None) is ends
+
+
+@pytest.mark.parametrize(("off", "drive"), [(0.5e-11, KEEP), (-0.5e-11, KEEP), (2e-11, LOW), (-2e-11, HIGH)])
+@pytest.mark.parametrize("speed", [3.0, 5e3])
+def test_a_speed_is_kept_that_is_the_one_to_keep_but_for_rounding_of_the_largest(
+    speed: float, off: float, drive: str
+) -> None:
+    march, state = march_of(Axis(MASS, Follow(Pieces.constant(speed), limit=1.0), speed=speed))
+    state[SPEED] = speed * (1 + off)
+    assert march._drive(0.0, state) == drive
+
+
+@pytest.mark.parametrize(("short", "drive"), [(-1e-6, KEEP), (0.0, KEEP), (0.5e-11, KEEP), (2e-11, HIGH), (1e-6, HIGH)])
+def test_a_drive_that_has_just_what_its_speed_takes_keeps_it(short: float, drive: str) -> None:
+    kept = Pieces.through(((0.0, 1.0), (2.0, 3.0)))
+    axis = Axis(MASS, Follow(kept, limit=1e9), speed=1.0)
+    march, state = march_of(axis)
+    leg = march._leg(march._choose(0.0, state, None, {})[0], 0.0)
+    at, z = np.zeros(1), state[:, None]
+    takes = float(leg.forces(at, z, leg.now(at, z))[1][0])
+    assert takes == pytest.approx(MASS * 1.0, rel=1e-6)
+    weak, state = march_of(replace(axis, drive=Follow(kept, limit=takes * (1 - short))))
+    assert weak._choose(0.0, state, None, {})[0].drive == drive
+
+
+def test_guards_are_small_beside_the_largest_of_their_kind() -> None:
+    """A rope's pull beside the weight, forces beside the largest of the axis, speeds and places beside the fastest."""
+    load = Load(50.0, Pieces.constant(4.0))
+    axis = Axis(MASS, Follow(Pieces.constant(9.0), limit=1e4), friction=700.0, speed=9.0)
+    guards = March(Case(G, Rail(), axis, load), 2.0, 1e-10, radau(9), 1000).guards
+    assert guards.weight == pytest.approx(50.0 * G, rel=1e-12)
+    assert (guards.force, guards.speed) == (700.0, 9.0)
+    assert guards.position == pytest.approx(9.0 * math.sqrt(4.0 / G), rel=1e-12)
+
+
+def test_without_forces_of_its_own_an_axis_is_measured_by_a_thousandth_of_the_weight_at_its_arm() -> None:
+    load = Load(50.0, Pieces.constant(4.0))
+    for pivot, arm in ((Rail(), 1.0), (Jib(Pieces.constant(12.0)), 12.0)):
+        march = March(Case(G, pivot, Axis(MASS, None, speed=1.0), load), 2.0, 1e-10, radau(9), 1000)
+        assert march.guards.force == pytest.approx(1e-3 * 50.0 * G * arm, rel=1e-12)
+
+
+@pytest.mark.parametrize("end", [0.9, 1.0, 1.1])
+def test_a_buffer_in_the_first_step_is_met_however_long_that_is(end: float) -> None:
+    """Half a second to it at 2 m/s, then v cos(w t): on a rope of a hundred metres that is one step to the end."""
+    axis = Axis(MASS, None, speed=2.0, buffers=(Buffer(1.0, "linear", MASS * 4.0),))
+    found = swing(Case(G, Rail(), axis, Load(1e-9, Pieces.constant(100.0))), end)
+    assert found._fine.steps[0].length == end
+    assert float(found.at("speed", end)) == pytest.approx(2.0 * math.cos(2.0 * (end - 0.5)), rel=1e-8)

@@ -726,3 +726,8 @@ def test_a_panel_begins_wherever_something_changes_after_the_limiter_has_tripped
     for panel in found.panels:
         force = 3 * Q if panel.start < trip + 0.03 - 1e-9 else 0.0
         assert panel.power[:, 0] + Q * panel.states[:, V] == pytest.approx(force * panel.states[:, W], abs=1e-9 * Q)
+
+
+def test_the_last_stage_of_a_drive_goes_on_whatever_ends_it() -> None:
+    now = Instant(March(machine(stages=(Stage(Lines(np.zeros(1), np.array([Q])), until=0.1),)), HAULED), mode_of())
+    assert "stage" not in guards_of(now)

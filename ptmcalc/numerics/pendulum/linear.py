@@ -318,10 +318,9 @@ def _series(
         forced[k] += a * power
         forced[k + 1] += shrink * a * power
         power *= h
-    c = [0.0] * _TERMS
-    c[0], c[1] = u, rate * h
+    c = [u, rate * h]
     for k in range(_TERMS - 2):
-        c[k + 2] = -(forced[k] + shrink * (k + 1) * k * c[k + 1] + turn * c[k]) / ((k + 2) * (k + 1))
+        c.append(-(forced[k] + shrink * (k + 1) * k * c[k + 1] + turn * c[k]) / ((k + 2) * (k + 1)))
     small = turn / (_TERMS * (_TERMS - 1))
     q = abs(shrink)
     ratio = (q + math.sqrt(q * q + 4 * small)) / 2
