@@ -146,7 +146,7 @@ class TestLongestPanel:
     PANEL = 0.25
 
     def bands(self, own: int, share: float, refined: float = 1.0) -> list[Band] | None:
-        """A slow and a fast swing, the fast one turning by a share of what is resolved; the system's own or an input."""
+        """A slow and a fast swing, the fast one turning by a share of what is resolved; own or an input."""
         fast = share * RESOLVED * refined / self.PANEL
         rate = np.block([[turning(1e-3), np.zeros((2, 2))], [np.zeros((2, 2)), turning(fast)]])
         watch = np.array([[1.0, 0.0, 1.0, 0.0]])
