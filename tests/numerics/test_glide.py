@@ -12,7 +12,7 @@ from support.modes import Modes, Part, turning
 
 from ptmcalc.numerics import piecewise
 from ptmcalc.numerics.flow import RESOLVED, Flow
-from ptmcalc.numerics.glide import Band, Glide
+from ptmcalc.numerics.glide import Bands, Glide
 from ptmcalc.numerics.piecewise import march
 from ptmcalc.numerics.record import Record
 
@@ -145,7 +145,7 @@ class TestLongestPanel:
 
     PANEL = 0.25
 
-    def bands(self, own: int, share: float, refined: float = 1.0) -> list[Band] | None:
+    def bands(self, own: int, share: float, refined: float = 1.0) -> Bands | None:
         """A slow and a fast swing, the fast one turning by a share of what is resolved; own or an input."""
         fast = share * RESOLVED * refined / self.PANEL
         rate = np.block([[turning(1e-3), np.zeros((2, 2))], [np.zeros((2, 2)), turning(fast)]])
@@ -165,4 +165,4 @@ class TestLongestPanel:
         for share, envelope in ((1 + 1e-8, 0.3), (1.6, 0.3), (1 + 1e-10, 0.0), (0.5, 0.0)):
             bands = self.bands(4, share, refined)
             assert bands is not None
-            assert bands[0].envelope[0] == pytest.approx(envelope, rel=1e-9)
+            assert bands.envelope[0, 0] == pytest.approx(envelope, rel=1e-9)

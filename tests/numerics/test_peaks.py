@@ -105,6 +105,12 @@ def test_the_unit_of_a_signal_does_not_matter(values: list[float], power: int) -
         assert read(samples * 2.0**power, 0.5) == (value * 2.0**power, time)
 
 
+def test_six_samples_tell_what_is_between_the_middle_ones() -> None:
+    """A parabola with its vertex there."""
+    value, time = largest(2.0 - 0.3 * (np.arange(6.0) - 2.4) ** 2, 0.5)
+    assert (value, time) == pytest.approx((2.0, 1.2), rel=1e-12)
+
+
 def test_few_samples_are_what_is_known() -> None:
     assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0]), 0.5) == (3.1, 1.0)
     assert largest(np.array([0.0, 3.0, 3.1, 0.2, 0.0, -0.1]), 0.5)[0] >= 3.1

@@ -395,3 +395,20 @@ def test_what_fades_is_advanced_at_once_as_step_by_step(decay: float, count: int
         expected.append(value)
     found = strand.Fading(decay).run(3.0, given)
     assert found == pytest.approx(np.array(expected), rel=1e-12, abs=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("began", [0, 3, 9])
+def test_a_tension_that_rests_does_so_from_its_first_sample_on(began: int) -> None:
+    """Both waves are 1 from a sample on. Up to the last half step the first pair at the place counts; beyond it is
+    what was read at the end of the window, between two samples, which has no pair."""
+    cells, steps = 4, 20
+    delays = strand._Delays.__new__(strand._Delays)
+    delays.steps = steps
+    wave = np.where(np.arange(cells + steps + 1) < cells + began, 0.0, 1.0)
+    last = 2 * steps - 2
+    for ahead in (-2, 0, 2):  # half cells from the middle
+        for halves, first in ((last - 2, True), (last, True), (last + 2, False)):
+            u, v = (halves + cells + ahead) // 2, (halves + cells - ahead) // 2
+            found = delays._first(wave, wave, (u, v), last, 1e-15)
+            back = min(u, v) - (cells + began) if first else 0
+            assert found == (u - back, v - back)
