@@ -222,7 +222,6 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
 def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     drive = spec.drive
     ratio = model.rim_ratio(spec)
-    slope = math.atan(spec.rail.slope) * model.climbs(scene)
     wheels = model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2
     free = motion.ramp is not None
     brake = drive.brake
@@ -237,15 +236,17 @@ def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     if motion.hoisting:
         end = motion.length - motion.hoisting * motion.hoist_time
         length = Pieces.through(((0.0, motion.length), (motion.hoist_time, end)))
+    inertia = motion.body + (0.0 if free else wheels)
+    turning = inertia - sum(body.mass for body in model.bodies(spec, 0.0))  # a slope pulls at masses alone
     axis = Axis(
-        motion.body + (0.0 if free else wheels),
+        inertia,
         friction=motion.rolling,
-        outer=Pieces.constant(-motion.wind_on_body),
+        outer=Pieces.constant(turning * motion.gravity * math.sin(motion.slope) - motion.wind_on_body),
         gear=gear,
         speed=0.0 if motion.starts else motion.speed,
     )
     load = Load(motion.load, length, along=motion.lean, wind_along=Pieces.constant(-motion.wind_on_load))
-    return Case(motion.gravity, Rail(slope), axis, load)
+    return Case(motion.gravity, Rail(motion.slope), axis, load)
 
 
 def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None]]:

@@ -117,7 +117,7 @@ def _last_length(motion: Motion) -> float:
 def _numbers(spec: Travelling, scene: Moving, motion: Motion) -> Numbers:
     """What the file comes to, for the equations."""
     drive, ratio = spec.drive, model.rim_ratio(spec)
-    slope = math.atan(spec.rail.slope) * model.climbs(scene)
+    slope = motion.slope
     own = sum(body.mass for body in model.bodies(spec, 0.0))
     blown = motion.wind_on_load / motion.load if motion.load else 0.0
     brake = drive.brake if not motion.starts and motion.ramp is None else None
