@@ -27,7 +27,6 @@ ACCELERATION, PULL, WEIGHT, TRACTION, ANGLE = range(5)
 _ROWS = 5
 _SAMPLES, _CLOSER, _TOPS = 17, 33, 8
 """Looks in a step, around a top, and at so many of the highest tops."""
-LONGEST = 3000.0
 _MOST_CHANGES = 400
 _NOISE = 1e-11
 _LONGEST_STEP = 4.0

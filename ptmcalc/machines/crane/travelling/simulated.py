@@ -25,7 +25,7 @@ from ptmcalc.numerics.pendulum.swing import Swing, swing
 
 FloatArray = NDArray[np.float64]
 
-SIGNALS = ("acceleration", "pull_along", "tension")
+SIGNALS = ("acceleration", "pull_along", "tension", "speed")
 _DOUBLINGS = 3
 _SHOWN = 400
 _MOST_STEPS = 3000
@@ -34,6 +34,14 @@ _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
 _SIDE = 1e-12
 """Share of the time by which a look goes to either side of an event."""
+_STANDS = 1e-14
+"""Share of full speed below which the crane stands, or is about to move where it accelerates."""
+_BENDS = 1.25
+"""For a second derivative that changes between the looks that tell it."""
+_BREAKS_LOOSE = 1e-9
+"""Share of gravity from which on a crane at rest accelerates."""
+_APART = 1e-3
+"""Share of the mean time from look to look by which looks are apart that tell how bent a course is between them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,14 +76,41 @@ class Simulated(Course):
         values = np.asarray(of(self.seen), float)
         k = int(values.argmax() if largest else values.argmin())
         value = float(values[k])
-        beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
-        gap = max((abs(float(values[j]) - value) for j in beside), default=0.0) if math.isfinite(value) else 0.0
-        bar = gap / 4 + self.share * abs(value) if math.isfinite(value) else 0.0
+        bar = self._unseen(values, k) + self.share * abs(value) if math.isfinite(value) else 0.0
         estimate = Estimate.exact(value) if bar == 0 else Estimate.within(value, bar)
         time = float(self.times[k])
         phase = [name for begins, name in self.phases_of if begins <= time][-1]
         state = State(*(np.atleast_1d(np.asarray(part))[[k]] for part in self.seen))
         return Worst(estimate, phase, state)
+
+    def _unseen(self, values: FloatArray, k: int) -> float:
+        """Most by which the top may stand higher between the looks than at the highest one.
+
+        A quarter of what the looks beside it fall short of it; where it is the first or last of a smooth stretch the
+        top may stand in the middle between two looks of one height, f'' s^2/8 above them.
+        """
+        assert self.times is not None
+        beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
+        gap = max((abs(float(values[j]) - float(values[k])) for j in beside), default=0.0)
+        near = self._apart(k, -1)[::-1] + [k] + self._apart(k, 1)
+        times, heights = self.times[near], values[near]
+        slopes = np.diff(heights) / np.diff(times)
+        bends = 2 * np.abs(np.diff(slopes)) / (times[2:] - times[:-2])
+        at = near.index(k)
+        longest = float(np.diff(times)[max(at - 1, 0) : at + 1].max(initial=0.0))
+        return max(gap / 4, _BENDS * float(bends.max(initial=0.0)) * longest**2 / 8)
+
+    def _apart(self, k: int, way: int) -> list[int]:
+        """The next two looks to a side that are apart, in the same smooth stretch."""
+        assert self.times is not None
+        least = _APART * float(self.times[-1] - self.times[0]) / len(self.times)
+        found, last, j = [], k, k + way
+        while 0 <= j < len(self.times) and len(found) < 2 and not self._parted(k, j):
+            if abs(float(self.times[j] - self.times[last])) > least:
+                found.append(j)
+                last = j
+            j += way
+        return found
 
     def _parted(self, k: int, j: int) -> bool:
         """Whether something changes at once between two looks."""
@@ -172,14 +207,20 @@ def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: flo
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
     drives = _drives(spec, motion)
-    for index, (drive, until) in enumerate(drives):
+    for index, (drive, until, switched) in enumerate(drives):
         last = index == len(drives) - 1
         case = replace(case, axis=replace(case.axis, drive=drive))
-        leg = _reaching(motion, case, time, until, last, max(guess, 1e-6), tolerance)
+        if switched is None:
+            leg = _reaching(motion, case, time, until, last, max(guess, 1e-6), tolerance)
+        else:
+            found = swing(case, switched - time, tolerance=tolerance, most_steps=_MOST_STEPS)
+            there = _there(motion, found)
+            last, leg = there is not None, Leg(time, found, switched - time if there is None else there)
         legs.append(leg)
         time = leg.end
-        if not last:
-            case = continued(case, leg)
+        if last:
+            break
+        case = continued(case, leg)
     return time, legs
 
 
@@ -249,28 +290,28 @@ def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     return Case(motion.gravity, Rail(motion.slope), axis, load)
 
 
-def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None]]:
-    """The laws of the drive one after the other, and the speed at which each gives way to the next."""
+def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None, float | None]]:
+    """The laws of the drive one after the other, and the speed or the time at which each gives way to the next."""
     if motion.ramp is not None:
         lasts = motion.speed / motion.ramp
         ends = ((0.0, 0.0), (lasts, motion.speed)) if motion.starts else ((0.0, motion.speed), (lasts, 0.0))
-        return [(Follow(Pieces.through(ends)), None)]
+        return [(Follow(Pieces.through(ends)), None, None)]
     if not motion.starts:
-        return [(None, None)]
+        return [(None, None, None)]
     curve, ratio = spec.drive.motor.curve, model.rim_ratio(spec)
     count = spec.drive.motor.count
     if curve is None:
-        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None)]
+        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None, None)]
     if isinstance(curve, ConverterMotor):
         rises = max(curve.ramp_time, 1e-9)
         speeds = Pieces.through(((0.0, 0.0), (rises, motion.speed)))
-        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed)]
-    laws: list[tuple[Follow | Push | None, float | None]] = []
+        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed, None)]
+    laws: list[tuple[Follow | Push | None, float | None, float | None]] = []
     for stage in curve.stages:
         until = None if stage.until_speed is None else stage.until_speed / ratio
         reaches = motion.speed if until is None or until >= motion.speed else until
-        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until))
-        if reaches == motion.speed:
+        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until, stage.until_time))
+        if reaches == motion.speed and stage.until_time is None:
             break
     return laws
 
@@ -372,10 +413,12 @@ def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray
         looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
         times.append(leg.start + looks)
         parts.append(leg.swing.signals(SIGNALS, looks))
-    time, (acceleration, along, tension) = np.concatenate(times), np.concatenate(parts, axis=1)
+    time, (acceleration, along, tension, speed) = np.concatenate(times), np.concatenate(parts, axis=1)
     pull = -along
     weight = np.sqrt(np.maximum(tension**2 - along**2, 0.0))
-    rolling = np.where(time < reached, motion.rolling, motion.rolling if motion.starts else 0.0)
+    goes = np.where(np.abs(acceleration) > _BREAKS_LOOSE * motion.gravity, acceleration, 0.0)
+    moves = np.sign(np.where(np.abs(speed) > _STANDS * motion.speed, speed, goes))
+    rolling = motion.rolling * moves
     traction = motion.body * acceleration + rolling + motion.wind + pull
     order = np.argsort(time, kind="stable")
     wind = np.full(len(time), motion.wind)

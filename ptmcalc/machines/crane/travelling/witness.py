@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.effect import Criterion
@@ -29,6 +30,9 @@ from ptmcalc.witness import lumped
 
 _AFTER = 1.2
 """Periods of the swing that are looked at after the start or stop."""
+_LONGEST = 12.0
+"""Times as long as with a load that does not swing a start or stop may take."""
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +73,7 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
 def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -> _Course:
     motion = motion_of(spec, scene)
     journey = Journey(_numbers(spec, scene, motion), tolerance, 0.0 if motion.starts else motion.speed)
-    most = cartesian.LONGEST
+    most = _LONGEST * (motion.rigid_time + motion.delay + motion.rise)
     limited = _limited(spec, motion) if curve else None
     if motion.ramp is not None:
         ramp = motion.ramp if motion.starts else -motion.ramp
@@ -80,9 +84,12 @@ def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -
     elif limited is not None:
         there = journey.following(motion.speed, *limited, most, full_ends=True)
     else:
-        there = any(journey.freely(force, until, speed) for force, speed, until in _forces(spec, motion, curve))
+        forces = _forces(spec, motion, curve)
+        there = any([journey.freely(force, min(until, most), speed) for force, speed, until in forces])
+    if not there or (motion.starts and motion.ramp is None and abs(journey.state[1] / motion.speed - 1) > _ROUNDING):
+        raise NumericsError("NUM103", f"the crane does not come to speed or rest by {most:.3g} s")
     reached, way = journey.time, float(journey.state[0])
-    begins = max(reached, motion.hoist_time) if there else math.inf
+    begins = max(reached, motion.hoist_time)
     left = 0.0
     for until in (begins, begins + _AFTER * 2 * math.pi * math.sqrt(_last_length(motion) / motion.gravity)):
         if motion.ramp is None and not motion.starts:
@@ -155,10 +162,10 @@ def _forces(spec: Travelling, motion: Motion, curve: bool) -> Iterator[tuple[For
     motor, ratio = spec.drive.motor, model.rim_ratio(spec)
     if motor.curve is None or not curve:
         mean = spec.drive.torque * ratio
-        yield lambda speed: mean, motion.speed, cartesian.LONGEST
+        yield lambda speed: mean, motion.speed, math.inf
         return
     for stage in motor.curve.stages:
-        until = cartesian.LONGEST if stage.until_time is None else stage.until_time
+        until = math.inf if stage.until_time is None else stage.until_time
         over = math.inf if stage.until_speed is None else stage.until_speed / ratio
         yield _law(stage, motor.count * ratio, ratio), min(over, motion.speed), until
         if over >= motion.speed and stage.until_time is None:
