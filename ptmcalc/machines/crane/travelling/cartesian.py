@@ -300,7 +300,7 @@ class Journey:
                 if full_ends and not rising:
                     return True
                 most = limit * (1 + _NOISE)
-                self.go(
+                fired = self.go(
                     Mode(slope, no_force, 1),
                     stop,
                     (
@@ -308,6 +308,8 @@ class Journey:
                         lambda t, y: -self.asked(t, y, slope) - most,  # noqa: B023
                     ),
                 )
+                if fired is not None:
+                    self.freely_to((1, -1)[fired], limit, stop, wanted)
                 continue
             way = 1 if (missing if abs(missing) > _NOISE * reaches else asked) > 0 else -1
             self.freely_to(way, limit, stop, wanted)

@@ -53,6 +53,8 @@ class Motion:
     """of the brake [s]"""
     rise: float
     """of the brake [s]"""
+    rising: float
+    """time in which a converter's reference rises, where it starts the crane up to a limit of torque [s]"""
     rotor: float
     """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
     rotor_braked: float
@@ -112,9 +114,16 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         least_force=_least_force(spec, force) if starts else force,
         delay=brake.delay if brake is not None else 0.0,
         rise=brake.rise_time if brake is not None else 0.0,
+        rising=_rising(spec) if starts else 0.0,
         rotor=model.rotor_mass(spec, braking=False),
         rotor_braked=model.rotor_mass(spec, braking=True),
     )
+
+
+def _rising(spec: Travelling) -> float:
+    """Of the reference of a converter that is given as a motor's curve [s]."""
+    curve = spec.drive.motor.curve
+    return curve.ramp_time if isinstance(curve, ConverterMotor) else 0.0
 
 
 def _least_force(spec: Travelling, force: float) -> float:

@@ -34,6 +34,8 @@ _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
 _SIDE = 1e-12
 """Share of the time by which a look goes to either side of an event."""
+_MET = 1e-9
+"""Share of full speed by which a crane on its ramp may have missed it."""
 _STANDS = 1e-14
 """Share of full speed below which the crane stands, or is about to move where it accelerates."""
 _BENDS = 1.25
@@ -168,7 +170,7 @@ def turns(spec: Travelling, scene: Moving) -> float:
     motion = motion_of(spec, scene)
     if not motion.load or stalls(motion):
         return 0.0
-    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise
+    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise + motion.rising
     shortest = min(motion.length, motion.length - motion.hoisting * motion.hoist_time)
     if shortest <= 0:
         return math.inf
@@ -203,7 +205,7 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
 
 def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: float) -> tuple[float, list[Leg]]:
     """Legs until full speed or rest, and when that is."""
-    guess = motion.rigid_time + (0.0 if motion.starts else motion.delay + motion.rise)
+    guess = motion.rigid_time + (motion.rising if motion.starts else motion.delay + motion.rise)
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
     drives = _drives(spec, motion)
@@ -243,9 +245,15 @@ def _reaching(
 
 
 def _there(motion: Motion, found: Swing) -> float | None:
-    """When a swing has come to full speed or rest."""
+    """When a swing has come to full speed or rest; along a ramp with a limit of the force not before its end."""
+    drive, since = found.case.axis.drive, 0.0
+    if isinstance(drive, Follow) and motion.starts:
+        since = drive.speed.starts[-1]
+        if since <= found.end and abs(float(found.at("speed", since)) / motion.speed - 1) <= _MET:
+            return since
     element, after = ("drive", "keep") if motion.starts else ("axis", "rest")
-    return next((event.time for event in found.events if (event.element, event.after) == (element, after)), None)
+    came = (event.time for event in found.events if (event.element, event.after) == (element, after))
+    return next((time for time in came if time >= since), None)
 
 
 def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:

@@ -73,7 +73,7 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
 def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -> _Course:
     motion = motion_of(spec, scene)
     journey = Journey(_numbers(spec, scene, motion), tolerance, 0.0 if motion.starts else motion.speed)
-    most = _LONGEST * (motion.rigid_time + motion.delay + motion.rise)
+    most = _LONGEST * (motion.rigid_time + motion.rising + motion.delay + motion.rise)
     limited = _limited(spec, motion) if curve else None
     if motion.ramp is not None:
         ramp = motion.ramp if motion.starts else -motion.ramp
