@@ -7,6 +7,7 @@ through (`reading`). Equations, gear, brakes, rests and limits are of their own 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from ptmcalc.machines.crane.travelling.reading import loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.simulated import turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.witness_events import OF_EVENTS
 from ptmcalc.witness import lumped
 
 _AFTER = 1.2
@@ -214,4 +216,4 @@ SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(
     levels=2,
 )
 
-WITNESSES = (SWAY_CARTESIAN,)
+WITNESSES: tuple[Solver[Travelling, Any], ...] = (SWAY_CARTESIAN, *OF_EVENTS)
