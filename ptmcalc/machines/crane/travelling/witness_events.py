@@ -223,13 +223,18 @@ def _answer(omega: float, lasts: float, half: float, phase: float, tolerance: fl
         )  # fmt: skip
         state = run.y[:, -1]
         times = np.linspace(0.0, until, max(int(_LOOKS * (omega + phase / lasts) * until), 50))
-        felt = omega**2 * (path(times) - run.sol(times)[0])
-        high, low = max(high, _top(felt)), min(low, -_top(-felt))
+        for side in (1, -1):
+            most = _top(lambda t, run=run, path=path, side=side: side * omega**2 * (path(t) - run.sol(t)[0]), times)
+            high, low = (max(high, most), low) if side > 0 else (high, min(low, -most))
     return high, low
 
 
-def _top(values: FloatArray) -> float:
-    top = min(max(int(values.argmax()), 1), len(values) - 2)
+def _top(felt: Callable[[FloatArray], FloatArray], times: FloatArray) -> float:
+    """Largest value, by looks that close in on the highest one."""
+    for _ in range(3):
+        values = felt(times)
+        top = min(max(int(values.argmax()), 1), len(values) - 2)
+        times = np.linspace(times[top - 1], times[top + 1], _LOOKS)
     return max(float(values.max()), lumped.summit(values[top - 1 : top + 2]))
 
 
@@ -346,7 +351,7 @@ def _guided(wheels: list[_Wheel], law: Friction, angle: float, tolerance: float)
             return 0.0
         return float(brentq(lambda roll: forces(turn, roll)[0], 0.0, turn * span, xtol=1e-18, rtol=tolerance))
 
-    most = angle / max(min(one.behind for one in wheels if one.behind > 0), 1e-9)
+    most = 2 * angle / min(one.behind for one in wheels if one.behind > 0)  # all of them slip backwards there
     turn = float(brentq(lambda turn: forces(turn, rolls(turn))[2], 0.0, most, xtol=1e-18, rtol=tolerance))
     return forces(turn, rolls(turn))[1]
 
