@@ -235,7 +235,8 @@ class Journey:
         d, free = y[2:4], mode.imposed is None and mode.side != 0
         n = d / np.hypot(*d)
         radial = -float(n @ y[4:6])  # rate of the length afterwards, less that before
-        into = mode.force(y[1]) - mode.side * self._held(self.time) - one.rotor * self.motion(self.time, y, mode)[0]
+        acceleration = self.motion(self.time, y.tolist(), mode)[0]
+        into = mode.force(float(y[1])) - mode.side * self._held(self.time) - one.rotor * acceleration
         factor = one.forward if into * mode.side >= 0 else 1 / one.reverse
         inertia = one.turning + factor * one.rotor
         impulse = radial / (1 + one.load * float(n[0]) ** 2 / inertia) if free else radial

@@ -94,7 +94,7 @@ class Simulated(Course):
         assert self.times is not None
         beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
         gap = max((abs(float(values[j]) - float(values[k])) for j in beside), default=0.0)
-        near = self._apart(k, -1)[::-1] + [k] + self._apart(k, 1)
+        near = [*self._apart(k, -1)[::-1], k, *self._apart(k, 1)]
         times, heights = self.times[near], values[near]
         slopes = np.diff(heights) / np.diff(times)
         bends = 2 * np.abs(np.diff(slopes)) / (times[2:] - times[:-2])
@@ -106,7 +106,8 @@ class Simulated(Course):
         """The next two looks to a side that are apart, in the same smooth stretch."""
         assert self.times is not None
         least = _APART * float(self.times[-1] - self.times[0]) / len(self.times)
-        found, last, j = [], k, k + way
+        found: list[int] = []
+        last, j = k, k + way
         while 0 <= j < len(self.times) and len(found) < 2 and not self._parted(k, j):
             if abs(float(self.times[j] - self.times[last])) > least:
                 found.append(j)

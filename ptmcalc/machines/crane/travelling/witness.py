@@ -34,7 +34,6 @@ _AFTER = 1.2
 """Periods of the swing that are looked at after the start or stop."""
 _LONGEST = 12.0
 """Times as long as with a load that does not swing a start or stop may take."""
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +85,12 @@ def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -
     elif limited is not None:
         there = journey.following(motion.speed, *limited, most, full_ends=True)
     else:
-        forces = _forces(spec, motion, curve)
-        there = any([journey.freely(force, min(until, most), speed) for force, speed, until in forces])
-    if not there or (motion.starts and motion.ramp is None and abs(journey.state[1] / motion.speed - 1) > _ROUNDING):
+        there = False
+        for force, speed, until in _forces(spec, motion, curve):
+            there = journey.freely(force, min(until, most), speed) and speed == motion.speed
+            if there:
+                break
+    if not there:
         raise NumericsError("NUM103", f"the crane does not come to speed or rest by {most:.3g} s")
     reached, way = journey.time, float(journey.state[0])
     begins = max(reached, motion.hoist_time)
@@ -105,8 +107,8 @@ def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -
     seen = Seen.of(journey)
     hangs = float(motion.load > 0)
     if motion.wind_on_load:
-        ends = [seen.top(lambda rows, way=way: way * rows[cartesian.ANGLE], begins)[0] for way in (1, -1)]
-        left = sum(ends) / 2
+        ahead = seen.top(lambda rows: rows[cartesian.ANGLE], begins)[0]
+        left = (ahead + seen.top(lambda rows: -rows[cartesian.ANGLE], begins)[0]) / 2
     return _Course(
         Estimate.exact(reached),
         Estimate.exact(way),

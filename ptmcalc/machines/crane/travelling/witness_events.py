@@ -7,6 +7,7 @@ skewing by roots of the balances, where they have the pole in closed form or the
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,8 @@ _SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations 
 _LOOKS = 64
 """In a radian of the swing; 400 in the stroke of a buffer."""
 _STROKE_LOOKS = 400
+Path = Callable[[FloatArray], FloatArray]
+"""Something over times, arrays alike."""
 _MOST_TURNS = 1e4
 _SLOW = 0.01
 """Share of the speed at which an orifice has stopped the crane, as the solver has it."""
@@ -109,7 +112,7 @@ def _stopped(hit: _Hit, tolerance: float) -> dict[str, float]:
     steady = hit.push / given.hardness if given.type == "hydraulic" else 0.0
     ever = hit.push < full and (steady < slow**2 or not steady)
     ends = _followed(hit, tolerance, given.stroke, slow)
-    stroke, speed, force = ends[-1]
+    stroke, speed, _ = ends[-1]
     needed = stroke
     if speed > slow * (1 + 1e-9):  # the end of the stroke comes first
         needed = _followed(hit, tolerance, math.inf, slow)[-1][0] if ever else math.inf
@@ -212,10 +215,11 @@ def _answer(omega: float, lasts: float, half: float, phase: float, tolerance: fl
 
     state, high, low = np.zeros(2), 0.0, 0.0
     behind = half * (1 - math.cos(phase))
-    for until, path in (
+    ways: tuple[tuple[float, Path], ...] = (
         (lasts, lambda t: half * (1 - np.cos(phase * t / lasts))),
         (1.1 * 2 * math.pi / omega, lambda t: behind + 0 * t),
-    ):
+    )
+    for until, path in ways:
         run: Any = solve_ivp(
             lambda t, y, path=path: [y[1], omega**2 * (path(t) - y[0])],
             (0.0, until), state, method="DOP853", rtol=tolerance,
@@ -223,16 +227,19 @@ def _answer(omega: float, lasts: float, half: float, phase: float, tolerance: fl
         )  # fmt: skip
         state = run.y[:, -1]
         times = np.linspace(0.0, until, max(int(_LOOKS * (omega + phase / lasts) * until), 50))
-        for side in (1, -1):
-            most = _top(lambda t, run=run, path=path, side=side: side * omega**2 * (path(t) - run.sol(t)[0]), times)
-            high, low = (max(high, most), low) if side > 0 else (high, min(low, -most))
+        felt = partial(_felt, omega, path, run.sol)
+        high, low = max(high, _top(felt, 1, times)), min(low, -_top(felt, -1, times))
     return high, low
 
 
-def _top(felt: Callable[[FloatArray], FloatArray], times: FloatArray) -> float:
-    """Largest value, by looks that close in on the highest one."""
+def _felt(omega: float, path: Path, motion: Any, times: FloatArray) -> FloatArray:
+    return np.asarray(omega**2 * (path(times) - motion(times)[0]))
+
+
+def _top(felt: Path, way: int, times: FloatArray) -> float:
+    """Farthest value to a side, by looks that close in on it."""
     for _ in range(3):
-        values = felt(times)
+        values = way * felt(times)
         top = min(max(int(values.argmax()), 1), len(values) - 2)
         times = np.linspace(times[top - 1], times[top + 1], _LOOKS)
     return max(float(values.max()), lumped.summit(values[top - 1 : top + 2]))
