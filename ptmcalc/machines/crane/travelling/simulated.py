@@ -38,6 +38,8 @@ _MET = 1e-9
 """Share of full speed by which a crane on its ramp may have missed it."""
 _STANDS = 1e-14
 """Share of full speed below which the crane stands, or is about to move where it accelerates."""
+_TOPS = 12
+"""Of the highest ones that are told apart."""
 _BENDS = 1.25
 """For a second derivative that changes between the looks that tell it."""
 _BREAKS_LOOSE = 1e-9
@@ -76,17 +78,32 @@ class Simulated(Course):
         assert self.seen is not None
         assert self.times is not None
         values = np.asarray(of(self.seen), float)
-        k = int(values.argmax() if largest else values.argmin())
+        heights = values if largest else -values
+        k = int(heights.argmax())
         value = float(values[k])
-        bar = self._unseen(values, k) + self.share * abs(value) if math.isfinite(value) else 0.0
+        bar = self._unseen(heights, k) + self.share * abs(value) if math.isfinite(value) else 0.0
         estimate = Estimate.exact(value) if bar == 0 else Estimate.within(value, bar)
         time = float(self.times[k])
         phase = [name for begins, name in self.phases_of if begins <= time][-1]
         state = State(*(np.atleast_1d(np.asarray(part))[[k]] for part in self.seen))
         return Worst(estimate, phase, state)
 
-    def _unseen(self, values: FloatArray, k: int) -> float:
-        """Most by which the top may stand higher between the looks than at the highest one.
+    def _unseen(self, heights: FloatArray, highest: int) -> float:
+        """Most by which the top may stand higher between the looks than at the highest one: beside that, or beside
+        another top that was looked at less closely."""
+        assert self.times is not None
+        among = (self.times[:-1, None] <= self.breaks) & (self.breaks <= self.times[1:, None])
+        parted = np.concatenate([[True], among.any(axis=1), [True]])
+        edge = np.concatenate([[-math.inf], heights, [-math.inf]])
+        before = np.where(parted[:-1], -math.inf, edge[:-2])
+        after = np.where(parted[1:], -math.inf, edge[2:])
+        turns = (heights >= before) & (heights >= after) & ((heights > before) | (heights > after))
+        tops = np.flatnonzero(turns & np.isfinite(heights))
+        tops = tops[np.argsort(-heights[tops])][:_TOPS]
+        return max(float(heights[k]) - float(heights[highest]) + self._above(heights, k) for k in (highest, *tops))
+
+    def _above(self, values: FloatArray, k: int) -> float:
+        """Most by which a top stands above the look nearest to it.
 
         A quarter of what the looks beside it fall short of it; where it is the first or last of a smooth stretch the
         top may stand in the middle between two looks of one height, f'' s^2/8 above them.
