@@ -25,6 +25,7 @@ SCENES = [
     ("specs/crane/container_gantry.yaml", "collision_loaded", "collision_runge_kutta"),
     ("specs/crane_travelling.yaml", "rail_step_loaded", "rail_runge_kutta"),
     ("specs/crane_travelling.yaml", "skew_loaded", "skewing_roots"),
+    ("specs/crane/container_gantry.yaml", "storm_empty", "storm_balances"),
     ("specs/crane_rack_stacker.yaml", "fork_caught_loaded", "caught_runge_kutta"),
     ("specs/crane_rack_stacker.yaml", "fork_push_loaded", "push_runge_kutta"),
     ("specs/chain_drive.yaml", "run_loaded", "mesh"),

@@ -182,7 +182,7 @@ def _law(stage: Stage, many: float, ratio: float) -> Force:
 
 def cost(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the swings of the load in the time that is looked at."""
-    return 0.1 + 1e-3 * (1 + level) * min(turns(spec, scene), 1e6)
+    return 0.04 + 1.5e-3 * (1 + level) * min(turns(spec, scene), 1e6)
 
 
 def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:

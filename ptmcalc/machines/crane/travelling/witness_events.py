@@ -1,7 +1,8 @@
 """Second methods for what happens to a travelling crane besides starts and stops; no plan offers them.
 
 Buffers and rails by Runge-Kutta steps of the motion, where the solvers have closed forms of its energy or its answer;
-skewing by roots of the balances, where they have the pole in closed form or the minimum of a work of friction.
+skewing by roots of the balances, where they have the pole in closed form or the minimum of a work of friction; a storm
+by the balances of the crane as equations, and the most that brakes and wheels can hold as a linear programme.
 """
 
 import math
@@ -22,7 +23,7 @@ from ptmcalc.laws import buffer, skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.effects import RAIL
 from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew
+from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.witness import lumped
 
@@ -363,6 +364,72 @@ def _guided(wheels: list[_Wheel], law: Friction, angle: float, tolerance: float)
     return forces(turn, rolls(turn))[1]
 
 
+# -- storm -----------------------------------------------------------------------------------------------------------
+
+
+def stand(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> Result:
+    """Loads of the corners by their four balances, and the largest force that wheels, brakes and clamps can hold.
+
+        sum N = G,   sum of N_B l = sum G y,   sum (N_1 - N_2) B/2 = -F h,   N_A1 - N_A2 = N_B1 - N_B2 of a rigid frame
+        max sum T   with  0 <= T_k <= mu N_k  and  T_k <= F_b/n, or sum T <= F_b of coupled wheels
+
+    **Range** as the closed form.
+    **Error** rounding of the equations, and 1e-9 for the programme.
+    **Source** equilibrium; linear programming.
+    """
+    assert spec.wind is not None
+    blown = filled(spec.wind.pressure_storm) * spec.wind.shape * spec.wind.area
+    brake, each = spec.drive.brake, spec.wheels.per_corner
+    brakes = brake.torque * model.rim_ratio(spec) / spec.drive.reverse_efficiency if brake is not None else 0.0
+    clamps = spec.parking.force if spec.parking is not None else 0.0
+    corners = [_corners(spec, scene, hook, blown) for hook in model.hook_places(spec, scene)]
+    held = min(_held(spec, found, brakes) for found in corners) + clamps
+    slope = spec.rail.slope
+    mass = sum(body.mass for body in model.bodies(spec, 0.0)) + model.hanging(spec, scene)
+    force = blown + mass * spec.gravity * slope / math.sqrt(1 + slope**2)
+    loads = {
+        "storm_force": force,
+        "holding_force": held,
+        "storm_reserve": held / force,
+        "wheel_load_max": max(max(found) for found in corners) / each,
+        "wheel_load_min": min(min(found) for found in corners) / each,
+    }
+    return Result({name: Found(lumped.estimate(value, value)) for name, value in loads.items()}, work=len(corners))
+
+
+def _corners(spec: Travelling, scene: Storm, hook: float, blown: float) -> list[float]:
+    """Loads of the corners A1, A2, B1, B2 in a wind against the front [N]."""
+    weights = [(body.mass * spec.gravity, body.across) for body in model.bodies(spec, hook)]
+    weights.append((model.hanging(spec, scene) * spec.gravity, hook))
+    tilts = -blown * model.wind_height(spec)
+    lever = spec.wheels.base / 2
+    last = [1.0, -1.0, -1.0, 1.0] if spec.wheels.frame == "rigid" else [0.0, 0.0, lever, -lever]
+    balances = [[1.0, 1.0, 1.0, 1.0], [0.0, 0.0, spec.gauge, spec.gauge], [lever, -lever, lever, -lever], last]
+    given = [
+        sum(weight for weight, _ in weights),
+        sum(weight * across for weight, across in weights),
+        tilts,
+        0.0 if spec.wheels.frame == "rigid" else tilts / 2,  # girders hand it to either end carriage by levers
+    ]
+    return [float(load) for load in np.linalg.solve(np.array(balances), np.array(given))]
+
+
+def _held(spec: Travelling, corners: list[float], brakes: float) -> float:
+    """Most that the braked wheels hold [N]."""
+    from scipy.optimize import linprog
+
+    most: list[float] = []
+    for corner, load in zip(model.CORNERS, corners, strict=True):
+        grip = filled(spec.rail.adhesion) * max(load, 0.0) / spec.wheels.per_corner
+        most += [grip] * model.driven_at(spec, corner)
+    coupled = spec.drive.wheels == "coupled"
+    if not coupled:
+        most = [min(grip, brakes / len(most)) for grip in most]
+    together: Any = {"A_ub": np.ones((1, len(most))), "b_ub": [brakes]} if coupled else {}
+    found: Any = linprog(-np.ones(len(most)), bounds=[(0.0, grip) for grip in most], **together)
+    return -float(found.fun)
+
+
 def _priced(seconds: float) -> Any:
     return lambda spec, scene, carried, level: seconds
 
@@ -407,4 +474,15 @@ SKEW_BY_ROOTS: Solver[Travelling, Skew] = Solver(
     cost=_priced(1e-3),
     source="balance of forces and moments; Brent, Algorithms for Minimization without Derivatives",
 )
-OF_EVENTS = (COLLISION_IN_TIME, RAIL_IN_TIME, SKEW_BY_ROOTS)
+STORM_BALANCED: Solver[Travelling, Storm] = Solver(
+    name="storm_balances",
+    title="a parked crane in the wind, by balances as equations and a linear programme",
+    fidelity=Fidelity.TRANSIENT,
+    scenes=frozenset({Storm}),
+    represents=frozenset(),
+    gives=frozenset({"storm_force", "holding_force", "storm_reserve", "wheel_load_max", "wheel_load_min"}),
+    run=stand,
+    cost=_priced(4e-3),
+    source="equilibrium; linear programming",
+)
+OF_EVENTS = (COLLISION_IN_TIME, RAIL_IN_TIME, SKEW_BY_ROOTS, STORM_BALANCED)
