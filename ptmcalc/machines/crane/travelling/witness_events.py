@@ -35,6 +35,8 @@ _STROKE_LOOKS = 400
 Path = Callable[[FloatArray], FloatArray]
 """Something over times, arrays alike."""
 _MOST_TURNS = 1e4
+_STANDS = 1e-7
+"""Share of the speed that the root of an event may have missed."""
 _SLOW = 0.01
 """Share of the speed at which an orifice has stopped the crane, as the solver has it."""
 
@@ -114,8 +116,8 @@ def _stopped(hit: _Hit, tolerance: float) -> dict[str, float]:
     ever = hit.push < full and (steady < slow**2 or not steady)
     ends = _followed(hit, tolerance, given.stroke, slow)
     stroke, speed, _ = ends[-1]
-    needed = stroke
-    if speed > slow * (1 + 1e-9):  # the end of the stroke comes first
+    needed, left = stroke, speed > slow + _STANDS * start
+    if left:  # the end of the stroke comes first
         needed = _followed(hit, tolerance, math.inf, slow)[-1][0] if ever else math.inf
     elif given.type == "hydraulic" and not ever:
         needed = math.inf
@@ -129,7 +131,7 @@ def _stopped(hit: _Hit, tolerance: float) -> dict[str, float]:
         "buffer_force": most / given.count,
         "buffer_stroke": needed,
         "buffer_deceleration": (most - hit.push) / hit.mass,
-        "left": speed if speed > slow * (1 + 1e-9) else 0.0,
+        "left": speed if left else 0.0,
     }
 
 
