@@ -25,7 +25,7 @@ from ptmcalc.numerics.pendulum.swing import Swing, swing
 
 FloatArray = NDArray[np.float64]
 
-SIGNALS = ("acceleration", "pull_along", "tension", "speed")
+SIGNALS = ("acceleration", "pull_along", "tension")
 _DOUBLINGS = 3
 _SHOWN = 400
 _MOST_STEPS = 3000
@@ -36,14 +36,11 @@ _SIDE = 1e-12
 """Share of the time by which a look goes to either side of an event."""
 _MET = 1e-9
 """Share of full speed by which a crane on its ramp may have missed it."""
-_STANDS = 1e-14
-"""Share of full speed below which the crane stands, or is about to move where it accelerates."""
 _TOPS = 12
 """Of the highest ones that are told apart."""
 _BENDS = 1.25
 """For a second derivative that changes between the looks that tell it."""
-_BREAKS_LOOSE = 1e-9
-"""Share of gravity from which on a crane at rest accelerates."""
+_SIDES = {"forward": 1.0, "rest": 0.0, "backward": -1.0}
 _APART = 1e-3
 """Share of the mean time from look to look by which looks are apart that tell how bent a course is between them."""
 
@@ -428,7 +425,7 @@ def _time_bar(motion: Motion, last: Leg, at: float) -> float:
 
 def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray, State, tuple[float, ...]]:
     """Time and state at all looks."""
-    times, parts, breaks = [], [], [reached]
+    times, parts, moves, breaks = [], [], [], [reached]
     for leg in legs:
         marks = sorted({event.time for event in leg.swing.events if event.time <= leg.lasts})
         breaks += [leg.start + mark for mark in marks]
@@ -439,14 +436,20 @@ def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray
         looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
         times.append(leg.start + looks)
         parts.append(leg.swing.signals(SIGNALS, looks))
-    time, (acceleration, along, tension, speed) = np.concatenate(times), np.concatenate(parts, axis=1)
+        moves.append(_moves(leg, looks))
+    time, (acceleration, along, tension) = np.concatenate(times), np.concatenate(parts, axis=1)
     pull = -along
     weight = np.sqrt(np.maximum(tension**2 - along**2, 0.0))
-    goes = np.where(np.abs(acceleration) > _BREAKS_LOOSE * motion.gravity, acceleration, 0.0)
-    moves = np.sign(np.where(np.abs(speed) > _STANDS * motion.speed, speed, goes))
-    rolling = motion.rolling * moves
+    rolling = motion.rolling * np.concatenate(moves)
     traction = motion.body * acceleration + rolling + motion.wind + pull
     order = np.argsort(time, kind="stable")
     wind = np.full(len(time), motion.wind)
     state = State(acceleration[order], pull[order], weight[order], traction[order], wind)
     return time[order], state, tuple(sorted(breaks))
+
+
+def _moves(leg: Leg, looks: FloatArray) -> FloatArray:
+    """To which side the crane goes, 0 where it stands."""
+    turns = [event for event in leg.swing.events if event.element == "axis"]
+    sides = [_SIDES[turns[0].before] if turns else 1.0, *(_SIDES[event.after] for event in turns)]
+    return np.array(sides)[np.searchsorted([event.time for event in turns], looks, side="right")]
