@@ -60,6 +60,15 @@ def test_no_setting_is_held_against_its_own_method(found: CostReport) -> None:
             assert (load.error is None) == (load.reference == "")
 
 
+def test_every_start_and_stop_of_a_travelling_crane_is_held_by_another_method() -> None:
+    found = report("specs/crane_travelling.yaml", 2.0)
+    tops = [one for one in found.settings if one.name.startswith("sway_simulated") and one.name.endswith("all")]
+    tops += [one for one in found.settings if one.solver in ("buffer_collision", "rail_response", "skewing")]
+    assert len(tops) == 2 * 5 + 3
+    for one in tops:
+        assert [load.name for load in one.loads if load.held is not Held.YES] == []
+
+
 def test_no_setting_of_a_sound_machine_fails(found: CostReport) -> None:
     assert [(one.name, one.reason) for one in found.settings if one.outcome is Outcome.FAILED] == []
 

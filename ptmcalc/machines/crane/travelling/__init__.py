@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.example import symbols_in
-from ptmcalc.contract.machine import MachineKind, template_in
+from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
@@ -56,6 +56,7 @@ TRAVELLING = MachineKind(
     solvers=SOLVERS,
     checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
     starting=template_in(__package__),
+    seconding=witnesses_in(__package__),
     symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,

@@ -1,5 +1,6 @@
 """A travelling crane as numbers: its masses and where they are, what resists it, what drives it."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -160,21 +161,22 @@ def _sign(word: str | None, scene: Moving) -> float:
     return {"against": 1.0, "with": -1.0, "none": 0.0}[word or default]
 
 
-def climbs(scene: Moving) -> float:
-    """+1 for rails that rise in the direction of travel, -1 for rails that fall."""
-    return _sign(scene.slope, scene)
+def slope(spec: Travelling, scene: Moving) -> float:
+    """Angle of the rails, positive where they rise in the direction of travel [rad]."""
+    return math.atan(spec.rail.slope) * _sign(scene.slope, scene)
 
 
 def outside(spec: Travelling, scene: Moving) -> Outside:
     """Wind and slope of a start or a stop."""
-    blows, rises = _sign(scene.wind, scene), climbs(scene)
+    blows = _sign(scene.wind, scene)
     pressure = working_pressure(spec)
     own = sum(body.mass for body in bodies(spec, 0.0))
+    climb = spec.gravity * math.sin(slope(spec, scene))
     return Outside(
         blows * wind_force(spec, pressure),
         blows * wind_on_load(spec, scene, pressure),
-        rises * own * spec.gravity * spec.rail.slope,
-        rises * hanging(spec, scene) * spec.gravity * spec.rail.slope,
+        own * climb,
+        hanging(spec, scene) * climb,
     )
 
 

@@ -35,6 +35,8 @@ class Motion:
     """wind and slope on the load, against the travel [N]"""
     wind_on_load: float
     """the wind alone: a load hangs plumb on a slope [N]"""
+    slope: float
+    """angle of the rails, positive where they rise in the direction of travel [rad]"""
     length: float
     """of the ropes at the beginning [m]"""
     hoisting: float
@@ -51,6 +53,8 @@ class Motion:
     """of the brake [s]"""
     rise: float
     """of the brake [s]"""
+    rising: float
+    """time in which a converter's reference rises, where it starts the crane up to a limit of torque [s]"""
     rotor: float
     """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
     rotor_braked: float
@@ -74,8 +78,10 @@ class Motion:
 
     @property
     def lean(self) -> float:
-        """Angle by which the wind holds the load, in the direction of travel [rad]."""
-        return -math.atan(self.wind_on_load / (self.load * self.gravity)) if self.load else 0.0
+        """Angle from the plumb line by which the wind, which blows along the rails, holds the load, in the direction of
+        travel [rad]."""
+        weight = self.load * self.gravity + self.wind_on_load * math.sin(self.slope)
+        return -math.atan(self.wind_on_load * math.cos(self.slope) / weight) if self.load else 0.0
 
 
 def motion_of(spec: Travelling, scene: Moving) -> Motion:
@@ -99,6 +105,7 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         wind_on_body=forces.wind,
         on_load=forces.wind_on_load + forces.slope_on_load,
         wind_on_load=forces.wind_on_load,
+        slope=model.slope(spec, scene),
         length=model.rope_length(spec, scene),
         hoisting=model.hoisting_speed(spec, scene),
         asked_time=scene.time if isinstance(scene, HoistWhileTravelling) else None,
@@ -107,9 +114,16 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         least_force=_least_force(spec, force) if starts else force,
         delay=brake.delay if brake is not None else 0.0,
         rise=brake.rise_time if brake is not None else 0.0,
+        rising=_rising(spec) if starts else 0.0,
         rotor=model.rotor_mass(spec, braking=False),
         rotor_braked=model.rotor_mass(spec, braking=True),
     )
+
+
+def _rising(spec: Travelling) -> float:
+    """Of the reference of a converter that is given as a motor's curve [s]."""
+    curve = spec.drive.motor.curve
+    return curve.ramp_time if isinstance(curve, ConverterMotor) else 0.0
 
 
 def _least_force(spec: Travelling, force: float) -> float:

@@ -34,6 +34,15 @@ _BETWEEN = np.arange(8) / 8
 """Looks from node to node of the swing, the first one at it."""
 _SIDE = 1e-12
 """Share of the time by which a look goes to either side of an event."""
+_MET = 1e-9
+"""Share of full speed by which a crane on its ramp may have missed it."""
+_TOPS = 12
+"""Of the highest ones that are told apart."""
+_BENDS = 1.25
+"""For a second derivative that changes between the looks that tell it."""
+_SIDES = {"forward": 1.0, "rest": 0.0, "backward": -1.0}
+_APART = 1e-3
+"""Share of the mean time from look to look by which looks are apart that tell how bent a course is between them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,16 +75,59 @@ class Simulated(Course):
         assert self.seen is not None
         assert self.times is not None
         values = np.asarray(of(self.seen), float)
-        k = int(values.argmax() if largest else values.argmin())
+        heights = values if largest else -values
+        k = int(heights.argmax())
         value = float(values[k])
-        beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
-        gap = max((abs(float(values[j]) - value) for j in beside), default=0.0) if math.isfinite(value) else 0.0
-        bar = gap / 4 + self.share * abs(value) if math.isfinite(value) else 0.0
+        bar = self._unseen(heights, k) + self.share * abs(value) if math.isfinite(value) else 0.0
         estimate = Estimate.exact(value) if bar == 0 else Estimate.within(value, bar)
         time = float(self.times[k])
         phase = [name for begins, name in self.phases_of if begins <= time][-1]
         state = State(*(np.atleast_1d(np.asarray(part))[[k]] for part in self.seen))
         return Worst(estimate, phase, state)
+
+    def _unseen(self, heights: FloatArray, highest: int) -> float:
+        """Most by which the top may stand higher between the looks than at the highest one: beside that, or beside
+        another top that was looked at less closely."""
+        assert self.times is not None
+        among = (self.times[:-1, None] <= self.breaks) & (self.breaks <= self.times[1:, None])
+        parted = np.concatenate([[True], among.any(axis=1), [True]])
+        edge = np.concatenate([[-math.inf], heights, [-math.inf]])
+        before = np.where(parted[:-1], -math.inf, edge[:-2])
+        after = np.where(parted[1:], -math.inf, edge[2:])
+        turns = (heights >= before) & (heights >= after) & ((heights > before) | (heights > after))
+        tops = np.flatnonzero(turns & np.isfinite(heights))
+        tops = tops[np.argsort(-heights[tops])][:_TOPS]
+        return max(float(heights[k]) - float(heights[highest]) + self._above(heights, k) for k in (highest, *tops))
+
+    def _above(self, values: FloatArray, k: int) -> float:
+        """Most by which a top stands above the look nearest to it.
+
+        A quarter of what the looks beside it fall short of it; where it is the first or last of a smooth stretch the
+        top may stand in the middle between two looks of one height, f'' s^2/8 above them.
+        """
+        assert self.times is not None
+        beside = [j for j in (k - 1, k + 1) if 0 <= j < len(values) and not self._parted(k, j)]
+        gap = max((abs(float(values[j]) - float(values[k])) for j in beside), default=0.0)
+        near = [*self._apart(k, -1)[::-1], k, *self._apart(k, 1)]
+        times, heights = self.times[near], values[near]
+        slopes = np.diff(heights) / np.diff(times)
+        bends = 2 * np.abs(np.diff(slopes)) / (times[2:] - times[:-2])
+        at = near.index(k)
+        longest = float(np.diff(times)[max(at - 1, 0) : at + 1].max(initial=0.0))
+        return max(gap / 4, _BENDS * float(bends.max(initial=0.0)) * longest**2 / 8)
+
+    def _apart(self, k: int, way: int) -> list[int]:
+        """The next two looks to a side that are apart, in the same smooth stretch."""
+        assert self.times is not None
+        least = _APART * float(self.times[-1] - self.times[0]) / len(self.times)
+        found: list[int] = []
+        last, j = k, k + way
+        while 0 <= j < len(self.times) and len(found) < 2 and not self._parted(k, j):
+            if abs(float(self.times[j] - self.times[last])) > least:
+                found.append(j)
+                last = j
+            j += way
+        return found
 
     def _parted(self, k: int, j: int) -> bool:
         """Whether something changes at once between two looks."""
@@ -133,7 +185,7 @@ def turns(spec: Travelling, scene: Moving) -> float:
     motion = motion_of(spec, scene)
     if not motion.load or stalls(motion):
         return 0.0
-    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise
+    lasts = max(motion.rigid_time, motion.hoist_time) + motion.delay + motion.rise + motion.rising
     shortest = min(motion.length, motion.length - motion.hoisting * motion.hoist_time)
     if shortest <= 0:
         return math.inf
@@ -168,18 +220,24 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
 
 def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: float) -> tuple[float, list[Leg]]:
     """Legs until full speed or rest, and when that is."""
-    guess = motion.rigid_time + (0.0 if motion.starts else motion.delay + motion.rise)
+    guess = motion.rigid_time + (motion.rising if motion.starts else motion.delay + motion.rise)
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
     drives = _drives(spec, motion)
-    for index, (drive, until) in enumerate(drives):
+    for index, (drive, until, switched) in enumerate(drives):
         last = index == len(drives) - 1
         case = replace(case, axis=replace(case.axis, drive=drive))
-        leg = _reaching(motion, case, time, until, last, max(guess, 1e-6), tolerance)
+        if switched is None:
+            leg = _reaching(motion, case, time, until, last, max(guess, 1e-6), tolerance)
+        else:
+            found = swing(case, switched - time, tolerance=tolerance, most_steps=_MOST_STEPS)
+            there = _there(motion, found)
+            last, leg = there is not None, Leg(time, found, switched - time if there is None else there)
         legs.append(leg)
         time = leg.end
-        if not last:
-            case = continued(case, leg)
+        if last:
+            break
+        case = continued(case, leg)
     return time, legs
 
 
@@ -202,9 +260,15 @@ def _reaching(
 
 
 def _there(motion: Motion, found: Swing) -> float | None:
-    """When a swing has come to full speed or rest."""
+    """When a swing has come to full speed or rest; along a ramp with a limit of the force not before its end."""
+    drive, since = found.case.axis.drive, 0.0
+    if isinstance(drive, Follow) and motion.starts:
+        since = drive.speed.starts[-1]
+        if since <= found.end and abs(float(found.at("speed", since)) / motion.speed - 1) <= _MET:
+            return since
     element, after = ("drive", "keep") if motion.starts else ("axis", "rest")
-    return next((event.time for event in found.events if (event.element, event.after) == (element, after)), None)
+    came = (event.time for event in found.events if (event.element, event.after) == (element, after))
+    return next((time for time in came if time >= since), None)
 
 
 def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
@@ -222,7 +286,6 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
 def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     drive = spec.drive
     ratio = model.rim_ratio(spec)
-    slope = math.atan(spec.rail.slope) * model.climbs(scene)
     wheels = model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2
     free = motion.ramp is not None
     brake = drive.brake
@@ -237,39 +300,41 @@ def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     if motion.hoisting:
         end = motion.length - motion.hoisting * motion.hoist_time
         length = Pieces.through(((0.0, motion.length), (motion.hoist_time, end)))
+    inertia = motion.body + (0.0 if free else wheels)
+    turning = inertia - sum(body.mass for body in model.bodies(spec, 0.0))  # a slope pulls at masses alone
     axis = Axis(
-        motion.body + (0.0 if free else wheels),
+        inertia,
         friction=motion.rolling,
-        outer=Pieces.constant(-motion.wind_on_body),
+        outer=Pieces.constant(turning * motion.gravity * math.sin(motion.slope) - motion.wind_on_body),
         gear=gear,
         speed=0.0 if motion.starts else motion.speed,
     )
     load = Load(motion.load, length, along=motion.lean, wind_along=Pieces.constant(-motion.wind_on_load))
-    return Case(motion.gravity, Rail(slope), axis, load)
+    return Case(motion.gravity, Rail(motion.slope), axis, load)
 
 
-def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None]]:
-    """The laws of the drive one after the other, and the speed at which each gives way to the next."""
+def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None, float | None]]:
+    """The laws of the drive one after the other, and the speed or the time at which each gives way to the next."""
     if motion.ramp is not None:
         lasts = motion.speed / motion.ramp
         ends = ((0.0, 0.0), (lasts, motion.speed)) if motion.starts else ((0.0, motion.speed), (lasts, 0.0))
-        return [(Follow(Pieces.through(ends)), None)]
+        return [(Follow(Pieces.through(ends)), None, None)]
     if not motion.starts:
-        return [(None, None)]
+        return [(None, None, None)]
     curve, ratio = spec.drive.motor.curve, model.rim_ratio(spec)
     count = spec.drive.motor.count
     if curve is None:
-        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None)]
+        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None, None)]
     if isinstance(curve, ConverterMotor):
         rises = max(curve.ramp_time, 1e-9)
         speeds = Pieces.through(((0.0, 0.0), (rises, motion.speed)))
-        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed)]
-    laws: list[tuple[Follow | Push | None, float | None]] = []
+        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed, None)]
+    laws: list[tuple[Follow | Push | None, float | None, float | None]] = []
     for stage in curve.stages:
         until = None if stage.until_speed is None else stage.until_speed / ratio
         reaches = motion.speed if until is None or until >= motion.speed else until
-        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until))
-        if reaches == motion.speed:
+        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until, stage.until_time))
+        if reaches == motion.speed and stage.until_time is None:
             break
     return laws
 
@@ -360,7 +425,7 @@ def _time_bar(motion: Motion, last: Leg, at: float) -> float:
 
 def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray, State, tuple[float, ...]]:
     """Time and state at all looks."""
-    times, parts, breaks = [], [], [reached]
+    times, parts, moves, breaks = [], [], [], [reached]
     for leg in legs:
         marks = sorted({event.time for event in leg.swing.events if event.time <= leg.lasts})
         breaks += [leg.start + mark for mark in marks]
@@ -371,12 +436,20 @@ def _states(motion: Motion, legs: list[Leg], reached: float) -> tuple[FloatArray
         looks = np.append((looks[:-1, None] + np.diff(looks)[:, None] * _BETWEEN).ravel(), looks[-1])
         times.append(leg.start + looks)
         parts.append(leg.swing.signals(SIGNALS, looks))
+        moves.append(_moves(leg, looks))
     time, (acceleration, along, tension) = np.concatenate(times), np.concatenate(parts, axis=1)
     pull = -along
     weight = np.sqrt(np.maximum(tension**2 - along**2, 0.0))
-    rolling = np.where(time < reached, motion.rolling, motion.rolling if motion.starts else 0.0)
+    rolling = motion.rolling * np.concatenate(moves)
     traction = motion.body * acceleration + rolling + motion.wind + pull
     order = np.argsort(time, kind="stable")
     wind = np.full(len(time), motion.wind)
     state = State(acceleration[order], pull[order], weight[order], traction[order], wind)
     return time[order], state, tuple(sorted(breaks))
+
+
+def _moves(leg: Leg, looks: FloatArray) -> FloatArray:
+    """To which side the crane goes, 0 where it stands."""
+    turns = [event for event in leg.swing.events if event.element == "axis"]
+    sides = [_SIDES[turns[0].before] if turns else 1.0, *(_SIDES[event.after] for event in turns)]
+    return np.array(sides)[np.searchsorted([event.time for event in turns], looks, side="right")]
