@@ -289,6 +289,8 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.quasi_static: SECTIONS,
     loop_bounds.tension_green: SECTIONS,
     loop_bounds.stray: SECTIONS,
+    loop_bounds.give: SECTIONS,
+    loop_bounds.speed_stray: SECTIONS,
     loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
     pendulum.swing_frequency: [(7.0, 9.81)],
