@@ -38,6 +38,8 @@ _LENGTHS = {
     "too_short": ("at least", "min_length", "item"),
     "too_long": ("at most", "max_length", "item"),
 }
+_COUNTS = 1e6
+"""No count of a machine is as large."""
 _FORMS = {
     "model_type": "a mapping",
     "model_attributes_type": "a mapping",
@@ -146,7 +148,7 @@ def _wrong_form(path: KeyPath, given: object, form: str, model: Model, document:
     if form == _FORMS["int_type"]:
         if isinstance(given, str) and given.strip().isdecimal():
             example = given.strip()
-        elif isinstance(given, float) and given >= 1:  # a nearby count, not any one
+        elif isinstance(given, float) and 1 <= given < _COUNTS:  # a nearby count, not any one
             example = str(round(given))
     key = f"{path[-1]}: " if path and isinstance(path[-1], str) else ""
     return Diagnostic("SPC111", reason, document.value_span(path), path, f"write `{key}{example}`")

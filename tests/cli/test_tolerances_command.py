@@ -173,7 +173,7 @@ def rows_of(done: Done) -> dict[str, Any]:
 
 
 def test_samples_that_need_a_run_of_their_own_are_as_many_as_the_budget_says() -> None:
-    done = drawn(BLOCK, "--samples", "40", "--budget", "300 ms", scene=())
+    done = drawn(BLOCK, "--samples", "40", "--budget", "150 ms", scene=())
     assert done.status == 3
     found = {(row["scene"], row["code"]): row for row in json.loads(done.out)["rows"]}
     assert found["run_loaded", "CNV101"]["samples"] == 40

@@ -64,7 +64,7 @@ class TestBadInput:
     def test_more_teeth_than_anybody_cuts(self) -> None:
         assert "300" in faulty(changed(ROLLER, layout__driven__teeth=1000), "layout", "driven", "teeth").hint
 
-    @pytest.mark.parametrize(("teeth", "near"), [(8.5, 8), (63.04, 63), (10.9, 11), (0.6, 8)])
+    @pytest.mark.parametrize(("teeth", "near"), [(8.5, 8), (63.04, 63), (10.9, 11), (0.6, 8), (1e300, 8)])
     def test_a_part_of_a_tooth_is_answered_by_a_count_near_it(self, teeth: float, near: int) -> None:
         found = faulty(changed(CH_05, sprocket__teeth=teeth), "sprocket", "teeth")
         assert found.code == "SPC111"

@@ -24,6 +24,8 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan
 
+_ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Drum:
@@ -51,7 +53,7 @@ class Drum:
         low = (least * off - change * squeeze) / (off + change_off)
         turned = min(most * on + change_off * squeeze, (self.off.high + change_off) * squeeze)
         high = max(high, turned / (on - change) if on > change else math.inf)
-        if self.off.high * squeeze >= least * on:
+        if self.off.high * squeeze * (1 + _ROUNDING) >= least * on:  # equal where a constant run-off is the tight side
             low = min(low, (least * on - change_off * squeeze) / (on + change) if on > 0 else 0.0)
         return Interval(max(low, 0.0), high)
 
@@ -72,7 +74,7 @@ def moved_grip(
     kind, _, drum = name.partition("[")
     load, reserve = loads[name], kind == "slip_reserve_min"
     exponents = [grips[drum[:-1]]] if drum and drum[:-1] in grips else list(grips.values())
-    if not exponents or not math.isfinite(load.value):
+    if not exponents or not (math.isfinite(load.value) or (reserve and load.value > 0)):
         return ANYTHING
     own = name.replace(kind, "tension_run_off_min", 1)
     offs = [loads[own]] if own in loads and drum else [
@@ -102,6 +104,8 @@ def _reserve(drum: Drum, load: Estimate, exponent: float) -> Interval:
 
 
 def _offsets(load: Estimate, moved: Interval) -> Interval:
-    """How far the ends of a load moved."""
-    low = min(moved.low - load.low, 0.0)
-    return Interval(low, max(moved.high - load.high, 0.0) if math.isfinite(load.high) else math.inf)
+    """How far the ends of a load moved; one without an end stays there."""
+    low = 0.0 if moved.low >= load.low else moved.low - load.low
+    if math.isfinite(load.high):
+        return Interval(low, max(moved.high - load.high, 0.0))
+    return Interval(low, 0.0 if load.low == load.high else math.inf)

@@ -34,6 +34,8 @@ _AFTER = 1.2
 """Periods of the swing that are looked at after the start or stop."""
 _LONGEST = 12.0
 """Times as long as with a load that does not swing a start or stop may take."""
+_SLOWEST = 1e-6
+"""Least speed over sqrt(g L): tolerances are shares of the rope's length."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,9 +188,9 @@ def cost(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -
 
 
 def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:
-    """Whether the start or stop comes about, with rope left.
+    """Whether the start or stop comes about, with rope left, fast enough to be told from steps along the rope.
 
-        1 where motors or brakes are too weak, or all rope is hoisted
+        1 where motors or brakes are too weak, or all rope is hoisted;   1e-6 sqrt(g L)/v else
 
     **Range** any crane.
     **Error** none.
@@ -200,7 +202,10 @@ def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:
         return Criterion("stall", 1.0, 1.0, "a start or stop that never ends", "balance of forces")
     if not motion.hoist_time < math.inf or _last_length(motion) <= 0:
         return Criterion("rope", 1.0, 1.0, "no rope left at the end of hoisting", "the file")
-    return None
+    slow = _SLOWEST * math.sqrt(motion.gravity * motion.length) / motion.speed
+    return Criterion(
+        "speed", slow, 1.0, "speed at which steps along the rope lose the swing, over that of the crane", "cost"
+    )
 
 
 SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(
