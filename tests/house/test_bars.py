@@ -57,7 +57,6 @@ def pieces(kind: str) -> set[str]:
 ELSEWHERE = {
     "hoist": {"gear_backlash", "gear_elasticity"},
     "crane": {
-        *("aisle_rail", "aisle_rail_answer", "aisle_rail_jump", "wheel_lift"),
         *("standing_modal", "top_guide"),
     },
 }
