@@ -56,9 +56,7 @@ def pieces(kind: str) -> set[str]:
 
 ELSEWHERE = {
     "hoist": {"gear_backlash", "gear_elasticity"},
-    "crane": {
-        *("standing_modal", "top_guide"),
-    },
+    "crane": {"top_guide"},
 }
 """Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not
 judge: held by tests of their laws and of their kind alone, not on a sample of two hundred. None may join them."""

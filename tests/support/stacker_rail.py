@@ -197,8 +197,10 @@ class OnRail:
                 (after + pulse.lasts + 2 * math.pi / frequency, 0.0, 0.0),
             ):
 
-                def moves(t: float, y: State, sign: float = sign, start: float = start) -> list[float]:
-                    push = sign * lever / self.base * pulse.at(t - start) if sign else 0.0
+                def moves(
+                    t: float, y: State, of: Pulse = pulse, sign: float = sign, start: float = start
+                ) -> list[float]:
+                    push = sign * lever / self.base * of.at(t - start) if sign else 0.0
                     return [y[1], push - frequency**2 * y[0]]
 
                 run = solve_ivp(moves, (begin, stop), y, **_TIGHT)
