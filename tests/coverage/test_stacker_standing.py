@@ -107,7 +107,7 @@ def trial_of(index: int) -> Trial:
     exact = fine - (coarse - fine) / 15
     truth = {load: Estimate.exact(value) for load, value in whole.stand(asked).items()}
     for mode, (value, other) in enumerate(zip(exact, fine, strict=True), 1):
-        truth[f"natural_frequency[{mode}]"] = Estimate.within(value, abs(value - other) / 2 + 1e-9 * value)
+        truth[f"natural_frequency[{mode}]"] = Estimate.within(value, abs(value - other) / 2 + 2e-8 * value)
     lowest = truth["natural_frequency[1]"]
     truth["period"] = Estimate.within(2 * math.pi / lowest.value, 2 * math.pi / lowest.low - 2 * math.pi / lowest.value)
     return tried(index, rng, kind, spec, scene, claims, truth, LIMITS)
