@@ -54,10 +54,7 @@ def pieces(kind: str) -> set[str]:
     }
 
 
-ELSEWHERE = {
-    "hoist": {"gear_backlash", "gear_elasticity"},
-    "crane": {"top_guide"},
-}
+ELSEWHERE = {"hoist": {"gear_backlash", "gear_elasticity"}}
 """Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not
 judge: held by tests of their laws and of their kind alone, not on a sample of two hundred. None may join them."""
 
