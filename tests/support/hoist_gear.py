@@ -119,6 +119,7 @@ def random_geared(rng: np.random.Generator) -> tuple[Geared, dict[str, Any]]:
             {"type": "lift", "profile": {"shape": "curve"}, "slack": text(deflection * rng.uniform(0.2, 2), "m")},
             {"type": "lower_brake"},
         ],
+        "checks": {"gear_impact": float(rng.uniform(1.2, 3))},
     }
     return one, data
 
