@@ -54,20 +54,9 @@ def pieces(kind: str) -> set[str]:
     }
 
 
-ELSEWHERE = {
-    "hoist": {"gear_backlash", "gear_elasticity"},
-    "crane": {
-        *("aisle_rail", "aisle_rail_answer", "aisle_rail_jump", "wheel_lift"),
-        *("standing_modal", "top_guide"),
-    },
-}
-"""Closed forms that claim no bar, effects of which nothing is known without them, and a bound whose test does not
-judge: held by tests of their laws and of their kind alone, not on a sample of two hundred. None may join them."""
-
-
 @pytest.mark.parametrize("kind", kind_names())
 def test_every_solver_and_effect_is_held(kind: str) -> None:
-    assert pieces(kind) - held(kind) == ELSEWHERE.get(kind, set())
+    assert pieces(kind) - held(kind) == set()
 
 
 def test_what_is_said_to_be_held_is_there() -> None:

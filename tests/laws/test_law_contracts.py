@@ -750,6 +750,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     mast_modes.clamped_beam_root: [(0.5, 1), (0.0, 2)],
     mast_modes.mast_frequency: [(one, k) for one in MASTS for k in (1, 2)],
     mast_modes.mode_compliance: [(MASTS[0], 1, "base"), *((one, 1, "load") for one in MASTS)],
+    mast_modes.shortest_part: [(one,) for one in MASTS],
     contact_damping.dashpot_ratio: [(e,) for e in (0.0, 0.05, 0.6, 1.0)],
     obstacle.elastic_contact_force: [(0.8, 3e7, 2100.0)],
     obstacle.damped_contact: [(0.8, 2100.0, 3e5, 0.01, n, c) for n in (1.0, 1.5) for c in (0.0, 0.01, 0.4)],

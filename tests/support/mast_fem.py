@@ -36,8 +36,8 @@ def beam(length: float, bending: float, density: float, axial: Callable[[float],
 class Witness:
     """A column of even section in equal elements, a load at one node, on a base.
 
-    `pull` g above 0 hanging, below 0 standing; `turn`, `shift` stiffness of the root, None where rigid; `held_ratio`
-    damping ratio of every mode over a base that is held.
+    `pull` g above 0 hanging, below 0 standing; `turn`, `shift` stiffness of the root, None where rigid; `guide` that of
+    a spring between the far end and the base; `held_ratio` damping ratio of every mode over a base that is held.
     """
 
     base: float
@@ -53,6 +53,7 @@ class Witness:
     root: float = 0.0
     held_ratio: float = 0.0
     inertia: float = 0.0
+    guide: float = 0.0
     names: list[str] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -87,6 +88,9 @@ class Witness:
             spring[0], spring[1 + free.index(0)] = -1.0, 1.0
             self.k += self.shift * np.outer(spring, spring)
         self.tip = 1 + free.index(2 * n)
+        self.beside = np.zeros(1 + len(free))  # of the far end over the base
+        self.beside[0], self.beside[self.tip] = -1.0, 1.0
+        self.k += self.guide * np.outer(self.beside, self.beside)
         self.at_load = 1 + free.index(2 * at)
         self.size = 1 + len(free)
         self.c = np.zeros_like(self.k)
@@ -105,8 +109,8 @@ class Witness:
         return np.sqrt(np.maximum(eigh(self.k, self.m, eigvals_only=True), 0.0))[1:]
 
     def held(self) -> Array:
-        """Frequencies over a base that is held."""
-        return np.sqrt(eigh(self.k[1:, 1:], self.m[1:, 1:], eigvals_only=True))
+        """Frequencies over a base that is held, by their inverses: the lowest are not lost in the highest."""
+        return 1 / np.sqrt(eigh(self.m[1:, 1:], self.k[1:, 1:], eigvals_only=True)[::-1])
 
     def tip_stiffness(self) -> float:
         """Force at the far end per deflection there, base held."""

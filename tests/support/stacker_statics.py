@@ -237,12 +237,7 @@ class Statics:
         """How far the girders give under a unit force at the end of the column, and their stress under the trolley."""
         bridge, trolley = self.data["bridge"], self.data["trolley"]
         span, gauge, place = number(bridge["span"]), number(trolley["gauge"]), number(trolley["position"])
-        down, aside = (number(bridge[f"girder_{way}"]) for way in ("vertical", "horizontal"))
-        # bending moment of a girder on two supports under a unit force, and its work
-        parts = [np.linspace(0, place, POINTS), np.linspace(place, span, POINTS)]
-        unit = [parts[0] * (span - place) / span, (span - parts[1]) * place / span]
-        work = sum(float(_simpson(moment**2, at)) for moment, at in zip(unit, parts, strict=True)) / STEEL
-        gives = 2 * (length / gauge) ** 2 * work / down + work / 2 / aside
+        gives = sum(self.girders(length))
         near = min(place, span - place)
         hung = (number(trolley["mass"]) + self.column + climbs) * G
         on_one = hung / 2 + abs(along) / gauge
@@ -251,6 +246,17 @@ class Statics:
         most += abs(across) / 2 * (span - near) / span
         stress = most / number(bridge["section_modulus_vertical"])
         return {"gives": gives, "bridge_stress": stress}, hung + number(bridge["mass"]) * G
+
+    def girders(self, length: float) -> tuple[float, float]:
+        """How far a unit force at the end of the column moves it as the girders sag and as they bend aside [m/N]."""
+        bridge, trolley = self.data["bridge"], self.data["trolley"]
+        span, gauge, place = number(bridge["span"]), number(trolley["gauge"]), number(trolley["position"])
+        down, aside = (number(bridge[f"girder_{way}"]) for way in ("vertical", "horizontal"))
+        # bending moment of a girder on two supports under a unit force, and its work
+        parts = [np.linspace(0, place, POINTS), np.linspace(place, span, POINTS)]
+        unit = [parts[0] * (span - place) / span, (span - parts[1]) * place / span]
+        work = sum(float(_simpson(moment**2, at)) for moment, at in zip(unit, parts, strict=True)) / STEEL
+        return 2 * (length / gauge) ** 2 * work / down, work / 2 / aside
 
     # -- buffers ---------------------------------------------------------------------------------------------
 

@@ -313,6 +313,12 @@ def spent(course: Course) -> float:
 # -- a whole solver run ---------------------------------------------------------------------------------------------
 
 
+def _lowest_frequency(case: Case) -> float:
+    """Of the train with one flank of its gear touching: under a load the other does not [rad/s]."""
+    springs = tuple(one for one in case.train.springs if one.name != FLANK)
+    return float(frequencies(replace(case.train, springs=springs)).min(initial=math.inf))
+
+
 def result(scene: Moving, case: Case, level: int) -> Result:
     """Loads, findings and histories of a case at a refinement."""
     tolerance = TOLERANCES[level]
@@ -330,7 +336,7 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         found = _slowly(found, case)
     if isinstance(scene, Lift) and outlasts(case) and not math.isfinite(lift_off_time(course)):
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
-    found["natural_frequency"] = Found(Estimate.exact(float(frequencies(case.train).min(initial=math.inf))))
+    found["natural_frequency"] = Found(Estimate.exact(_lowest_frequency(case)))
     findings = list(_remarks(scene, course))
     closes = 10 * tolerance if case.smooth else _CLOSES
     residual = course.ledger.residual

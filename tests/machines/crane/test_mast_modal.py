@@ -255,6 +255,18 @@ class TestHard:
         assert model.mechanism(spec, scene) == "trolley"
 
 
+def test_a_guide_at_the_head_is_no_part_of_the_stiffness_of_the_column() -> None:
+    """Which is what turns a swing into a force: with the guide in it standing told another stiffness than weights."""
+    free, held = (
+        mast_modal.run(spec, spec.all_scenes[0], frozenset(), 0).loads["column_stiffness"].estimate
+        for spec in (
+            spec_of(changed(RACK, scenes=[{"type": "stand"}])),
+            spec_of(changed(RACK, scenes=[{"type": "stand"}], column__top_guide={"stiffness": "2 MN/m"})),
+        )
+    )
+    assert held.value == pytest.approx(free.value, rel=1e-9)
+
+
 class TestTimes:
     @pytest.mark.parametrize("seed", [4007, 4009, 4012])
     def test_modes_left_out_are_in_the_bar_of_a_time(self, seed: int) -> None:

@@ -8,8 +8,11 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.base.memory import kept_for
-from ptmcalc.machines.crane.stacking import march, model, starts
+from ptmcalc.contract.result import of
+from ptmcalc.laws import mast_modes
+from ptmcalc.machines.crane.stacking import march, model, starts, travelling
 from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
+from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Happening
 from ptmcalc.machines.crane.stacking.mast import buckling_share, swinging
 from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
@@ -220,17 +223,9 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
     **Error** the first line is a bound, the factors of the others are calibrated on a seeded sample.
     **Source** R. Courant, Methods of mathematical physics; `laws.mast`.
     """
-    share = buckling_share(spec, scene)
-    if share >= 1:
+    if buckling_share(spec, scene) >= 1:
         return dict.fromkeys(loads, ANYTHING)
-    low, high = (0.0, share) if model.hangs(spec) else (-share, 0.0)
-    told = {}
-    for name, one in loads.items():
-        value = one.value
-        if name.startswith("natural_frequency"):
-            told[name] = Interval(value * (math.sqrt(1 + low) - 1), value * (math.sqrt(1 + high) - 1))
-        elif name == "period":
-            told[name] = Interval(value * (1 / math.sqrt(1 + high) - 1), value * (1 / math.sqrt(1 + low) - 1))
+    told = weighted_frequencies(spec, scene, loads)
     if isinstance(scene, Stand):
         return told
     if isinstance(scene, ObstacleScene):
@@ -251,6 +246,55 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
         return dict.fromkeys(loads, ANYTHING)
     told |= time_bound(spec, scene, loads)
     return bounds_of_derived(spec, scene, loads, _above_zero(told, loads))
+
+
+def weighted_frequencies(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str, Interval]:
+    """What weights may do to frequencies, the first line of `gravity_bound`; a guide at the head only adds to the
+    strain energy that they are compared with.
+
+    **Range** columns that their weights do not buckle; of others nothing is known.
+    **Error** a bound.
+    **Source** R. Courant, Methods of mathematical physics.
+    """
+    share, told = buckling_share(spec, scene), {}
+    low, high = (0.0, share) if model.hangs(spec) else (-share, 0.0)
+    for name, one in loads.items():
+        if not name.startswith(("natural_frequency", "period")):
+            continue
+        if share >= 1:
+            told[name] = ANYTHING
+        elif name == "period":
+            told[name] = Interval(one.value * (1 / math.sqrt(1 + high) - 1), one.value * (1 / math.sqrt(1 + low) - 1))
+        else:
+            told[name] = Interval(one.value * (math.sqrt(1 + low) - 1), one.value * (math.sqrt(1 + high) - 1))
+    return told
+
+
+def guided_frequencies(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
+    """What a guide without play at the head of the column does to frequencies: it is one spring more, and between the
+    modes of the column with it and without it lies none of either.
+
+        w_k <= w_k' <= w_(k+1)
+
+    **Range** a guide that travels with the base; with play a small swing does not touch it.
+    **Error** a bound.
+    **Source** Rayleigh's theorem on one constraint.
+    """
+    guide = spec.column.top_guide
+    if guide is None or guide.stiffness is None or guide.gap:
+        return {}
+    push = travelling.push_of(spec, scene)
+    one = swinging(spec, scene, push.rotors)
+    free = one.exact if push.kind == "force" else one.held
+    told = {}
+    for k, mode in enumerate(MODES, 1):
+        name = of("natural_frequency", mode)
+        if name in loads:
+            told[name] = Interval(0.0, max(mast_modes.mast_frequency(free, k + 1) - loads[name].value, 0.0))
+    if "period" in loads:
+        shortest = 2 * math.pi / mast_modes.mast_frequency(free, 2)
+        told["period"] = Interval(min(shortest - loads["period"].value, 0.0), 0.0)
+    return told
 
 
 def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:

@@ -164,7 +164,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
         return {}
     if guided(spec) and not isinstance(scene, Stand):
         times = bounds_mast.time_bound(spec, scene, loads) if isinstance(scene, DrivenScene) else {}
-        return {**_anything(loads), **times}
+        return {**_anything(loads), **times, **bounds_mast.weighted_frequencies(spec, scene, loads)}
     return bounds_mast.gravity_bound(spec, scene, loads)
 
 
@@ -231,14 +231,17 @@ def guide_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
     return Criterion("k_g/c", value, GUIDE_THRESHOLD, "guide at the head over the column", "springs side by side")
 
 
-def guide_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
-    """Nothing where the head is free; else nothing is known without its guide.
+def guide_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
+    """Nothing where the head is free; else only the frequencies are known without its guide.
 
     **Range** every load of the column's motion.
-    **Error** exact for a free head, else unbounded: a guide makes another beam of the column.
-    **Source** statics.
+    **Error** exact for a free head; of frequencies a bound (`bounds_mast.guided_frequencies`), of all else unbounded: a
+    guide makes another beam of the column.
+    **Source** statics; Rayleigh's theorem on one constraint.
     """
-    return _anything(loads) if guided(spec) else {}
+    if not guided(spec) or turns(spec, scene):
+        return {}
+    return {**_anything(loads), **bounds_mast.guided_frequencies(spec, scene, loads)}
 
 
 EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (

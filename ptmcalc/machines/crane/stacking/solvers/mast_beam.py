@@ -49,10 +49,11 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
 
 
 def _told(one: Mast, frequency: float) -> Estimate:
-    """A frequency, which the determinant says but for rounding of E J/l^3 over the mass: a stiff column on a soft root
-    swings with much less than that."""
+    """A frequency, which the determinant says but for rounding of E J/l^3 over the mass, of the shorter stretch beside
+    the load: a stiff column on a soft root swings with much less than that."""
     heavy = one.column_mass + one.tip_mass + one.root_mass + one.top_mass
-    lost = _DIGITS * one.flexural_stiffness / one.length**3 / heavy
+    short = one.length * mast_modes.shortest_part(one)
+    lost = _DIGITS * one.flexural_stiffness / short**3 / heavy
     if not math.isfinite(frequency) or lost <= _UNSEEN * frequency**2:
         return Estimate.exact(frequency)
     low, high = math.sqrt(max(frequency**2 - lost, 0.0)), math.sqrt(frequency**2 + lost)

@@ -159,8 +159,9 @@ def _play(
 
 
 def _of_the_column(built: Built, base: float) -> dict[str, Found]:
-    """Stiffness at the far end, without weights, and the lowest frequencies, over a base that is held or rolls."""
-    light = replace(built.column, pull=0.0)
+    """Stiffness at the far end, without weights and guide, and the lowest frequencies, over a base that is held or
+    rolls."""
+    light = replace(built.column, pull=0.0, props=())
     fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
     stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
     bar = abs(stiffness - other) + 1e-9 * stiffness
