@@ -121,7 +121,7 @@ class Piece:
             doublings = -math.log2(max(tail, _EPS**2) / tolerance) / _ORDER if math.isfinite(tail) else -_MOST_HALVINGS
             if rest is not None:
                 self.reach = span * 2.0 ** math.floor(doublings)
-                return stretch.flow, np.concatenate([state, (rest @ stretch.monomials.T).ravel()]), span
+                return stretch.flow, np.concatenate([state, stretch.coefficients(rest).ravel()]), span
             span *= 2.0 ** -min(max(math.ceil(-doublings), 1), _MOST_HALVINGS)
         raise NumericsError("NUM101", "a nonlinear torque could not be resolved by any step")
 
@@ -178,6 +178,14 @@ class _Stretch:
                 tail = self._tail(rest)
                 return (rest if tail <= tolerance else None), tail
         return None, self._tail(found)
+
+    def coefficients(self, rest: FloatArray) -> FloatArray:
+        """Of u^k/k!, of what has such values at the nodes: of what changes from the first one, for a large constant
+        would leave its rounding in all of them."""
+        begin = rest[:, :1]
+        found: FloatArray = (rest - begin) @ self.monomials.T
+        found[:, :1] += begin
+        return found
 
     def _tail(self, rest: FloatArray) -> float:
         return float((np.abs(rest @ _LAST) * self.per_size[::COUNT, None]).max())

@@ -19,6 +19,8 @@ from ptmcalc.numerics.stretch import Piece
 
 SCALE = np.array([0.02, 7.0, 1.0])
 TOLERANCE = 1e-9
+FACTORIALS = np.cumprod([1.0, *range(1, NODES.size)])
+MONOMIALS = np.linalg.inv(NODES[:, None] ** np.arange(NODES.size) / FACTORIALS)
 CUBE = Curve(np.array([[1.0, 0.0, 0.0]]), lambda y: -2 * y[0] ** 3, lambda y: -6 * float(y[0]) ** 2, 2.0, 0.25)
 DRAG = Curve(
     np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]), lambda y: -0.1 * y[0] * y[1] ** 2,
@@ -129,3 +131,20 @@ def test_what_no_stretch_resolves_is_said() -> None:
     rough = Curve(CUBE.rows, lambda y: np.where(y[0] > 0.4, 1.0, -1.0) + 0 * y[0], lambda y: 0.0, 1.0, 1.0)
     with pytest.raises(NumericsError, match="could not be resolved"):
         piece_of(rough).stretch(np.array([0.4 + 1e-14, -1e5, 0.0]) / SCALE, math.inf, 0.1, 1e-9)
+
+
+def test_a_large_constant_leaves_no_rounding_in_what_changes() -> None:
+    """Of a torque that stands, no power of the time is left; of one that changes by its last digits, no more than they
+    are."""
+    piece = piece_of(CUBE)
+    flow, _, span = piece.stretch(STATES[0] / SCALE, math.inf, 0.3, TOLERANCE)
+    (one,) = (found for (_, length), found in piece._stretches.items() if length == span)
+    assert one.flow is flow
+    steady = one.coefficients(np.full((1, NODES.size), 3140.625))
+    assert steady[0, 0] == 3140.625
+    assert np.all(steady[0, 1:] == 0)
+    values = 3140.625 + 2.0**-30 * NODES
+    found = one.coefficients(values[None, :])
+    ticks = span * one.monomials[1].max() / MONOMIALS[1].max()
+    powers = (NODES[:, None] * span / ticks) ** np.arange(NODES.size) / FACTORIALS
+    assert np.abs(powers @ found[0] - values).max() <= 4 * np.spacing(3140.625)
