@@ -4,18 +4,16 @@ They claim no bar but rounding: what they say is what the witness finds, and no 
 coefficient that a run-out tells is the one its way was made with.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
-from support.bars import Limit, Trial, claim, misses, near, numbers, opposites, tried, verdicts
+from support.bars import Limit, Trial, claim, known_to, misses, near, numbers, opposites, tried, verdicts
 from support.conveyor_statics import Statics, drawn
 from support.machines import loaded
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.conveyor.solvers.standing import BRAKING, HOLDING, IDENTIFY
@@ -82,10 +80,7 @@ def trials_of(index: int) -> dict[str, Trial]:
         spec = loaded(data).spec
         assert spec is not None
         for scene in spec.all_scenes:
-            truth = {
-                name: Estimate.exact(value) if math.isinf(value) else Estimate.within(value, REFERENCE * abs(value))
-                for name, value in _truth(machine)[scene.type]().items()
-            }
+            truth = {name: known_to(REFERENCE, value) for name, value in _truth(machine)[scene.type]().items()}
             claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type])}
             climbs = scene.type in ("run", "backstop") or index % CLIMBED == 0
             limits = LIMITS[scene.type]

@@ -3,16 +3,13 @@
 They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another.
 """
 
-import math
-
 import numpy as np
 import pytest
-from support.bars import Limit, Trial, claim, misses, near, numbers, opposites, tried, verdicts
+from support.bars import Limit, Trial, claim, known_to, misses, near, numbers, opposites, tried, verdicts
 from support.hoist_statics import Statics, random_hoist
 from support.machines import loaded
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.hoist.solvers.hoist_statics import HOIST_STATICS, HOLDING, STARTING
 
@@ -45,10 +42,7 @@ def trials_of(index: int) -> dict[str, Trial]:
     spec, witness, found = loaded(data).spec, Statics(data), {}
     assert spec is not None
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
-        truth = {
-            name: Estimate.exact(value) if math.isinf(value) else Estimate.within(value, REFERENCE * abs(value))
-            for name, value in getattr(witness, scene.type)(asked).items()
-        }
+        truth = {name: known_to(REFERENCE, value) for name, value in getattr(witness, scene.type)(asked).items()}
         claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type])}
         found[scene.type] = tried(index, rng, KIND, spec, scene, claims, truth, LIMITS[scene.type])
     return found

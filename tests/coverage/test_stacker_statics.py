@@ -14,6 +14,7 @@ from support.bars import (
     Limit,
     Trial,
     claim,
+    known_to,
     misses,
     near,
     numbers,
@@ -27,7 +28,6 @@ from support.machines import loaded
 from support.stacker_statics import Statics, random_stacker
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.stacking.solvers.buffer_stop import BUFFER_STOP
@@ -84,10 +84,7 @@ def trials_of(index: int) -> dict[str, Trial]:
     assert spec is not None
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
         name = "_".join([asked["type"], *([asked["direction"]] if "direction" in asked else [])])
-        truth = {
-            load: Estimate.exact(value) if math.isinf(value) else Estimate.within(value, KNOWN[name] * abs(value))
-            for load, value in getattr(witness, asked["type"])(asked).items()
-        }
+        truth = {load: known_to(KNOWN[name], value) for load, value in getattr(witness, asked["type"])(asked).items()}
         claims = {name: claim(kind, spec, scene, WAYS[name], WAYS[name].always)}
         found[name] = tried(index, rng, kind, spec, scene, claims, truth, LIMITS[name])
     return found

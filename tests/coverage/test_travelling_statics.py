@@ -3,16 +3,13 @@
 They claim no bar but rounding: what they say is what the witness finds, and no verdict of the ladder is another.
 """
 
-import math
-
 import numpy as np
 import pytest
-from support.bars import Limit, Trial, claim, misses, near, numbers, opposites, tried, verdicts
+from support.bars import Limit, Trial, claim, known_to, misses, near, numbers, opposites, tried, verdicts
 from support.machines import loaded
 from support.travelling_statics import Statics, random_crane
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.travelling.solvers.buffer_collision import BUFFER_COLLISION
@@ -81,9 +78,7 @@ def trials_of(index: int) -> dict[str, Trial]:
     for scene, asked in zip(spec.all_scenes, data["scenes"], strict=True):
         known = KNOWN[scene.type]
         truth = {
-            name: Estimate.exact(value)
-            if math.isinf(value)
-            else Estimate.within(value, max(known, COARSE.get(name, 0.0)) * abs(value))
+            name: known_to(max(known, COARSE.get(name, 0.0)), value)
             for name, value in getattr(witness, scene.type)(asked).items()
         }
         claims = {scene.type: claim(KIND, spec, scene, WAYS[scene.type], WAYS[scene.type].always)}

@@ -105,6 +105,11 @@ def numbers(always: int, all_of_them: int = MACHINES) -> list[Any]:
     return [pytest.param(range(always), id=f"some-{always}"), whole]
 
 
+def known_to(share: float, value: float) -> Estimate:
+    """What a witness finds, good to a share of it; exactly where it is without end."""
+    return Estimate.exact(value) if math.isinf(value) else Estimate.within(value, share * abs(value))
+
+
 def claim(
     kind: AnyKind, spec: MachineSpec, scene: Scene, solver: AnySolver, carried: Iterable[str] = (), level: int = 0
 ) -> dict[str, Estimate]:
