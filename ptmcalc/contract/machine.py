@@ -13,6 +13,7 @@ from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect, S
 from ptmcalc.contract.example import Example, Symbols, no_examples, no_symbols
 from ptmcalc.contract.figure import Figure
+from ptmcalc.contract.relation import Relation
 from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
@@ -63,6 +64,9 @@ class MachineKind(Generic[S]):
     checks: tuple[AnyCheck, ...]
     starting: Callable[[], str]
     assumptions: tuple[Assumption[S], ...] = ()
+    relations: tuple[Relation, ...] = ()
+    """relations between the loads of a scene, against which every report is tested"""
+
     inspect: Callable[[S], Iterable[Finding]] = nothing_to_say
     tables: Callable[[S, Sequence[SceneReport]], Iterable[TableReport]] | None = None
     """for a kind that has tables of its own: what they say of the scenes of a machine"""

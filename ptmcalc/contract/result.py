@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
-from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.units import TIME, Quantity
 
 
@@ -64,6 +64,21 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True)
+class Failure:
+    """A failure that a run found, such as a load that lowers although the motor lifts.
+
+    The check with this code fails in the scene whatever its number, with `message` as the reason. A solver reports it
+    only where its own error bars leave no doubt. `path` is the key that governs, `hint` the cure.
+    """
+
+    check: str
+    message: str
+    path: tuple[str | int, ...] = ()
+    hint: str = ""
+    element: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Event:
     """A change of state of a part at a time, in s."""
 
@@ -119,3 +134,9 @@ class Result:
     events: tuple[Event, ...] = ()
     histories: Callable[[], Mapping[str, History]] = dict
     spent: float = 0.0
+    failures: tuple[Failure, ...] = ()
+    """failures of the machine that the run found: a check fails by each of them"""
+    beyond: Mapping[str, Interval] = field(default_factory=dict)
+    """offsets by which loads can still change after the window, where the motion is not steady at its end"""
+    open_end: str = ""
+    """with `beyond`, the state at the end of the window: "belt at 1.43 of 3 m/s" """

@@ -1,8 +1,12 @@
 """What happens to a machine: a scene is an event the machine must survive, in a load state."""
 
+from typing import Annotated
+
 from pydantic import Field
 
+from ptmcalc.spec.fields import FactorFromOne
 from ptmcalc.spec.fragment import Fragment
+from ptmcalc.spec.optional import Setting
 
 
 class Scene(Fragment):
@@ -20,3 +24,10 @@ class Scene(Fragment):
     def default_name(self) -> str:
         """The name of a scene that was not given one."""
         return self.type
+
+
+class TransientScene(Scene):
+    """A scene that is computed over a window of time."""
+
+    window_factor: Annotated[FactorFromOne, Setting("the window is printed with the loads")] = 1.0
+    """length of the window of time that is computed, relative to the usual one"""

@@ -1,0 +1,62 @@
+"""What a number means that a design file may leave out: declared at its key, as `Annotated[Type, Absent("...")] = 0.0`.
+
+A number that nobody gave may not decide a verdict unseen. So each optional number of a kind is declared as one of the
+classes below; a test walks the keys of all kinds and fails on one that is not.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Assumed:
+    """A value is assumed: the report lists it, and verdicts are evaluated at both ends of its interval, SI.
+
+    With a `source` the default is the declared `value`. Without arguments value, interval and source depend on the
+    machine, and `assumptions` of the kind returns them for this key.
+    """
+
+    value: float = 0.0
+    low: float = 0.0
+    high: float = 0.0
+    source: str = ""
+
+    @property
+    def derived(self) -> bool:
+        """Whether the kind's own `assumptions` return the value."""
+        return not self.source
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit, a rating or another requirement that only checks read.
+
+    A default names its source in the comment of the key; where there is none, a check without its limit is `not
+    checked` or does not apply, and says so. No repair is offered by changing such a key alone.
+    """
+
+
+@dataclass(frozen=True, slots=True)
+class Absent:
+    """Left out means that the part, motion or load is not there: `reason` states why that is neutral or safe."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """One of several keys that describe the same thing; a file without any of them (`others`) is refused, or derives
+    the number from them exactly."""
+
+    others: str
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """No property of the machine but what is asked of the computation, such as a window or an accuracy; the default is
+    printed in the report or covers the worst case (`reason`)."""
+
+    reason: str
+
+
+Declared = Assumed | Limit | Absent | OneOf | Setting
+"""What may be declared of an optional number."""
