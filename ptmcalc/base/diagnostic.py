@@ -21,13 +21,14 @@ class Severity(StrEnum):
 
 
 class Verdict(StrEnum):
-    """What a check says. `worst` order: fail, undecided, not checked, waived, pass."""
+    """Result of a check, in the order of reports: the worst first, checks switched off by the file last."""
 
     FAIL = "fail"
     UNDECIDED = "undecided"
     NOT_CHECKED = "not_checked"
     WAIVED = "waived"
     PASS = "pass"
+    OFF = "off"
 
     @property
     def rank(self) -> int:
@@ -214,6 +215,17 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "The day until which the file waives a check has passed, so its verdict counts again.",
             "Repair the design, or renew `until` with a reason that still holds.",
         ),
+        "SPC204": CodeText(
+            "a file without any check",
+            "No check of the file was made: all are switched off, or none applies to its scenes. A file that checked"
+            " nothing has not passed.",
+            "Delete an `off`, or add a scene to which checks apply.",
+        ),
+        "SPC205": CodeText(
+            "effects that are forced and conflict",
+            "An effect that the file forces on cannot be simulated together with others that it forces on or off.",
+            "Set one of the effects named to `auto`.",
+        ),
         "SPC203": CodeText(
             "a waiver that nothing needs",
             "The check that it waives does not fail in any scene; it would hide the next failure without a word.",
@@ -260,6 +272,19 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "a textbook formula at a step of its table",
             "A textbook's table jumps near this value: its formula is off by a sixth to a seventh on either side.",
             "Design by the computed load; the formula is shown for comparison only.",
+        ),
+        "NUM111": CodeText(
+            "loads that contradict each other",
+            "A relation that holds for every machine, such as that the largest tension anywhere is at least that at the"
+            " pulley, does not hold between the intervals of two loads. Every check that reads one of them is"
+            " undecided.",
+            "Please report it with the file: one of the error bars is wrong.",
+        ),
+        "NUM112": CodeText(
+            "a window that ends before the motion is steady",
+            "The computation ends while the machine still moves otherwise than it will. Loads that can still grow have"
+            " no bound beyond the window.",
+            "Choose a longer window with `window_factor` of the scene.",
         ),
         "NUM110": CodeText(
             "a motion that does not come about",

@@ -211,6 +211,8 @@ class FileReport:
     tables: tuple[TableReport, ...] = ()
     ignored: int = 0
     """findings and verdicts that the run was told to leave out"""
+    computed: bool = True
+    """whether checks were to be made: not where a file is only validated"""
 
     @property
     def valid(self) -> bool:
@@ -224,7 +226,8 @@ class FileReport:
 
     @property
     def verdict(self) -> str:
-        """`invalid`, `fail`, `undecided` or `pass`: a check that was not made is not a pass."""
+        """`invalid`, `fail`, `undecided` or `pass`: neither a check that was not made nor a file without any check is a
+        pass."""
         if not self.valid:
             return "invalid"
         verdicts = {judgement.verdict for _, judgement in self.judgements}
@@ -232,7 +235,7 @@ class FileReport:
             return "fail"
         if verdicts & {Verdict.UNDECIDED, Verdict.NOT_CHECKED}:
             return "undecided"
-        return "pass"
+        return "pass" if verdicts & {Verdict.PASS, Verdict.WAIVED} or self.ignored or not self.computed else "undecided"
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +252,7 @@ class Tally:
 
 def tally(report: FileReport) -> Tally:
     """The tally of a file."""
-    counts = dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived"), 0)
+    counts = dict.fromkeys(("pass", "fail", "undecided", "not_checked", "waived", "off"), 0)
     for _, judgement in report.judgements:
         counts[judgement.verdict.value] += 1
     counts |= {"invalid": int(not report.valid), "ignored": report.ignored}
@@ -260,7 +263,7 @@ def tally(report: FileReport) -> Tally:
 
 def total(tallies: Iterable[Tally]) -> dict[str, int]:
     """Files, verdicts, invalid files, and what was left out of a run."""
-    names = ("pass", "fail", "undecided", "not_checked", "waived", "invalid", "ignored")
+    names = ("pass", "fail", "undecided", "not_checked", "waived", "off", "invalid", "ignored")
     totals = {"files": 0} | dict.fromkeys(names, 0)
     for one in tallies:
         totals["files"] += 1

@@ -32,6 +32,7 @@ from ptmcalc.contract.report import (
     SolverReport,
 )
 from ptmcalc.contract.result import Finding, History
+from ptmcalc.engine.forced import refused
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, changed, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
@@ -127,12 +128,16 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     kind, spec = loaded.kind, loaded.spec
     made = planned or planned_for(loaded, options)
     if made is None:
-        return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed)
+        return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed, computed=False)
+    conflicts = tuple(refused(kind, spec, made.scenes, loaded.document, whole=not options.scenes))
+    if any(one.severity is Severity.ERROR for one in conflicts):
+        return FileReport(name, kind.name, spec.name, loaded.diagnostics + conflicts, loaded.assumed)
     purse = FilePurse(options.budget)
     settled = [purse.settle(kind, spec, scene) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
     diagnostics = (
         loaded.diagnostics
+        + conflicts
         + tuple(purse.said(loaded.document))
         + tuple(
             Diagnostic(f.code, message, loaded.document.value_span(f.path), f.path, f.hint, _severity(f))
@@ -144,13 +149,28 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
     judged = waived(spec, scenes, today)
+    diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
 
 
+def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[Diagnostic]:
+    """That no check was made at all."""
+    if any(one.verdict is not Verdict.OFF for scene in scenes for one in scene.checks):
+        return
+    off = {one.code for scene in scenes for one in scene.checks}
+    reason = f"all {len(off)} checks that apply are switched off" if off else "no check applies to the scenes"
+    path: KeyPath = ("checks",) if off else ("scenes",)
+    hint = "delete an `off`" if off else "add a scene to which checks apply"
+    yield Diagnostic("SPC204", f"nothing was checked: {reason}", _span(loaded.document, path), path, hint, _WARN)
+
+
+_WARN = Severity.WARNING
+
+
 def _severity(finding: Finding) -> Severity:
-    """What is said of a textbook's formula doubts no number of ours: it is a note."""
-    return Severity.NOTE if finding.code in OF_TEXTBOOKS else Severity.WARNING
+    """A remark on a textbook's formula, or on a window whose loads have no bound anyway, doubts no number of ours."""
+    return Severity.NOTE if finding.code in (*OF_TEXTBOOKS, "NUM112") else Severity.WARNING
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:
@@ -374,7 +394,7 @@ class _Assembly:
             blame=Place(blame, _span(document, blame)),
             element=check.element,
             reason=reason,
-            without=without if verdict is not Verdict.NOT_CHECKED else (),
+            without=without if verdict not in (Verdict.NOT_CHECKED, Verdict.OFF) else (),
             repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
             loads=check.loads,
         )

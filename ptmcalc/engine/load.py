@@ -11,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath, dotted
 from ptmcalc.base.units import RATIO, Quantity
 from ptmcalc.base.words import quote
@@ -21,6 +22,7 @@ from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
 from ptmcalc.engine.spread import tolerance_problems
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.optional import constants_of
 from ptmcalc.spec.problems import problems_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of
 from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
@@ -163,6 +165,12 @@ def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:
     """The spec with every assumption in place, and the list of them."""
     assumed = []
+    for path, declared, measure in constants_of(spec):
+        report = AssumedReport(
+            path, declared.value, measure.quantity, Interval(declared.low, declared.high), declared.source
+        )
+        assumed.append(report)
+        spec = spec.with_value(path, declared.value)
     for assumption in kind.assumptions_of(spec):
         if spec.value_at(assumption.path) is not None:
             continue

@@ -157,6 +157,8 @@ class Study:
                     found = load.estimate
                     self._load(scene.name, load.info, np.array([index]), (found.value, found.low, found.high))
             for one in scene.checks:
+                if one.verdict is Verdict.OFF:
+                    continue
                 track = self._track(scene.name, one.code, one.element, one.title, one.sense, one.quantity)
                 track.said[index] = _SAID[one.verdict]
                 track.value[index] = one.value.value if one.value else math.nan
@@ -307,6 +309,8 @@ class Study:
         if not rung.solver.by_lanes:
             raise LanesError(f"`{rung.solver.name}` takes one machine at a time")
         result = rung.solver.run(spec, scene, rung.carried, rung.level)
+        if result.failures:
+            raise LanesError(f"`{rung.solver.name}` found machines that fail")
         loads = widen(made, spec, rung, result)
         checks = {(one.code, one.element): one for one in checks_of(self._kind, spec, scene)}
         rulings = {key: _ruling(one, spec, scene, loads, size) for key, one in checks.items()}
@@ -331,7 +335,7 @@ class Study:
         """In what a file of its own differs from a point computed by lanes; empty where it does not."""
         options = replace(self.options, scenes=(label,), repairs=False)
         report = check(load_text(self.text_of(index), "", options.effects, options.accuracy), options)
-        told = {(one.code, one.element): one for _, one in report.judgements}
+        told = {(one.code, one.element): one for _, one in report.judgements if one.verdict is not Verdict.OFF}
         if set(told) != set(found.rulings):
             return "a file of its own has other checks there"
         for (code, element), one in told.items():

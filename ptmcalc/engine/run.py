@@ -6,13 +6,14 @@ from dataclasses import dataclass, field, replace
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.base.units import SHARE, show
+from ptmcalc.base.estimate import NOTHING, Estimate, Interval
+from ptmcalc.base.units import SHARE, TIME, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
-from ptmcalc.contract.result import Finding, Found, Result, family
-from ptmcalc.engine.judge import Ruling, judge
+from ptmcalc.contract.result import Failure, Finding, Found, Result, family
+from ptmcalc.engine.judge import Ruling, contradicted, found_to_fail, judge
 from ptmcalc.engine.plan import Plan, PlannedEffect, Rung, ScenePlan
+from ptmcalc.engine.relate import narrowed, related
 from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
@@ -37,6 +38,12 @@ class Best:
         """The number with its whole bar."""
         return self.found.estimate
 
+    @property
+    def open_end(self) -> str:
+        """How far its run went, and the state at the end: "computed to 4.67 s, belt at 1.43 of 3 m/s"."""
+        until = f"computed to {show(self.result.window[1], TIME)}" if self.result.window else "not computed to the end"
+        return f"{until}, {self.result.open_end}" if self.result.open_end else until
+
 
 @dataclass(frozen=True, slots=True)
 class Run:
@@ -59,6 +66,10 @@ class Settled:
     rulings: tuple[Ruling, ...] = ()
     findings: list[Finding] = field(default_factory=list)
     next_rung: Rung | None = None
+    broken: dict[str, str] = field(default_factory=dict)
+    """by load, the relation to others that it contradicts"""
+    disjoint: dict[str, str] = field(default_factory=dict)
+    """by load, the runs whose error bars do not intersect"""
     beside: float = 0.0
     """seconds of what is only shown, and of runs that were given up"""
 
@@ -96,6 +107,18 @@ class Settled:
                 if not one.hint or said.setdefault((one.code, one.path, one.hint), number) == number
             ]
         return found + self.findings
+
+    def failure_of(self, check: AnyCheck) -> Failure | None:
+        """The failure that the richest and finest of the runs about a check found."""
+        about = [
+            run
+            for run in self.runs
+            if any(one.check == check.code for one in run.result.failures)
+            or any(name in run.estimates for name in check.loads)
+        ]
+        richest = max(about, key=lambda run: (len(run.rung.carried), run.rung.level), default=None)
+        found = richest.result.failures if richest is not None else ()
+        return next((one for one in found if one.check == check.code and one.element in ("", check.element)), None)
 
     @property
     def carried(self) -> frozenset[str]:
@@ -145,9 +168,12 @@ def settle(
         if following is not None and until(following) and settled.spent - shown_for + following.seconds <= budget:
             waiting.remove(following)
             _climb(settled, spec, following)
+            _relate(kind, spec, settled)
             continue
         if not settled.runs:
             settled.rulings = _rulings(kind, spec, settled, only, verdicts)
+        settled.findings += _contradictions(settled)
+        settled.findings += _open_ends(settled)
         if following is None:
             settled.findings += _unreached(kind, spec, settled) if whole else ()
         elif until(following):
@@ -163,7 +189,14 @@ def _rulings(
     verdicts: Container[tuple[str, str]] | None,
 ) -> tuple[Ruling, ...]:
     """How the checks that are asked about stand by what is known so far."""
-    rulings = judge(kind, spec, settled.plan.scene, settled.estimates)
+    whole = only is None and verdicts is None
+    rulings = tuple(
+        found_to_fail(one, failure)
+        if (failure := settled.failure_of(one.check))
+        else contradicted(one, settled.broken | settled.disjoint)
+        for one in judge(kind, spec, settled.plan.scene, settled.estimates)
+        if one.verdict is not Verdict.OFF or whole
+    )
     if only is not None:
         rulings = tuple(ruling for ruling in rulings if ruling.check.is_of(only))
     if verdicts is not None:
@@ -232,7 +265,8 @@ def _again(scene: ScenePlan, coming: Foreseen) -> float:
 def _imagined(seen: Settled, kind: AnyKind, spec: MachineSpec, rung: Rung, elsewhere: Mapping[str, float]) -> None:
     """Learn from a run what it may find."""
     known = {name: one.value for name, one in seen.estimates.items() if math.isfinite(one.value)}
-    asked = {name for ruling in seen.rulings for name in ruling.check.loads}.union(known)
+    made = (ruling for ruling in seen.rulings if ruling.verdict is not Verdict.OFF)
+    asked = {name for ruling in made for name in ruling.check.loads}.union(known)
     loads = (info.name for info in kind.loads_of(spec) if family(info.name) in rung.solver.gives)
     names = [name for name in loads if name in asked]  # not the stopping time of a start
     result = Result({name: Found(Estimate.exact(known.get(name, elsewhere.get(name, _ANYTHING)))) for name in names})
@@ -266,6 +300,29 @@ def _climb(settled: Settled, spec: MachineSpec, rung: Rung) -> None:
         )
 
 
+def _relate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> None:
+    """Narrow the loads by the relations of the kind, and keep what contradicts."""
+    if not kind.relations:
+        return
+    loads, settled.broken = related(kind, spec, settled.plan.scene, settled.estimates)
+    for name, best in settled.loads.items():
+        if loads[name] is not best.estimate:
+            settled.loads[name] = replace(best, found=replace(best.found, estimate=loads[name]))
+
+
+def _contradictions(settled: Settled) -> Iterator[Finding]:
+    """Loads that contradict each other, each relation once."""
+    for why in dict.fromkeys((settled.broken | settled.disjoint).values()):
+        yield Finding("NUM111", f"scene `{settled.plan.scene.label}`: loads contradict each other: {why}")
+
+
+def _open_ends(settled: Settled) -> Iterator[Finding]:
+    """Windows that end before the motion is steady, of the runs behind the loads that can still change."""
+    ends = dict.fromkeys(best.open_end for name, best in settled.loads.items() if name in best.result.beyond)
+    for end in ends:
+        yield Finding("NUM112", f"scene `{settled.plan.scene.label}`: {end}")
+
+
 def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str, Estimate]) -> list[str]:
     """Keep every load that a run knows better; names of those that are no numbers."""
     settled.runs.append(Run(rung, result, estimates))
@@ -275,15 +332,24 @@ def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str
             lost.append(name)
             continue
         known = settled.loads.get(name)
-        if known is None or _better(estimate, known.estimate):
+        narrower = narrowed(estimate, Interval(known.estimate.low, known.estimate.high)) if known else estimate
+        if (
+            narrower is None and known is not None and name not in result.health
+        ):  # health is the run's, not the machine's
+            solvers = f"`{known.rung.solver.name}` and `{rung.solver.name}`"
+            settled.disjoint[name] = f"the error bars of `{name}` by {solvers} do not intersect"
+        more = _forced_in(settled, rung) - (_forced_in(settled, known.rung) if known else 0)
+        if known is None or more > 0 or (more == 0 and estimate.bar <= known.estimate.bar):
             found = result.loads[name]
-            settled.loads[name] = Best(Found(estimate, found.at, found.note), rung, result)
+            kept = narrower if more > 0 and narrower is not None else estimate
+            settled.loads[name] = Best(Found(kept, found.at, found.note), rung, result)
     return lost
 
 
-def _better(new: Estimate, old: Estimate) -> bool:
-    """A smaller bar, or the same none."""
-    return new.bar <= old.bar
+def _forced_in(settled: Settled, rung: Rung) -> int:
+    """How many of the effects that the file forces on a run carries: a load of a run with more of them is reported,
+    inside the error bar of the run before."""
+    return sum(planned.must_run and planned.effect.name in rung.carried for planned in settled.plan.effects)
 
 
 def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dict[str, Estimate]:
@@ -291,7 +357,7 @@ def widen(plan: ScenePlan, spec: MachineSpec, rung: Rung, result: Result) -> dic
 
     An excluded effect puts no bar on a load, and a part of an effect that is left out is inside that one's bound.
     """
-    estimates = {name: found.estimate for name, found in result.loads.items()}
+    estimates = {name: found.estimate.widened(result.beyond.get(name, NOTHING)) for name, found in result.loads.items()}
     for planned in plan.effects:
         effect = planned.effect
         if planned.excluded or effect.name in rung.carried:
@@ -310,7 +376,7 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled, *, whole: bool) 
     accuracy asked for, or, in a `whole` report, without any bound."""
     wanted = set(_unknown(kind, spec, settled)) if whole else set()
     for ruling in settled.rulings:
-        if ruling.verdict is Verdict.NOT_CHECKED:
+        if ruling.verdict in (Verdict.NOT_CHECKED, Verdict.OFF):
             continue
         for name in ruling.check.loads:
             known = settled.loads.get(name)

@@ -253,7 +253,7 @@ class _Search:
         return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
 
     def _of_ruling(self, ruling: Ruling) -> float:
-        if ruling.value is None or ruling.limit is None:
+        if ruling.found or ruling.value is None or ruling.limit is None:
             return -math.inf
         if ruling.check.sense is Sense.AT_LEAST:
             clearance = ruling.value.low - ruling.limit.high

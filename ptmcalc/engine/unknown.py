@@ -45,6 +45,9 @@ def _of_nothing(kind: AnyKind, spec: MachineSpec, settled: Settled, name: str) -
 def _of_best(kind: AnyKind, spec: MachineSpec, settled: Settled, known: Best, name: str) -> Iterator[str]:
     """A load of a run without a bound."""
     solver, found = known.rung.solver, known.result.loads[name]
+    if name in known.result.beyond:
+        yield f"can still change: {known.open_end}"
+        return
     if not found.estimate.bounded:
         yield f"has no bound in `{solver.name}`" + (f": {found.note}" if found.note else "")
         others = (one for one in _deciding(kind, settled) if family(name) in one.gives)
@@ -82,6 +85,10 @@ def _out_of_range(spec: MachineSpec, settled: Settled, solvers: Iterable[AnySolv
     """What keeps solvers from being used, each reason once; those that were run have findings of their own."""
     said: dict[str, str] = {}
     for solver in solvers:
+        off = sorted(solver.always & settled.plan.excluded)
+        if off:
+            said.setdefault(f"it always simulates {_list(off)}, which the file leaves out", solver.name)
+            continue
         criterion = solver.valid(spec, settled.plan.scene)
         if criterion is not None and criterion.exceeded:
             said.setdefault(criterion.meaning, solver.name)

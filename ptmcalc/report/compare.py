@@ -15,7 +15,7 @@ Entry = Mapping[str, Any]
 """A part of a document."""
 _ROUNDING = 1e-9
 """A smaller relative change is rounding."""
-_WORST = [*(verdict.value for verdict in Verdict)]
+_WORST = [*(verdict.value for verdict in Verdict if verdict is not Verdict.PASS), Verdict.PASS.value]
 _FILES = ["invalid", "fail", "undecided", "pass"]
 
 

@@ -24,13 +24,22 @@ _QUANTITIES: Mapping[tuple[str, str], Quantity] = {
     )
 } | {(units.ANGULAR_SPEED.si, unit): units.ANGULAR_SPEED for unit in units.ANGULAR_SPEED.display}
 """How numbers are shown, by their unit and the one they are read in; those of others in SI units."""
-_SIGNS = {"pass": "✅", "fail": "❌", "undecided": "❓", "not_checked": "❓", "waived": "➖", "invalid": "❌"}
+_SIGNS = {
+    "pass": "✅",
+    "fail": "❌",
+    "undecided": "❓",
+    "not_checked": "❓",
+    "waived": "➖",
+    "off": "➖",
+    "invalid": "❌",
+}
 _NOW = {
     "pass": "passes now",
     "fail": "fails now",
     "undecided": "is undecided now",
     "not_checked": "is not checked now",
     "waived": "is waived now",
+    "off": "is switched off now",
 }
 _WAS = {
     "pass": "it passed",
@@ -38,6 +47,7 @@ _WAS = {
     "undecided": "it was undecided",
     "not_checked": "it was not checked",
     "waived": "it was waived",
+    "off": "it was switched off",
 }
 _FAR = 100.0
 """Times both bars from which nobody wants to know how many."""

@@ -19,6 +19,7 @@ STYLE = {
     Verdict.NOT_CHECKED.value: "yellow",
     Verdict.WAIVED.value: "cyan",
     Verdict.PASS.value: "green",
+    Verdict.OFF.value: "cyan",
     "invalid": "bold red",
     Severity.ERROR.value: "bold red",
     Severity.WARNING.value: "yellow",

@@ -16,6 +16,7 @@ _COMMANDS = {
     Verdict.UNDECIDED: "warning",
     Verdict.NOT_CHECKED: "warning",
     Verdict.WAIVED: "notice",
+    Verdict.OFF: "notice",
 }
 """What passes is not said, nor are notes, which need the table beside them."""
 

@@ -17,6 +17,7 @@ _OUTCOMES = {
     Verdict.UNDECIDED: "error",
     Verdict.NOT_CHECKED: "error",
     Verdict.WAIVED: "skipped",
+    Verdict.OFF: "skipped",
 }
 
 

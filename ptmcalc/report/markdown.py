@@ -67,14 +67,14 @@ def code(text: str) -> str:
 def _files(reports: tuple[FileReport, ...]) -> str:
     if not reports:
         return ""
-    rows = ["| | File | Kind | Passed | Failed | Undecided | Not checked | Waived |", f"|{'---|' * 8}"]
+    rows = ["| | File | Kind | Passed | Failed | Undecided | Not checked | Waived | Off |", f"|{'---|' * 9}"]
     for report in reports[:_MOST_ROWS]:
         counted = count((report,))
-        numbers = (str(counted[key]) for key in ("pass", "fail", "undecided", "not_checked", "waived"))
+        numbers = (str(counted[key]) for key in ("pass", "fail", "undecided", "not_checked", "waived", "off"))
         cells = (_SIGNS[report.verdict], escape(_cut(report.path)), escape(report.kind), *numbers)
         rows.append(f"| {' | '.join(cells)} |")
     if len(reports) > _MOST_ROWS:
-        rows.append(f"| | {len(reports) - _MOST_ROWS} more files |  |  |  |  |  |  |")
+        rows.append(f"| | {len(reports) - _MOST_ROWS} more files |  |  |  |  |  |  |  |")
     return "\n".join(rows)
 
 

@@ -28,6 +28,7 @@ _KINDS: dict[Severity | Verdict, tuple[str, str]] = {
     Verdict.NOT_CHECKED: ("open", "none"),
     Verdict.WAIVED: ("fail", "error"),
     Verdict.PASS: ("pass", "none"),
+    Verdict.OFF: ("notApplicable", "none"),
 }
 
 

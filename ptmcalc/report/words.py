@@ -5,6 +5,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import Span, dotted
 from ptmcalc.base.units import TIME, Quantity, digits, display_unit, show, unit_of
@@ -104,7 +105,7 @@ def sparkline(course: tuple[float, ...]) -> str:
 def relative_margin(judgement: Judgement) -> float:
     """The margin as a share of the limit, or of the value where the limit is 0: what sorts verdicts."""
     if judgement.margin is None or judgement.limit is None or judgement.value is None:
-        return math.inf
+        return -math.inf if judgement.verdict is Verdict.FAIL else math.inf
     scale = abs(judgement.limit.value) or abs(judgement.value.value) or 1.0
     return judgement.margin / scale
 
@@ -177,6 +178,7 @@ def summary(totals: dict[str, int]) -> str:
             ("undecided", "undecided"),
             ("not_checked", "not checked"),
             ("waived", "waived"),
+            ("off", "switched off"),
             ("ignored", "ignored"),
         )
         if totals[key]

@@ -4,7 +4,17 @@ A number that nobody gave may not decide a verdict unseen. So each optional numb
 classes below; a test walks the keys of all kinds and fails on one that is not.
 """
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from ptmcalc.base.span import KeyPath
+from ptmcalc.spec.fields import Measure
+from ptmcalc.spec.shape import measure_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,3 +70,42 @@ class Setting:
 
 Declared = Assumed | Limit | Absent | OneOf | Setting
 """What may be declared of an optional number."""
+
+
+def declaration_of(field: FieldInfo) -> Declared | None:
+    """What a key declares of its number."""
+    return next((one for one in field.metadata if isinstance(one, Declared)), None)
+
+
+def constants_of(node: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Assumed, Measure]]:
+    """The keys with an assumption of a constant value that a machine's file does not write."""
+    if isinstance(node, BaseModel):
+        constants = _constants(type(node))
+        for name, field in type(node).model_fields.items():
+            key = field.alias or name
+            if name in constants:
+                if name not in node.model_fields_set:
+                    yield ((*path, key), *constants[name])
+            elif isinstance(one := getattr(node, name), _NODES):
+                yield from constants_of(one, (*path, key))
+    elif isinstance(node, dict):
+        for key, one in node.items():
+            yield from constants_of(one, (*path, key))
+    elif isinstance(node, tuple | list):
+        for index, one in enumerate(node):
+            yield from constants_of(one, (*path, index))
+
+
+_NODES = (BaseModel, dict, tuple, list)
+
+
+@cache
+def _constants(model: type[BaseModel]) -> Mapping[str, tuple[Assumed, Measure]]:
+    """The fields of a model that assume a constant value."""
+    return {
+        name: (declared, measure)
+        for name, field in model.model_fields.items()
+        if isinstance(declared := declaration_of(field), Assumed)
+        and not declared.derived
+        and (measure := measure_of(field)) is not None
+    }

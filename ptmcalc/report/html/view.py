@@ -91,7 +91,7 @@ class Source:
 
 
 def _tone(verdict: Verdict) -> str:
-    return {Verdict.PASS: "pass", Verdict.FAIL: ""}.get(verdict, "open")
+    return {Verdict.PASS: "pass", Verdict.OFF: "pass", Verdict.FAIL: ""}.get(verdict, "open")
 
 
 def page(report: FileReport, source: Source) -> Entry:
@@ -388,7 +388,7 @@ def row(report: FileReport, page: str) -> Entry:
         "name": report.name,
         "scene": scene,
         "passed": totals["pass"],
-        "others": sum(totals[key] for key in ("fail", "undecided", "not_checked", "waived")),
+        "others": sum(totals[key] for key in ("fail", "undecided", "not_checked", "waived", "off")),
     }
     if worst is None:
         said = next((d for d in report.diagnostics if d.severity is Severity.ERROR), None)
