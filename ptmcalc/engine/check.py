@@ -159,7 +159,7 @@ def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[
     if any(one.verdict is not Verdict.OFF for scene in scenes for one in scene.checks):
         return
     off = {one.code for scene in scenes for one in scene.checks}
-    reason = f"all {len(off)} checks that apply are switched off" if off else "no check applies to the scenes"
+    reason = f"every check that applies is switched off ({len(off)})" if off else "no check applies to the scenes"
     path: KeyPath = ("checks",) if off else ("scenes",)
     hint = "delete an `off`" if off else "add a scene to which checks apply"
     yield Diagnostic("SPC204", f"nothing was checked: {reason}", _span(loaded.document, path), path, hint, _WARN)

@@ -64,4 +64,5 @@ def test_verdicts_are_ranked_from_the_worst() -> None:
         Verdict.NOT_CHECKED,
         Verdict.WAIVED,
         Verdict.PASS,
+        Verdict.OFF,
     ]

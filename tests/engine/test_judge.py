@@ -94,8 +94,9 @@ def test_a_check_without_its_input_makes_the_file_undecided() -> None:
 def test_a_check_switched_off_with_a_reason_is_not_missed() -> None:
     off = {"TOY101": {"off": "a show piece"}}
     found = report(EXACT, strength=None, checks=off)
-    assert list(found.judgements) == []
-    assert found.verdict == "pass"
+    assert [(one.verdict, one.reason) for _, one in found.judgements] == [(Verdict.OFF, "a show piece")]
+    assert found.verdict == "undecided", "a file that checked nothing has not passed"
+    assert [one.code for one in found.diagnostics] == ["SPC204"]
     assert loaded(EXACT, checks=off).spec.settings.switched_off("TOY101") == "a show piece"  # type: ignore[union-attr]
 
 

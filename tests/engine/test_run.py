@@ -326,15 +326,14 @@ def test_what_is_not_checked_says_without_nothing() -> None:
     assert judgement(report(kind, effects={"waves": "off"}, strength=None)).without == ()
 
 
-def test_an_effect_forced_on_that_lacks_an_input_is_not_said_to_be_off_or_simulated() -> None:
+def test_an_effect_forced_on_that_lacks_an_input_is_refused() -> None:
     kind = kind_of(
         solver("rich", pull(9), carries=("waves", "sag")), effects=[effect("waves"), effect("sag", number=None)]
     )
     found = report(kind, effects={"sag": "on"})
-    line = effect_of(found, "sag")
-    assert line.state is EffectState.SKIPPED
-    assert "off" not in line.note
-    assert "sag" not in scene_of(found).solvers[-1].effects
+    assert [(one.code, one.severity) for one in found.diagnostics] == [("SPC205", Severity.ERROR)]
+    assert "an input that it needs is not given" in found.diagnostics[0].message
+    assert (found.verdict, found.scenes) == ("invalid", ())
 
 
 # -- effects near their threshold -----------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ LINE = re.compile(
     r"(?P<file>[^:\s]+):(?P<line>[1-9][0-9]*):(?P<column>[1-9][0-9]*): "
     r"(?P<verdict>fail|undecided|not_checked|waived|pass|error|warning|note) (?P<code>[A-Z]{3}[0-9]{3}) (?P<rest>\S.*)"
 )
-RANK = ["fail", "undecided", "not_checked", "waived", "pass"]
+RANK = ["fail", "undecided", "not_checked", "waived", "pass", "off"]
 
 
 def lines(name: str) -> list[str]:
@@ -71,7 +71,13 @@ def test_the_worst_come_first(path: str) -> None:
             "not_checked",
             ["toy.yaml:3:11: not_checked TOY101 too much weight on the hook [hang]: `strength` is not given"],
         ),
-        ("switched_off", []),
+        (
+            "switched_off",
+            [
+                "toy.yaml:5:3: warning SPC204 nothing was checked: every check that applies is switched off (1); delete an `off`",
+                "toy.yaml:6:12: off TOY101 too much weight on the hook [hang]: a show piece",
+            ],
+        ),
         (
             "passing",
             [
