@@ -133,6 +133,8 @@ class Judgement:
     reason: str = ""
     without: tuple[str, ...] = ()
     repair: Repair | None = None
+    tried: str = ""
+    """what was tried where no value passes"""
     loads: tuple[str, ...] = ()
     """the loads it read"""
     baseline: bool = False

@@ -14,7 +14,6 @@ from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import NumericsError, UsageError
 from ptmcalc.base.span import KeyPath, Span, dotted
 from ptmcalc.base.units import show
-from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import (
@@ -27,19 +26,19 @@ from ptmcalc.contract.report import (
     LoadReport,
     NextSolver,
     Place,
-    Repair,
     SceneReport,
     SolverReport,
 )
 from ptmcalc.contract.result import Finding, History
 from ptmcalc.engine.forced import refused
 from ptmcalc.engine.judge import Ruling
-from ptmcalc.engine.load import Loaded, changed, load_file
+from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
+from ptmcalc.engine.repair import Repairs
 from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, without
-from ptmcalc.engine.solve import REPAIR_SECONDS, SearchPurse, solve, variants
+from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.unknown import why_open
 from ptmcalc.engine.waive import about_waivers, waived
@@ -144,7 +143,8 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
             for f, message in _said(settled)
         )
     )
-    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options, purse).scene() for scene in settled)
+    repairs = Repairs(loaded, options.scenes, purse, partial(_again, options))
+    scenes = tuple(_Assembly(loaded, kind, spec, scene, flips, options, repairs).scene() for scene in settled)
     today = options.today or date.today()
     diagnostics += tuple(about_waivers(spec, scenes, today, loaded.document, whole=not options.scenes))
     diagnostics += tuple(note for scene in scenes if (note := far_from_textbook(loaded, scene)) is not None)
@@ -152,6 +152,12 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
     return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
+
+
+def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:
+    """A plain check of a changed file, without repairs of its own."""
+    plain = replace(options, histories=False, courses=False, figures=False, repairs=False)
+    return check(loaded, replace(plain, scenes=scenes, budget=most))
 
 
 def _nothing_checked(loaded: Loaded, scenes: Sequence[SceneReport]) -> Iterator[Diagnostic]:
@@ -260,7 +266,7 @@ class _Assembly:
     settled: Settled
     flips: Flips
     options: Options
-    purse: FilePurse
+    repairs: Repairs
 
     def scene(self) -> SceneReport:
         scene = self.settled.plan.scene
@@ -382,6 +388,8 @@ class _Assembly:
             verdict, blame = Verdict.UNDECIDED, assumed.path
             reason = f"{other.value} if `{dotted(assumed.path)}` is {show(end, assumed.quantity)}: give its value"
         document = self.loaded.document
+        sought = ruling.verdict is Verdict.FAIL and self.options.repairs and self.options.counting.takes(check.code)
+        repair, tried = self.repairs.of(ruling, scene) if sought else (None, "")
         return Judgement(
             code=check.code,
             title=check.title,
@@ -395,37 +403,10 @@ class _Assembly:
             element=check.element,
             reason=reason,
             without=without if verdict not in (Verdict.NOT_CHECKED, Verdict.OFF) else (),
-            repair=self._repair(ruling) if ruling.verdict is Verdict.FAIL else None,
+            repair=repair,
+            tried=tried,
             loads=check.loads,
         )
-
-    def _repair(self, ruling: Ruling) -> Repair | None:
-        """The value of the repair's key at which the check was seen to pass, in a check of the changed file."""
-        scene = self.settled.plan.scene
-        path = ruling.blame if ruling.check.repairs_blame else ruling.check.repair(self.spec, scene)
-        asked = self.options.repairs and self.options.counting.takes(ruling.check.code)
-        if not asked or not path or not self.purse.most:
-            return None
-        search = SearchPurse(min(REPAIR_SECONDS, self.purse.most))
-        try:
-            found = solve(self.loaded, ruling.check, path, scene.label, purse=search)
-        except UsageError:
-            return None
-        self.purse.left -= search.spent
-        edges = (found.value, found.other) if found else ()
-        passing = [value for value in edges if value is not None and self._passes_with(path, value, ruling.check)]
-        return Repair(path, passing[0], found.quantity, *passing[1:]) if found and passing else None
-
-    def _passes_with(self, path: KeyPath, value: float, wanted: AnyCheck) -> bool:
-        """Whether the file with another value at a key passes a check in this scene."""
-        label = self.settled.plan.scene.label
-        plain = replace(self.options, histories=False, courses=False, figures=False, repairs=False)
-        options = replace(plain, scenes=(label,), budget=self.purse.most)
-        again = check(changed(self.loaded, path, value), options)
-        name = (wanted.code, wanted.element)
-        self.purse.left -= sum(one.predicted_seconds for scene in again.scenes for one in scene.solvers)
-        verdicts = [one.verdict for _, one in again.judgements if (one.code, one.element) == name]
-        return bool(verdicts) and all(verdict is Verdict.PASS for verdict in verdicts)
 
     def _health(self) -> Mapping[str, float]:
         """The health of the richest run, and the work of all of them."""

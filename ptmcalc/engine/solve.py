@@ -20,7 +20,7 @@ from ptmcalc.spec.machine import MachineSpec
 
 _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 """How far from the present value others are tried, in decades on either side."""
-_FARTHEST = 1e3
+FARTHEST = 1e3
 """How many times the present value a solution may be, or the present value it."""
 _MOST_STEPS = 60
 _CLOSE_ENOUGH = 5e-3
@@ -67,13 +67,14 @@ def solve(
     loaded: Loaded,
     check: AnyCheck,
     path: KeyPath,
-    scene_name: str = "",
+    scenes: str | tuple[str, ...] = (),
     *,
     digits: int = 4,
     purse: "SearchPurse | None" = None,
     spare: Spare = lambda limit: 0.0,
 ) -> Solution | None:
-    """The value nearest to the present one at which the check just passes, or None when there is none within 3 decades.
+    """The value nearest to the present one at which the check just passes in some scenes, all by default, or None when
+    there is none within 3 decades.
 
     Values at growing distances on both sides of the present one are tried, the first change between pass and fail is
     narrowed down, and the value is rounded to so many digits of its unit (a count to a whole number) towards the
@@ -95,7 +96,8 @@ def solve(
         raise UsageError(
             f"`{dotted(path)}` is not a number that can be varied", "name a key with a value, as in the file"
         )
-    search = _Search(loaded, check, path, scene_name, spare, purse or SearchPurse(math.inf))
+    names = (scenes,) if isinstance(scenes, str) and scenes else tuple(scenes)
+    search = _Search(loaded, check, path, names, spare, purse or SearchPurse(math.inf))
     grid = _Grid(measure.quantity if measure else RATIO, digits, counts)
     try:
         edges = _edges(search, float(present), grid)
@@ -213,7 +215,8 @@ class _Search:
     loaded: Loaded
     check: AnyCheck
     path: KeyPath
-    scene: str
+    scenes: tuple[str, ...]
+    """those asked about; all where there is none"""
     spare: Spare
     purse: SearchPurse
 
@@ -240,7 +243,7 @@ class _Search:
         wanted = [
             index
             for index, scene in enumerate(spec.all_scenes)
-            if self.check.applies_to(scene) and self.scene in ("", scene.label)
+            if self.check.applies_to(scene) and (not self.scenes or scene.label in self.scenes)
         ]
         return min((self._of_scene(spec, index, finest) for index in wanted), default=-math.inf)
 
@@ -281,7 +284,7 @@ def _edges(search: _Search, present: float, grid: _Grid) -> list[float]:
             clearance = next((other for other in clearances if other(good) < 0), None)
         if clearance is not None:
             return found
-        farthest = present * (_FARTHEST if abs(bad) > abs(good) else 1 / _FARTHEST)
+        farthest = present * (FARTHEST if abs(bad) > abs(good) else 1 / FARTHEST)
         edge = _weakest(search, good, farthest, grid)
         if edge is None:
             return found

@@ -301,4 +301,6 @@ def _check(judgement: Judgement) -> dict[str, Any]:
         entry["repair"] = {"path": list(repair.path), "value": finite(repair.value), **_unit(repair.quantity)}
         if repair.other is not None:
             entry["repair"]["other"] = finite(repair.other)
+    if judgement.tried:
+        entry["tried"] = judgement.tried
     return entry

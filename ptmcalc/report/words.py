@@ -123,6 +123,7 @@ def remark(judgement: Judgement) -> str:
         other = judgement.repair.other
         beyond = f" or {number(other, judgement.repair.quantity)}" if other is not None else ""
         parts.append(f"passes with {dotted(judgement.repair.path)} = {value}{beyond}")
+    parts.append(judgement.tried)
     if judgement.without:
         parts.append(f"without {', '.join(judgement.without)}")
     return "; ".join(filter(None, parts))
