@@ -14,6 +14,7 @@ from ptmcalc.base.words import quote
 from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import Day, Efficiency, Measure, PositiveAcceleration
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.optional import Setting
 from ptmcalc.spec.scene import Scene
 from ptmcalc.spec.tolerance import Tolerance
 
@@ -62,9 +63,9 @@ class MachineSpec(Fragment):
     """what the machine is called, on the report"""
     description: str = ""
     """anything a reader of the file should know"""
-    gravity: PositiveAcceleration = 9.81
+    gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it lies within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
-    accuracy: Accuracy | None = None
+    accuracy: Annotated[Accuracy | None, Setting("without it, verdicts decide how narrow bars are")] = None
     """relative error asked of the governing loads, e.g. `1 %`; without it accuracy is bought only where a
     verdict needs it"""
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)

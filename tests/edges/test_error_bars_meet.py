@@ -1,0 +1,69 @@
+"""Rule 7: the intervals of one load always intersect, whatever accuracy, budget, window and effects are asked for."""
+
+import os
+from collections.abc import Iterator
+from itertools import combinations
+
+import pytest
+from support.random_machines import KINDS, SECONDS, all_on, longer, machine, meet, settled
+
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.machine import AnyKind
+from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.scene import Scene
+
+SEED = int(os.environ.get("PTMCALC_SEED", "37"))
+NUMBER = 20
+
+Runs = Iterator[tuple[str, dict[str, Estimate]]]
+
+
+def settings(kind: AnyKind, spec: MachineSpec, scene: Scene) -> Runs:
+    """The loads of a scene by what is asked for; nothing of a run's own health."""
+
+    def loads(of: MachineSpec, what: Scene = scene, budget: float = SECONDS) -> dict[str, Estimate]:
+        done = settled(of, kind, what, budget=budget)
+        return {name: best.estimate for name, best in done.loads.items() if name not in best.result.health}
+
+    yield "automatic", loads(spec)
+    yield "all effects on", loads(all_on(kind, spec, scene))
+    for accuracy in (0.05, 0.01, 0.001):
+        yield f"accuracy {accuracy:g}", loads(spec.model_copy(update={"accuracy": accuracy}))
+    for budget in (0.01, 0.2):
+        yield f"budget {budget:g} s", loads(spec, budget=budget)
+    if (longer_scene := longer(scene, 1.5)) is not scene:
+        yield "window 1.5", loads(spec, longer_scene)
+
+
+def disjoint(kind: AnyKind, seed: int, index: int) -> list[str]:
+    """Loads of a random machine whose intervals do not intersect."""
+    made = machine(kind, seed, index)
+    wrong = []
+    for scene in made.spec.all_scenes:
+        try:
+            found = list(settings(kind, made.spec, scene))
+        except NumericsError as error:
+            wrong.append(f"{made.name}: {scene.label}: {error}")
+            continue
+        for (one, first), (other, second) in combinations(found, 2):
+            wrong += [
+                f"{made.name}: {scene.label}: {name}: {one} {first[name]}, {other} {second[name]}"
+                for name in first.keys() & second.keys()
+                if not meet(first[name], second[name])
+            ]
+    return wrong
+
+
+@pytest.mark.parametrize("index", range(NUMBER))
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)
+def test_intervals_of_one_load_intersect(kind: AnyKind, index: int) -> None:
+    assert disjoint(kind, SEED, index) == []
+
+
+@pytest.mark.study
+@pytest.mark.parametrize("part", range(20))
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)
+def test_of_two_hundred_machines_too(kind: AnyKind, part: int) -> None:
+    wrong = [one for index in range(10 * part, 10 * part + 10) for one in disjoint(kind, SEED + 1, index)]
+    assert wrong == []
