@@ -230,8 +230,8 @@ def _flips(
 ) -> Flips:
     """Verdicts that change when an assumed value goes to an end of its interval.
 
-    A check that fails as it stands fails whatever is assumed only if both ends say so too. One that is open as it
-    stands, or that an end before has changed, is not settled again.
+    A check that passes as it stands passes only if it does at both ends; one that fails does so unless it passes at an
+    end. One that is open as it stands, or that an end before has changed, is not settled again.
     """
     base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
@@ -245,9 +245,16 @@ def _flips(
         again = plan(kind, other, [scene for scene in other.all_scenes if scene.label in left])
         ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
         found |= {
-            key: (value, end, ruling.verdict) for key, ruling in _by_key(again, ends) if ruling.verdict is not base[key]
+            key: (value, end, ruling.verdict)
+            for key, ruling in _by_key(again, ends)
+            if _turns(base[key], ruling.verdict)
         }
     return found
+
+
+def _turns(verdict: Verdict, at_end: Verdict) -> bool:
+    """Whether a verdict does not stand where an assumed value is at its end: a fail only turns into a pass."""
+    return at_end is Verdict.PASS if verdict is Verdict.FAIL else at_end is not verdict
 
 
 def _by_key(made: Plan, settled: list[Settled]) -> Iterator[tuple[Key, Ruling]]:

@@ -10,7 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.spec import Conveyor, Drive
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, Drive, Hold, Stopping
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -63,6 +63,77 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.2,
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
+    ),
+)
+
+_LIGHT_RUNNING = 0.6
+"""A belt that runs light, f = 0.016, relative to one designed with f = 0.027 (DIN 22101)."""
+_AT_REST, _LEAST_AT_REST, _MOST_AT_REST = 0.5, 0.3, 0.6
+"""Part of the idler resistance in motion that is counted on at standstill: practice takes one half. The low end is 0.4
+of the main resistance, which is about 0.8 of all; the high end is a little more than practice."""
+_OTHER_WEIGHT = 0.05
+"""Mass of carriage, sheaves and their friction, relative to that of the take-up weight: 2 to 5 % a sheave."""
+_ELONGATION = {"steel_cord": 0.002, "textile": 0.015}
+"""Permanent elongation over the life of a belt; makers state 0.1 to 0.2 % and 0.5 to 1.5 %."""
+_SMALLER_TAIL = 0.6
+"""Diameter of the tail pulley relative to that of the drive pulley, at least: the belt has less tension there."""
+
+
+def _stops(spec: Conveyor) -> bool:
+    return any(isinstance(scene, Stopping) for scene in spec.all_scenes)
+
+
+def _elongation(spec: Conveyor) -> float:
+    return _ELONGATION["steel_cord" if "steel_cord" in (spec.belt.carcass, spec.belt.warp) else "textile"]
+
+
+def _weight(spec: Conveyor) -> float | None:
+    """Mass of a take-up weight on two falls [kg], T = m g/2."""
+    moves = any(type(scene) in IN_MOTION for scene in spec.all_scenes)
+    return 2 * spec.takeup.tension / spec.gravity if moves and spec.takeup.type == "gravity" else None
+
+
+def _tail_diameter(spec: Conveyor) -> float | None:
+    """Diameter of the tail pulley where something depends on it [m]."""
+    braked = any(brake.at == "tail" for brake in spec.brakes.values())
+    return spec.main_drive.drum.diameter if spec.tail_drum.inertia or braked else None
+
+
+_OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
+    Assumption(
+        ("resistance", "stop_factor"),
+        units.RATIO,
+        lambda spec: 1.0 if _stops(spec) else None,
+        lambda spec: Interval(_LIGHT_RUNNING, 1.0),
+        "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a belt that runs light stops later",
+    ),
+    Assumption(
+        ("resistance", "rest_factor"),
+        units.RATIO,
+        lambda spec: _AT_REST if any(isinstance(scene, Hold) for scene in spec.all_scenes) else None,
+        lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
+        "practice for backstops: one half of the running resistance, none of loading points and cleaners",
+    ),
+    Assumption(
+        ("takeup", "mass"),
+        units.MASS,
+        _weight,
+        lambda spec: Interval(*((1 + part) * (_weight(spec) or 0.0) for part in (-_OTHER_WEIGHT, _OTHER_WEIGHT))),
+        "weight on two falls, m = 2 T/g; friction of the sheaves and the carriage 5 %",
+    ),
+    Assumption(
+        ("takeup", "permanent_elongation"),
+        units.SHARE,
+        lambda spec: 0.0 if spec.takeup.stroke is not None else None,
+        lambda spec: Interval(0.0, _elongation(spec)),
+        "belt makers: 0.1 to 0.2 % of steel cord belts, 0.5 to 1.5 % of textile belts over their life",
+    ),
+    Assumption(
+        ("tail_drum", "diameter"),
+        units.LENGTH,
+        _tail_diameter,
+        lambda spec: Interval(_SMALLER_TAIL * spec.main_drive.drum.diameter, spec.main_drive.drum.diameter),
+        "as the drive pulley's, or a smaller one of its series",
     ),
 )
 
@@ -121,6 +192,7 @@ def assumptions(spec: Conveyor) -> Iterator[Assumption[Conveyor]]:
     for assumed in _OF_THE_BELT:
         beyond = assumed.path[-1] == "secondary" and spec.route.span > _TABLE_ENDS
         yield replace(assumed, source=f"{assumed.source}; the table ends at 2000 m") if beyond else assumed
+    yield from _OF_STANDSTILL
     yield from _OF_THE_LOAD
     yield from _rubbing(spec)
     for name, drive in spec.all_drives.items():

@@ -16,6 +16,7 @@ from ptmcalc.machines.conveyor.model import belt_line, starting_force
 from ptmcalc.machines.conveyor.safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
+    Backstop,
     Coast,
     Conveyor,
     ConveyorScene,
@@ -271,10 +272,6 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
 # -- stop -----------------------------------------------------------------------------------------------------------
 
 
-def _distance_key(scene: ConveyorScene) -> KeyPath:
-    return ("checks", "emergency_stop_distance" if isinstance(scene, EmergencyStop) else "stop_distance")
-
-
 def _stop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
     """Longest way of the file, by the kind of stop.
 
@@ -282,14 +279,16 @@ def _stop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
     **Error** none: a chosen limit.
     **Source** the plant's safety rules.
     """
-    return Estimate.exact(spec.value_at(_distance_key(scene)) or math.inf)
+    return Estimate.exact(spec.stop_distance_limit(scene) or math.inf)
 
 
-def _only_with(check: str, key: Callable[[ConveyorScene], KeyPath]) -> Callable[[Conveyor, ConveyorScene], Checks]:
+def _only_with(
+    check: str, limit: Callable[[Conveyor, ConveyorScene], float | None]
+) -> Callable[[Conveyor, ConveyorScene], Checks]:
     """The check itself where the file gives its limit."""
 
     def each(spec: Conveyor, scene: ConveyorScene) -> Checks:
-        return (_BY_CODE[check],) if spec.value_at(key(scene)) is not None else ()
+        return (_BY_CODE[check],) if limit(spec, scene) is not None else ()
 
     return each
 
@@ -315,7 +314,7 @@ def _time_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 def _stop_key(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
     """The latest brake's delay or rise, where full torque from the first moment would stop the rigid body in time; else
     the strongest brake's torque."""
-    acting, limit = brakes_of(spec, scene), spec.value_at(_distance_key(scene))
+    acting, limit = brakes_of(spec, scene), spec.stop_distance_limit(scene)
     line = running(spec, scene)
     force = line.static_resistance + line.tail_pull + sum(braking(spec, brake).force for brake in acting.values())
     if acting and limit is not None and moving_mass(line) * line.speed**2 <= 2 * force * limit:
@@ -340,8 +339,8 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _stop_key(spec, scene),
     repair=_stop_repair,
-    each=_only_with("CNV106", _distance_key),
-    what="The belt at the head comes to rest within the way the file allows.",
+    each=_only_with("CNV106", Conveyor.stop_distance_limit),
+    what="The belt at the head comes to rest within the distance the file allows.",
     why="A belt that runs on overfills the chute below and drags along whoever it has caught.",
     formula="s = integral of v dt until v = 0 <= limit",
     source="the plant's safety rules",
@@ -406,7 +405,7 @@ BRAKE: Check[Conveyor, ConveyorScene] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
-    each=_only_with("CNV108", _distance_key),
+    each=_only_with("CNV108", Conveyor.stop_distance_limit),
     what="The brakes together hold what the rigid body needs to stop within the way the file allows.",
     why="A brake sized without the resistance's sign is too weak downhill and needlessly violent uphill.",
     formula="(m v^2/(2 s) - W) R <= sum M_brake on the drum shaft",
@@ -415,13 +414,27 @@ BRAKE: Check[Conveyor, ConveyorScene] = Check(
 
 
 def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Torque the backstop may be asked for: rated torque over the reserve; none without a backstop.
+    """Torque that backstop and closed brakes hold at the head pulley, with the reserve of a backstop.
 
-    **Range** a belt at rest with its drives off.
+        M = (M_backstop + sum F_brake R)/reserve
+
+    **Range** a belt at standstill with its drives off: brakes are closed then. Those at the tail are not counted.
     **Error** none: a chosen reserve.
     **Source** practice: reserve 1.25 to 1.75.
     """
-    return Estimate.exact(spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0)
+    closed = sum(braking(spec, brake).force for brake in spec.brakes.values() if brake.at == "head")
+    held = closed * spec.main_drive.drum.diameter / 2
+    if spec.backstop is None:
+        return Estimate.exact(held / Backstop.model_fields["reserve"].default)
+    return Estimate.exact((held + spec.backstop.torque) / spec.backstop.reserve)
+
+
+def _holding_key(spec: Conveyor) -> KeyPath:
+    """The backstop, else the strongest brake at the head."""
+    closed = {name: brake for name, brake in spec.brakes.items() if brake.at == "head"}
+    if spec.backstop is None and closed:
+        return ("brakes", max(closed, key=lambda name: braking(spec, closed[name]).force), "torque")
+    return ("backstop", "torque") if spec.backstop else ("backstop",)
 
 
 BACKSTOP: Check[Conveyor, Hold] = Check(
@@ -432,11 +445,11 @@ BACKSTOP: Check[Conveyor, Hold] = Check(
     sense=Sense.AT_MOST,
     limit=_backstop_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("backstop", "torque") if spec.backstop else ("backstop",),
-    repair=lambda spec, scene: ("backstop", "torque") if spec.backstop else (),
-    what="What pulls the loaded belt back is held by friction, or by the backstop with its reserve.",
+    blame=lambda spec, scene, loads: _holding_key(spec),
+    repair=lambda spec, scene: _holding_key(spec) if spec.backstop or spec.brakes else (),
+    what="The pull of the load on the stopped belt is held by idler resistance, backstop and closed brakes.",
     why="A belt that runs back buries its tail and turns the motors backward.",
-    formula="(climb of the load - idler friction at its lowest) D/2 <= M_backstop/reserve",
+    formula="(climb of the load - rest_factor x idler friction) D/2 <= (M_backstop + M_brakes)/reserve",
     source="lecture notes Kramatorsk 2007",
 )
 
@@ -461,7 +474,7 @@ STROKE: Check[Conveyor, Run] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("takeup", "stroke"),
     repair=lambda spec, scene: ("takeup", "stroke"),
-    each=_only_with("CNV110", lambda scene: ("takeup", "stroke")),
+    each=_only_with("CNV110", lambda spec, scene: spec.takeup.stroke),
     what="The take-up can follow the belt from the new one at rest, closed with the take-up's tension S_0 all round, to"
     " the old one in steady running. A weight follows the elastic and the permanent elongation; a screw moves for the"
     " permanent one alone, because its belt runs with the mean S_0 it was set to.",

@@ -29,9 +29,11 @@ from ptmcalc.machines.conveyor.model import (
     damping_change,
     delay_lines_do,
     grips,
+    inertia_of_weight,
     is_plain,
     slides_at_rest,
     start_case,
+    takeup_numbers,
     thrown_back,
 )
 from ptmcalc.machines.conveyor.moving import moving, rough_utilisation
@@ -79,7 +81,8 @@ def _moved(
     spec: Conveyor, scene: ConveyorScene, line: BeltLine, loads: Loads, change: float | Change, off: bool = False
 ) -> Offsets:
     """Offsets of the loads of any scene when tensions may be off by a change, every one by the same [N] if it is a
-    number."""
+    number. The tension at the run-off is constant only where a take-up weight has no inertia."""
+    off = off or (spec.takeup.mass is not None and spec.effects.get("takeup_mass") != "off")
     slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
     asked = 0
     if isinstance(scene, Start) and scene.profile.imposes_speed:
@@ -408,30 +411,26 @@ def _slides_on(spec: Conveyor, scene: ConveyorScene) -> bool:
 def takeup_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """How far the inertia of the take-up weight changes the run-off tension.
 
-        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 without `takeup.mass`
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 of a rigid take-up
 
     a_0 is the acceleration of the drum alone, w_1 a lower bound of the lowest frequency.
 
-    **Range** a gravity take-up; a file that gives no mass asks for a constant tension.
+    **Range** a gravity take-up.
     **Error** an estimate.
     **Source** take-up weight on two falls; thresholds are an engineering choice.
     """
     value = 0.0
     if spec.takeup.mass is not None:
-        kappa, drum = _takeup_numbers(spec, scene, running(spec, scene))
-        value = max(kappa / 0.1, drum / spec.gravity / 0.03)
+        line = running(spec, scene)
+        value = inertia_of_weight(spec, line, _force_on_drum(spec, scene, line))
     return Criterion("kappa", value, 1.0, "inertia of the take-up weight", "take-up weight on two falls")
 
 
-def _takeup_numbers(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> tuple[float, float]:
-    """kappa, and the acceleration of the drum alone [m/s^2]."""
-    slowest = math.pi / (2 * line.contour_time)
-    kappa = line.takeup_tension * slowest / (2 * spec.gravity * line.impedance(RETURN))
+def _force_on_drum(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> float:
+    """Largest force that sets the belt in motion or stops it [N]."""
     if isinstance(scene, Start):
-        force = start_case(spec, scene).excess
-    else:
-        force = deceleration(spec, scene, line) * moving_mass(line)
-    return kappa, force / line.drive_mass
+        return start_case(spec, scene).excess
+    return deceleration(spec, scene, line) * moving_mass(line)
 
 
 def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
@@ -454,7 +453,7 @@ def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     if takeup_criterion(spec, scene).exceeded or _slides_first(spec, scene):
         return _anything(spec, scene, loads)
     line = running(spec, scene)
-    _, drum = _takeup_numbers(spec, scene, line)
+    _, drum = takeup_numbers(spec, line, _force_on_drum(spec, scene, line))
     unit = line.takeup_tension * drum / (2 * spec.gravity)
     change = Change(_TAKEUP_FACTOR * unit, _TAKEUP_FACTOR * unit, _TAKEUP_OF_GRIP * unit)
     return _moved(spec, scene, line, loads, change, off=True)

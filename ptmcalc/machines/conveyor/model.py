@@ -181,7 +181,7 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
     if isinstance(scene, Start):
         grown = filled(given.start_factor)
     elif isinstance(scene, Stopping):
-        grown = given.stop_factor
+        grown = stop_factor(spec)
 
     parts = route.parts
     cosines = [1.0 if flat else part.cosine for part in parts]
@@ -239,6 +239,12 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
     )
 
 
+def stop_factor(spec: Conveyor) -> float:
+    """Resistance during a stop relative to that in motion; the assumption fills it in where a file has stops."""
+    given = spec.resistance.stop_factor
+    return 1.0 if given is None else given
+
+
 def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether a scene is a start of a uniform belt on one slope by one drive."""
     return not plainness(spec, scene).exceeded
@@ -254,7 +260,35 @@ def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
     slides = scene.belt == "frozen" and not (spec.effects.get("coulomb_idlers") != "off" and thrown_back(spec, scene))
-    return is_plain(spec, scene) and slides and spec.takeup.mass is None and steady and not damped
+    heavy = spec.takeup.mass is not None and spec.effects.get("takeup_mass") != "off"
+    light = not heavy or takeup_inertia(spec, scene) < 1
+    return is_plain(spec, scene) and slides and light and steady and not damped
+
+
+def takeup_inertia(spec: Conveyor, scene: Start) -> float:
+    """Inertia of the take-up weight in a start relative to the threshold of its effect.
+
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive
+
+    **Range** a gravity take-up with the weight that its tension requires.
+    **Error** an estimate: w_1 is a lower bound of the lowest natural frequency.
+    **Source** take-up weight on two falls; thresholds are an engineering choice.
+    """
+    line = belt_line(spec, scene)
+    return inertia_of_weight(spec, line, start_case(spec, scene).excess)
+
+
+def inertia_of_weight(spec: Conveyor, line: BeltLine, force: float) -> float:
+    """`takeup_inertia` for a force on the drive drum alone [N]."""
+    kappa, drum = takeup_numbers(spec, line, force)
+    return max(kappa / 0.1, drum / spec.gravity / 0.03)
+
+
+def takeup_numbers(spec: Conveyor, line: BeltLine, force: float) -> tuple[float, float]:
+    """kappa [1], and the acceleration of the drum alone under a force [m/s^2]."""
+    slowest = math.pi / (2 * line.contour_time)
+    kappa = line.takeup_tension * slowest / (2 * spec.gravity * line.impedance(RETURN))
+    return kappa, force / line.drive_mass
 
 
 _SHARP = 0.75

@@ -17,6 +17,7 @@ from ptmcalc.spec.fields import (
     SignedSpeed,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one
+from ptmcalc.spec.optional import Absent, Assumed, OneOf
 
 _OF_THE_STREAM = ("skirt", "loading")
 
@@ -28,14 +29,14 @@ class Skirt(Fragment):
     """between the plates"""
     length: PositiveSpan
     """of the plates along the belt"""
-    friction: PositiveRatio | None = None
+    friction: Annotated[PositiveRatio | None, Assumed()] = None
     """between material and plates; 0.6 is assumed when it is left out"""
 
 
 class Scraper(Fragment):
     """Belt scrapers of one kind."""
 
-    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one entry is one scraper")] = 1
     """how many"""
     width: PositiveLength
     """of the blade across the belt"""
@@ -43,21 +44,21 @@ class Scraper(Fragment):
     """of the blade along the belt"""
     pressure: PositivePressure
     """of the blade on the belt; 30 to 100 kPa is usual"""
-    friction: PositiveRatio | None = None
+    friction: Annotated[PositiveRatio | None, Assumed()] = None
     """between blade and belt; 0.6 is assumed when it is left out"""
 
 
 class Loading(Fragment):
     """Material that the belt brings to its speed."""
 
-    speed: SignedSpeed = 0.0
+    speed: Annotated[SignedSpeed, Absent("material without speed along the belt takes the most force")] = 0.0
     """of the material along the belt when it falls on"""
 
 
 class ExtraForce(Fragment):
     """A special resistance: skirt plates, belt scrapers, a loading point, a tripper."""
 
-    force: PositiveForce | None = None
+    force: Annotated[PositiveForce | None, OneOf("skirt, scraper, loading")] = None
     """against the motion; or what it follows from: `skirt`, `scraper` or `loading`"""
     skirt: Skirt | None = None
     """friction of the load at skirt plates"""
@@ -77,16 +78,19 @@ class ExtraForce(Fragment):
             yield Conflict(("at",), reason, "write `at: tail`, or `at: carry`")
 
 
+_COLD = Assumed(1.0, 1.0, 1.2, "CEMA: K_t is 1 above freezing and 1.2 at -10 deg C")
+
+
 class Cema(Fragment):
     """The historical CEMA method: L K_t (K_x + K_y w_B + 0.015 w_B) + w_M (L K_y + H) + forces."""
 
-    idler_drag: PositiveForce | None = None
+    idler_drag: Annotated[PositiveForce | None, OneOf("roll")] = None
     """A_i, drag of one carry set; or give `roll`"""
     roll: Literal["4in", "5in", "6in", "7in"] | None = None
     """roll diameter, from which A_i follows: 2.3, 1.8, 1.5 or 2.4 lbf"""
-    flexure: PositiveRatio | None = None
+    flexure: Annotated[PositiveRatio | None, Assumed()] = None
     """K_y of CEMA's table over length, slope and weights; 0.03 is assumed when it is left out"""
-    temperature: FactorFromOne = 1.0
+    temperature: Annotated[FactorFromOne, _COLD] = 1.0
     """K_t; 1 above freezing"""
 
     @classmethod
@@ -98,22 +102,24 @@ class Cema(Fragment):
 class Resistance(Fragment):
     """Resistance to motion: ISO 5048 and DIN 22101, or CEMA where `cema` is given."""
 
-    coefficient: PositiveRatio | None = None
+    coefficient: Annotated[PositiveRatio | None, Assumed()] = None
     """fictitious friction coefficient f of the whole conveyor; 0.020 is assumed when it is left out"""
-    secondary: FactorFromOne | None = None
+    secondary: Annotated[FactorFromOne | None, Assumed()] = None
     """length factor C: all resistances over the main ones; from the table C(L) when left out, from 80 m on"""
-    secondary_force: Force | None = None
+    secondary_force: Annotated[Force | None, OneOf("secondary")] = None
     """secondary resistances as a force at the loading point, instead of `secondary`"""
     cema: Cema | None = None
     """the CEMA method, instead of `coefficient` and `secondary`; pulleys and loading go to `secondary_force`"""
-    speed_share: Fraction = 0.0
+    speed_share: Annotated[Fraction, Absent("the resistance does not depend on the speed, as ISO 5048 takes it")] = 0.0
     """part of the idlers' resistance at rated speed that is proportional to the speed"""
     forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
     """special resistances by name, besides main and secondary ones"""
-    start_factor: FactorFromOne | None = None
+    start_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
-    stop_factor: PositiveRatio = 1.0
-    """resistance while it runs out over resistance in motion; below 1 for a warm, light-running belt"""
+    stop_factor: Annotated[PositiveRatio | None, Assumed()] = None
+    """resistance during a stop relative to the resistance in motion; 1 is assumed, down to 0.6 of it"""
+    rest_factor: Annotated[PositiveRatio | None, Assumed()] = None
+    """idler resistance that holds the belt at standstill, relative to that in motion; one half is assumed"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -32,6 +32,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene
 
 
@@ -42,9 +43,9 @@ class DriveDrum(Fragment):
     """of the drum with its lagging"""
     wrap: PositiveAngle
     """wrap angle of the belt"""
-    friction: PositiveRatio | None = None
+    friction: Annotated[PositiveRatio | None, Limit()] = None
     """friction coefficient between belt and drum; without it slip cannot be checked"""
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """of the drum on its own shaft; assumed 0 when left out"""
 
 
@@ -53,7 +54,7 @@ class Drive(Fragment):
 
     motor: Motor
     """the motors"""
-    coupling_inertia: Inertia | None = None
+    coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
     gear: Gear
     """the gear"""
@@ -67,7 +68,7 @@ class PlacedDrive(Drive):
     at: Literal["head", "tail"] = "head"
     """where its drum is; those at the head stand in the order in which the belt meets them, the first on the tight
     side"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Absent("all drives are switched on at once, which gives the largest tensions")] = 0.0
     """how much later than the first it is switched on in a start"""
 
 
@@ -80,10 +81,10 @@ class Brake(Fragment):
     """braking torque when fully applied"""
     shaft: Literal["drum", "motor"] = "drum"
     """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
-    delay: Time = 0.0
-    """from the command until it begins to act"""
-    rise_time: Time = 0.0
-    """from then until its full torque, rising straight"""
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")] = 0.0
+    """from the command until it begins to act; 0 is assumed when it is left out, and 0.4 s"""
+    rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
+    """from then until its full torque, rising linearly"""
 
 
 class Backstop(Fragment):
@@ -91,7 +92,7 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the drum shaft of the head"""
-    reserve: FactorFromOne = 1.25
+    reserve: Annotated[FactorFromOne, Limit()] = 1.25
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 
@@ -102,11 +103,11 @@ class TakeUp(Fragment):
     """`gravity`: a weight beside the drive keeps the run-off tension; `rigid`: a screw or locked winch"""
     tension: PositiveForce
     """belt tension: at the run-off (gravity), or the mean round the loop when it was set (rigid)"""
-    mass: PositiveMass | None = None
-    """of the take-up weight with its carriage (gravity, on two falls); without it the tension stays constant"""
-    stroke: PositiveLength | None = None
+    mass: Annotated[PositiveMass | None, Assumed()] = None
+    """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
+    stroke: Annotated[PositiveLength | None, Limit()] = None
     """way the take-up can go; needed to check it"""
-    permanent_elongation: Fraction = 0.0
+    permanent_elongation: Annotated[Fraction | None, Assumed()] = None
     """of the belt over its life, as a share of its length; adds to the way the take-up needs"""
 
     @classmethod
@@ -119,16 +120,16 @@ class TakeUp(Fragment):
 class TailDrum(Fragment):
     """The drum at the tail."""
 
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft; assumed 0 when left out"""
-    diameter: PositiveLength | None = None
+    diameter: Annotated[PositiveLength | None, Assumed()] = None
     """the drive drum's when left out"""
 
 
 class SlipLimit(Fragment):
     """How much grip must be left at the drum."""
 
-    reserve: FactorFromOne = 1.2
+    reserve: Annotated[FactorFromOne, Limit()] = 1.2
     """reserve of friction force k_T; 1.1 to 1.5 in practice"""
     definition: Literal["force", "ratio"] = "force"
     """`force` puts the reserve on the friction force, `ratio` on the ratio of the tensions (stricter)"""
@@ -139,34 +140,34 @@ class ConveyorChecks(CheckSettings):
 
     slip: SlipLimit = SlipLimit()
     """grip at the drive drum"""
-    belt_safety_running: PositiveRatio | None = None
+    belt_safety_running: Annotated[PositiveRatio | None, Limit()] = None
     """breaking force over largest tension in steady running"""
-    belt_safety_starting: PositiveRatio | None = None
+    belt_safety_starting: Annotated[PositiveRatio | None, Limit()] = None
     """breaking force over largest tension during a start"""
-    sag: PositiveRatio = 0.01
+    sag: Annotated[PositiveRatio, Limit()] = 0.01
     """largest sag of the belt over the idler pitch, in steady running"""
-    slack_sag: PositiveRatio = DEEPEST
+    slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
     """sag over idler pitch at which the belt counts as slack, in every scene"""
-    stop_distance: PositiveSpan | None = None
+    stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """longest way of the belt in a `stop`"""
-    emergency_stop_distance: PositiveSpan | None = None
-    """longest way of the belt in an `emergency_stop`"""
-    stop_time: PositiveTime | None = None
+    emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
+    """longest way of the belt in an `emergency_stop`; `stop_distance` where it is left out"""
+    stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest time of any stop"""
-    section_fill: PositiveRatio = 1.0
+    section_fill: Annotated[PositiveRatio, Limit()] = 1.0
     """largest stream over what the cross-section of the load holds"""
-    edge_overload: FactorFromOne = 1.15
+    edge_overload: Annotated[FactorFromOne, Limit()] = 1.15
     """largest tension per width of a fibre at a transition or in a vertical curve over that of the steadily running
     belt's safety"""
-    start_acceleration: PositiveAcceleration | None = None
+    start_acceleration: Annotated[PositiveAcceleration | None, Limit()] = None
     """largest acceleration of the belt in a start; 0.1 to 0.3 m/s^2 is usual"""
     start_margins: Literal["on", "off"] = "off"
     """whether a start may not be sharper than grip and slack surely bear; careful, CNV101 and CNV105 look closer"""
-    start_residual: PositiveRatio | None = None
+    start_residual: Annotated[PositiveRatio | None, Limit()] = None
     """largest swing that a start's profile may leave in the lowest mode of the belt, over that of a step"""
-    resonance_band: Fraction = 0.15
+    resonance_band: Annotated[Fraction, Limit()] = 0.15
     """how far the `ripple` of a drive has to stay from the natural frequencies of the belt"""
-    slip_heat: PositiveEnergy | None = None
+    slip_heat: Annotated[PositiveEnergy | None, Limit()] = None
     """largest heat a drum may burn off by slip in one scene"""
 
 
@@ -191,7 +192,7 @@ class Aborted(Fragment):
 
     run: PositiveTime
     """how long the drives pull"""
-    pause: Time = 0.0
+    pause: Annotated[Time, Setting("part of the scene: 0 switches the drives on again at once")] = 0.0
     """how long they are off before they start again"""
 
 
@@ -239,7 +240,7 @@ class Coast(Stopping):
     """The drives are switched off and no brake acts; a measured way tells the resistance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: PositiveSpan | None = None
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
     """way of a real run-out from rated speed, from which the resistance coefficient is computed"""
 
 
@@ -249,9 +250,9 @@ class Jam(ConveyorScene):
     type: Literal["jam"] = "jam"
     at: Literal["head", "tail"] = "head"
     """the drum that jams; the drives at the other end go on"""
-    time: Time = 0.0
+    time: Annotated[Time, Setting("part of the scene: at once is the worst case")] = 0.0
     """in which the drum comes to rest, evenly; 0 from one moment to the next"""
-    duration: PositiveTime | None = None
+    duration: Annotated[PositiveTime | None, Setting("the window is printed with the loads")] = None
     """how long the belt is looked at; twice round the belt for a wave when left out"""
 
 
@@ -368,6 +369,19 @@ class Conveyor(MachineSpec):
     @property
     def settings(self) -> ConveyorChecks:
         return self.checks
+
+    def stop_distance_key(self, scene: ConveyorScene) -> KeyPath:
+        """The key that limits the stopping distance of a scene: `stop_distance` holds for an emergency stop too where
+        that has no limit of its own."""
+        own = isinstance(scene, EmergencyStop) and (
+            self.checks.emergency_stop_distance is not None or self.checks.stop_distance is None
+        )
+        return ("checks", "emergency_stop_distance" if own else "stop_distance")
+
+    def stop_distance_limit(self, scene: ConveyorScene) -> float | None:
+        """Longest stopping distance of a scene [m], where the file limits it."""
+        limit: float | None = self.value_at(self.stop_distance_key(scene))
+        return limit
 
 
 def _no_motor_there(given: Given) -> Iterator[Conflict]:

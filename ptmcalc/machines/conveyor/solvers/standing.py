@@ -12,7 +12,7 @@ from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
 from ptmcalc.spec.scene import Scene
@@ -34,7 +34,7 @@ def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: 
     **Error** exact for the rigid conveyor; delay, rise and waves are in the simulated way.
     **Source** lecture notes Kramatorsk 2007, signed form.
     """
-    way, line = _allowed_way(spec, scene), running(spec, scene)
+    way, line = spec.stop_distance_limit(scene), running(spec, scene)
     resistance, belt = line.static_resistance + line.tail_pull, moving_mass(line) - line.drive_mass
     if way is None:
         held = sum(braking(spec, one).force for one in brakes_of(spec, scene).values())
@@ -48,11 +48,6 @@ def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: 
     )
 
 
-def _allowed_way(spec: Conveyor, scene: ConveyorScene) -> float | None:
-    """The way in which the file wants a scene to stop [m]."""
-    return spec.checks.emergency_stop_distance if isinstance(scene, EmergencyStop) else spec.checks.stop_distance
-
-
 def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """The brake torque of the textbook, on the drum shaft.
 
@@ -62,7 +57,7 @@ def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], l
     **Error** none bound: uphill it adds the resistance to what the brake must do instead of crediting it.
     **Source** lecture notes Kramatorsk 2007, M, M_st and M_T in turn.
     """
-    way = _allowed_way(spec, scene)
+    way = spec.stop_distance_limit(scene)
     if way is None:
         return Result({}, work=1)
     line = running(spec, scene)
@@ -96,13 +91,13 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
 
 def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> tuple[float, float]:
     """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
-    used = filled(spec.resistance.coefficient) * spec.resistance.stop_factor
+    used = filled(spec.resistance.coefficient) * stop_factor(spec)
     along = _special(spec, scene)
     friction = line.back.friction[-1] + line.carry.friction[-1] - along
     return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force + along
 
 
-def _special(spec: Conveyor, scene: Coast) -> float:
+def _special(spec: Conveyor, scene: ConveyorScene) -> float:
     """Forces with a name along both strands [N]."""
     extra = extra_forces(spec, load_line_mass(spec))
     loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
@@ -113,25 +108,25 @@ def _special(spec: Conveyor, scene: Coast) -> float:
 def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Result:
     """Torque on the head's drum shaft with which the stopped belt wants to run back.
 
-        M = (H - W_idlers) D/2,  not below 0
+        M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
 
-    Only climbing sections are loaded (the worst part), the resistance is the running one, lowered by `stop_factor`.
+    Only climbing sections are loaded (the worst part). Of the resistance only that of the idlers counts at standstill:
+    loading points, skirt plates and cleaners do not act for certain.
 
     **Range** standstill; not the blow of a backstop that engages with play.
     **Error** exact but for the coefficient.
     **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
     """
     worst = scene.model_copy(update={"load": "uphill"}) if scene.load == "full" else scene
-    lines = [belt_line(spec, one) for one in (scene, worst)]
-    force = max(-_rest(spec, line) for line in lines)
+    force = max(-_rest(spec, one) for one in (scene, worst))
     return _exactly({"backstop_torque": float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))})
 
 
-def _rest(spec: Conveyor, line: BeltLine) -> float:
+def _rest(spec: Conveyor, scene: Hold) -> float:
     """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
-    lowest = spec.resistance.stop_factor
-    friction = line.back.friction[-1] + line.carry.friction[-1]
-    return lowest * (friction + line.tail_force) - line.back.climb[-1] - line.carry.climb[-1]
+    line = belt_line(spec, scene)
+    friction = line.back.friction[-1] + line.carry.friction[-1] - _special(spec, scene)
+    return filled(spec.resistance.rest_factor) * friction - line.back.climb[-1] - line.carry.climb[-1]
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:

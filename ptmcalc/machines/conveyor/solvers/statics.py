@@ -134,7 +134,7 @@ def _of_running(
             mean,
             mounting,
             line.stiffness,
-            spec.takeup.permanent_elongation,
+            spec.takeup.permanent_elongation or 0.0,
             2,
         ),
     }
