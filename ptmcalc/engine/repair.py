@@ -46,7 +46,7 @@ class Repairs:
         spec = self.loaded.spec
         assert spec is not None
         check = ruling.check
-        path = ruling.blame if check.repairs_blame else check.repair(spec, scene)
+        path = ruling.blame if check.repairs_blame or ruling.found else check.repair(spec, scene)
         if not path or not self.purse.most or states_a_limit(spec, path):
             return None, ""
         key = (check.code, check.element, path)

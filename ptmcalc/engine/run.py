@@ -341,8 +341,12 @@ def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str
         more = _forced_in(settled, rung) - (_forced_in(settled, known.rung) if known else 0)
         if known is None or more > 0 or (more == 0 and estimate.bar <= known.estimate.bar):
             found = result.loads[name]
-            kept = narrower if more > 0 and narrower is not None else estimate
+            one_sided = known is not None and not known.estimate.bounded
+            kept = narrower if (more > 0 or one_sided) and narrower is not None else estimate
             settled.loads[name] = Best(Found(kept, found.at, found.note), rung, result)
+        elif not estimate.bounded:  # it may still know one side
+            inside = narrowed(known.estimate, Interval(estimate.low, estimate.high))
+            settled.loads[name] = replace(known, found=replace(known.found, estimate=inside or known.estimate))
     return lost
 
 

@@ -13,6 +13,7 @@ from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.loads import LOADS, parts
+from ptmcalc.machines.conveyor.relations import RELATIONS
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.start_loads import START_LOADS, start_parts
@@ -138,6 +139,7 @@ KIND = MachineKind(
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
     assumed=assumptions,
+    relations=RELATIONS,
     parts=lambda spec: chain(parts(spec), static_parts(spec), start_parts(spec)),
     inspect=inspect,
     seconding=witnesses_in(__package__),

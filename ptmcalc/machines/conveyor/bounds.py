@@ -26,6 +26,8 @@ FloatArray = NDArray[np.float64]
 
 _X = np.linspace(0.0, 1.0, 129)
 _SAME = 1e-9
+OF_GRIP = frozenset(GRIP).union(SLIPS)
+"""Loads of a pulley that say how much of its grip is in use, and how it slips."""
 _STRANDS = (RETURN, CARRY)
 
 

@@ -54,3 +54,14 @@ def _drive_of(spec: Conveyor, brake: Brake) -> str | None:
 def braked_shafts(spec: Conveyor, scene: ConveyorScene) -> set[str | None]:
     """Drives with a brake on the motor shaft that acts in a scene: the belt drives their gears."""
     return {_drive_of(spec, brake) for brake in brakes_of(spec, scene).values() if brake.shaft == "motor"}
+
+
+def brakes_on_motors(spec: Conveyor, scene: ConveyorScene, name: str) -> list[Braking]:
+    """Brakes on the motor shaft of a drive that act in a scene, at the pulley surface without losses of the gear."""
+    drive = spec.all_drives[name]
+    at_surface = drive.gear.ratio * 2 / drive.drum.diameter
+    return [
+        Braking(brake.torque * at_surface, brake.delay, brake.rise_time)
+        for brake in brakes_of(spec, scene).values()
+        if brake.shaft == "motor" and _drive_of(spec, brake) == name
+    ]

@@ -9,13 +9,14 @@ import math
 from collections.abc import Mapping
 
 from ptmcalc.base.estimate import NOTHING, Estimate, Interval
+from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
 from ptmcalc.laws import sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, short_stops
 from ptmcalc.machines.conveyor.bounds import Change
-from ptmcalc.machines.conveyor.braking import deceleration
+from ptmcalc.machines.conveyor.braking import GearChange, changing_sides, deceleration
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
 from ptmcalc.machines.conveyor.model import (
@@ -37,7 +38,17 @@ from ptmcalc.machines.conveyor.model import (
     thrown_back,
 )
 from ptmcalc.machines.conveyor.moving import moving, rough_utilisation
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start, Stopping
+from ptmcalc.machines.conveyor.spec import (
+    IN_MOTION,
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    EmergencyStop,
+    Jam,
+    Start,
+    Stop,
+    Stopping,
+)
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -618,6 +629,58 @@ def travel_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     return bounds.spread(case, loads, change, at_grip)
 
 
+GEAR_THRESHOLD = 0.001
+"""Change of the stopping time from which on the side of the gear losses is reported; an engineering choice."""
+_GEAR_WAVES, _GEAR_MARGIN = 2.0, 1.2
+"""A force that appears at once raises a wave of at most twice its size; the belt at the head changes its speed earlier
+or later than the rigid body by less than a fifth of the change."""
+
+
+def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Relative change of the stopping time when the losses of each gear are on the side that is driven.
+
+        |t_changing - t_fixed|/t_fixed   of the rigid conveyor
+
+    **Range** any stop; 0 where the belt does not stop.
+    **Error** that of the integration, below 1e-4.
+    **Source** power through a gear: losses are on the driven side (`braking.changing_sides`).
+    """
+    meaning = "change of the stopping time by the side of the gear losses"
+    return Criterion("dt/t", _gear_change(spec, scene).relative, GEAR_THRESHOLD, meaning, "gear losses")
+
+
+@kept_for(64)
+def _gear_change(spec: Conveyor, scene: ConveyorScene) -> GearChange:
+    return changing_sides(spec, scene, running(spec, scene))
+
+
+def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of the loads of a stop when the losses of its gears change their side during it.
+
+        dS = 2 dF,   dF the largest difference of the gear's force;   dt, ds: 1.2 times those of the rigid conveyor
+
+    A pulley that slips already keeps its grip.
+
+    **Range** any stop.
+    **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
+    **Source** `braking.changing_sides`.
+    """
+    change = _gear_change(spec, scene)
+    if not change.force:
+        return {}
+    line = running(spec, scene)
+    found = dict(_moved(spec, scene, line, loads, _GEAR_WAVES * change.force))
+    for name, load in loads.items():
+        kind = family(name)
+        used = loads.get(name.replace(kind, "slip_utilisation_max", 1))
+        if kind in bounds.OF_GRIP and used is not None and used.low >= 1:
+            found.pop(name, None)
+        if kind in OF_STOP and math.isfinite(load.value):
+            by = _GEAR_MARGIN * (change.time if kind == "stop_time" else change.way)
+            found[name] = Interval(min(by, 0.0), max(by, 0.0))
+    return found
+
+
 EFFECTS = (
     Effect("belt_wave", "belt elasticity: waves", IN_MOTION, wave_criterion, wave_bound),
     Effect(
@@ -693,4 +756,11 @@ EFFECTS = (
         calibrated=True,
     ),
     Effect("slip", "slip at the drive drums", IN_MOTION, slip_criterion, slip_bound),
+    Effect(
+        "gear_losses",
+        "side of the gear losses during a stop",
+        frozenset({Stop, EmergencyStop, Coast}),
+        gear_criterion,
+        gear_bound,
+    ),
 )

@@ -13,7 +13,7 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Event, Finding, Found, History, Result, family, of
+from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -35,7 +35,15 @@ from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen
 
 _CELLS, _CELLS_OF_JUMP = 60, 240
-_SHORTER, _LONGER = 6, 4
+_SHORTER = 6
+_MORE = 1.25
+"""Factor by which a window that was too short grows at least."""
+_CONTOURS_AT_REST = 3.0
+"""Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
+_NO_CHANGE = 1e-6
+"""Deceleration of the belt in a contour time, relative to its rated speed, below which it does not slow down."""
+_MOST_SECONDS = 60.0
+"""Predicted seconds of one march: what a scene may cost by default."""
 _WORTH = 0.015
 """Belt speed over that of its slowest wave from which on a plain start is worth simulating in cells."""
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
@@ -71,6 +79,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         findings=tuple(findings),
         events=tuple(_events(drawn, ready)),
         histories=lambda: _histories(case, drawn, ready),
+        failures=tuple(_failures(case, drawn, ready)),
     )
 
 
@@ -157,9 +166,14 @@ def _marched(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> 
 
 
 def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tuple[Drawn, Set, int]:
-    """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips."""
+    """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips, or until
+    it is known that it never does.
+
+    Raises:
+        NumericsError: NUM103, the stop takes more work than a scene may cost.
+    """
     work = 0
-    for _ in range(_LONGER):
+    while True:
         ready = set_up(case, carried, cells)
         still = _still(case)
         parts = ready.course, ready.head, ready.tail, ready.tension
@@ -168,8 +182,49 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tup
         rests = case.brings_to_rest and math.isfinite(case.rigid_time)
         if not (whole and rests) or any(seen.belt <= 0 for seen in drawn.head):
             return drawn, ready, work
-        case = replace(case, window=2 * case.window)
-    raise NumericsError("NUM101", f"the belt still runs after {case.window / 2:.3g} s")
+        left = time_to_rest(case, drawn)
+        if math.isinf(left):
+            return drawn, ready, work
+        longer = max(_MORE * case.window, case.window + left + _CONTOURS_AT_REST * case.line.contour_time)
+        seconds = _seconds(longer, case, carried, cells)
+        if seconds > _MOST_SECONDS:
+            reason = f"the belt still runs after {case.window:.3g} s and takes about {left:.3g} s more to stop"
+            raise NumericsError("NUM103", f"{reason}: more work than a scene may cost", seconds)
+        case = replace(case, window=longer)
+
+
+def time_to_rest(case: Moving, drawn: Drawn) -> float:
+    """Time that a belt which still runs at the end of a march takes to come to rest, by its mean deceleration over the
+    last contour time [s]; infinite where it does not decelerate.
+
+        t = v_2 T/(v_1 - v_2),   v_1 and v_2 the mean speeds at the head in the last but one and the last contour time
+
+    **Range** a stop whose brakes act fully: what is left over is a constant force.
+    **Error** that of the means: waves that go round have the period T.
+    **Source** Newton's law.
+    """
+    belt = np.array([seen.belt for seen in drawn.head])
+    many = max(round(case.line.contour_time / float(drawn.times[1])), 1)
+    if len(belt) < 2 * many:
+        return case.window
+    before, last = float(belt[-2 * many : -many].mean()), float(belt[-many:].mean())
+    slows = before - last
+    return last * case.line.contour_time / slows if slows > _NO_CHANGE * case.speed else math.inf
+
+
+def _failures(case: Moving, drawn: Drawn, ready: Set) -> Iterator[Failure]:
+    """A stop that never comes to an end."""
+    if not case.brings_to_rest or any(seen.belt <= 0 for seen in drawn.head) or math.isinf(case.rigid_time):
+        return
+    belt, time = drawn.head[-1].belt, float(drawn.times[-1])
+    slipping = [drum.name for drum, sense in zip(ready.head.drums, drawn.head[-1].slips, strict=True) if sense]
+    where = f"slips on the braked pulley `{slipping[0]}`" if slipping else "is not held"
+    reason = f"the belt {where} and does not stop: {belt:.3g} m/s after {time:.3g} s, and it does not slow down"
+    for name in slipping:
+        element = name if len(case.spec.all_drives) > 1 else ""
+        yield Failure("CNV101", reason, ("takeup", "tension"), "more take-up tension", element)
+    for code in ("CNV106", "CNV107"):
+        yield Failure(code, reason, ("takeup", "tension"), "more take-up tension, or a brake on a second pulley")
 
 
 def _still(case: Moving) -> Callable[[float, Seen], bool]:
@@ -267,14 +322,17 @@ def _events(drawn: Drawn, ready: Set) -> Iterator[Event]:
 def cost(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from steps and cells of the three grids; a finer setting adds one to those before it."""
     case = moving(spec, scene)
-    gives = "sag" in carried or ("belt_damping" in carried and spec.belt.damping is not None)
+    grids = _grids(scene, level)[-1 if level else 0 :]
+    return 1e-3 + sum(_seconds(case.window, case, carried, cells) for cells in grids)
+
+
+def _seconds(window: float, case: Moving, carried: frozenset[str], cells: int) -> float:
+    """Seconds predicted of a march on one grid."""
+    gives = "sag" in carried or ("belt_damping" in carried and case.spec.belt.damping is not None)
     per_step, per_cell = _SECONDS["giving" if gives else "straight"]
-    seconds = 1e-3
-    for cells in _grids(scene, level)[-1 if level else 0 :]:
-        rubber = rubber_of(case, cells) if "belt_damping" in carried else None
-        steps = case.window / case.line.contour_time * cells * math.sqrt(1 + (rubber.stiffer if rubber else 0.0))
-        seconds += steps * (per_step + cells * per_cell)
-    return seconds
+    rubber = rubber_of(case, cells) if "belt_damping" in carried else None
+    steps = window / case.line.contour_time * cells * math.sqrt(1 + (rubber.stiffer if rubber else 0.0))
+    return steps * (per_step + cells * per_cell)
 
 
 def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:

@@ -1,0 +1,22 @@
+"""Relations between the loads of a conveyor that hold for every belt at every moment."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.contract.relation import Relation, computed, ordered
+from ptmcalc.machines.conveyor.model import breaking_force
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Run
+
+_ANY = IN_MOTION | {Run}
+
+
+def _safety(spec: Conveyor, scene: ConveyorScene, loads: Mapping[str, float]) -> float:
+    strength, tension = breaking_force(spec), loads["tension_max"]
+    return strength / tension if strength is not None and tension > 0 else math.inf
+
+
+RELATIONS: tuple[Relation, ...] = (
+    ordered("tension_max", "tension_run_on_max", _ANY, "the largest tension anywhere is at least that at the pulley"),
+    ordered("tension_run_off_min", "tension_min", _ANY, "the smallest tension anywhere is at most that at the pulley"),
+    computed("belt_safety_min", ("tension_max",), _safety, _ANY, "belt safety is breaking force over largest tension"),
+)
