@@ -18,11 +18,13 @@ and Schwarz,
 
     S_static - 2 phi_below - n sqrt(G) <= S <= S_static + 2 phi_above + n sqrt(G)
 
-G that of a drum at imposed speed; phi_below is the friction behind the section, that of a fixed loop weighted with the
-share of compliance behind its place, phi_above (none with a gravity take-up) the friction ahead of it with the share
-ahead. The head comes to rest within twice the time the rigid body still needs and half a round of a wave.
+G that of a drum at imposed speed, and M/4 more of a take-up weight M on two falls: it enters the norm with M y'^2/4, y
+the speed that the belt loses to it, and does not move with the rigid body, so that neither J, nor e, nor F phi_n(0)
+change; its own period enters w_1 (Dunkerley). phi_below is the friction behind the section, that of a fixed loop
+weighted with the share of compliance behind its place, phi_above (none with a gravity take-up) the friction ahead of it
+with the share ahead. The head comes to rest within twice the time the rigid body still needs and half a round of a wave.
 
-**Range** one slope, one drive, all brakes at the head, no take-up weight, friction that does not go with the speed, a
+**Range** one slope, one drive, all brakes at the head, friction that does not go with the speed, a
 softening by sag below 5 %.
 **Error** derived, but for the last moments of the head, which are calibrated: finite elements of 24 seeded machines
 came to a sixth of them, of 200 others in no case to their end.
@@ -76,6 +78,11 @@ class ShortStop:
     """J': the same with ramps as far as the modes feel them [m/s^2]"""
 
     @property
+    def weight(self) -> float:
+        """Take-up weight as mass of the speed that the belt loses to it, M/4 [kg]."""
+        return _weight(self.spec)
+
+    @property
     def reach(self) -> float:
         """n: bound of the accelerations [N/kg^(1/2)]."""
         masses, felt = self.masses, self.felt if self._settled else self.jumps
@@ -99,7 +106,7 @@ class ShortStop:
     def strays(self, which: int, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Most by which a tension may be below and above the static one [N]."""
         held = replace(self.masses, imposed_speed=True)
-        swing = self.reach * np.sqrt(loop_bounds.tension_green(held, which, x))
+        swing = self.reach * np.sqrt(loop_bounds.tension_green(held, which, x) + self.weight)
         below, above = self._rubbed(which, x)
         return swing + 2 * below, swing + 2 * above
 
@@ -137,7 +144,8 @@ class ShortStop:
         end = np.array([1.0 if which == CARRY else 0.0])
         if which == RETURN and not self.line.fixed_length:
             static = float(self.line.static(which, end)[0])
-            return static, static
+            stray = self.reach * math.sqrt(self.weight) if strays else 0.0
+            return static - stray, static + stray
         return self._tensions(which, end, strays=strays)
 
     # -- loads ---------------------------------------------------------------------------------------------------
@@ -190,7 +198,7 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     """A stop for which the bounds hold; None out of their range."""
     acting = brakes_of(spec, scene).values()
     plain = isinstance(scene, Stopping) and len(spec.all_drives) == 1 and all(one.at == "head" for one in acting)
-    if not plain or spec.takeup.mass is not None or spec.resistance.speed_share > 0:
+    if not plain or spec.resistance.speed_share > 0:
         return None
     line = running(spec, scene)
     if not (line.carry.even and line.back.even) or math.isinf(rigid_stop(spec, scene, line)[0]):
@@ -198,7 +206,9 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     masses = loop_masses(line, imposed=False)
     brakes = [braking(spec, one) for one in acting]
     whole, resistance = masses.total_mass, line.static_resistance
-    slowest = loop_bounds.lowest_frequency_bound(masses) / math.sqrt(1 + _SOFTEST)
+    whole_loop = masses.return_compliance + masses.carry_compliance
+    slowest = 1 / math.sqrt(loop_bounds.lowest_frequency_bound(masses) ** -2 + _weight(spec) * whole_loop)
+    slowest /= math.sqrt(1 + _SOFTEST)
     shares = [_answered(slowest * one.rise) for one in brakes]
     full = sum(one.force for one in brakes)
     felt = sum(one.force * share for one, share in zip(brakes, shares, strict=True))
@@ -207,6 +217,12 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     jumps, felt = ((abs(resistance) + force) / whole for force in (full, felt))
     found = ShortStop(spec, scene, line, masses, (least, most), jumps, felt)
     return found if math.isfinite(found.reach) and found.softening < _SOFTEST else None
+
+
+def _weight(spec: Conveyor) -> float:
+    """M/4 of a take-up weight on two falls [kg]; 0 where it is left out."""
+    off = spec.effects.get("takeup_mass") == "off"
+    return 0.0 if off or spec.takeup.mass is None else spec.takeup.mass / 4
 
 
 def _answered(turned: float) -> float:

@@ -2,13 +2,20 @@
 
 import math
 
+import numpy as np
+
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor import short_stops
+from ptmcalc.laws import loop_bounds
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import bounds, short_stops
+from ptmcalc.machines.conveyor.braking import deceleration, rigid_stop
+from ptmcalc.machines.conveyor.driving import running
 from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE
+from ptmcalc.machines.conveyor.model import loop_masses
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, rounds
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
 
@@ -23,6 +30,8 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Source** Newton's law.
     """
     stop = short_stops.short_stop(spec, scene)
+    if stop is None and spec.effects.get("belt_wave") == "off" and not isinstance(scene, Jam):
+        return Result({name: Found(Estimate.exact(value)) for name, value in rigid_loads(spec, scene).items()}, work=1)
     if stop is None:
         raise NumericsError(
             "NUM103",
@@ -33,8 +42,31 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     return Result({name: Found(Estimate.exact(value)) for name, value in short_stops.loads(stop).items()}, work=1)
 
 
+def rigid_loads(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
+    """Time and distance of the rigid conveyor to standstill, and its tensions at the largest deceleration.
+
+        S(s) = S_static(s) - a r(s)
+
+    **Range** any stop of a file that leaves the waves out.
+    **Error** exact for that model on one slope; on several slopes the mass is taken as uniform along each strand.
+    **Source** Newton's law.
+    """
+    line = running(spec, scene)
+    time, way = rigid_stop(spec, scene, line)
+    masses, most = loop_masses(line, imposed=False), deceleration(spec, scene, line)
+    places = np.linspace(0.0, 1.0, 65)
+    lows, highs = [], []
+    for which in (RETURN, CARRY):
+        static = line.static(which, places)
+        slowed = static - most * loop_bounds.quasi_static(masses, which, places)
+        lows.append(float(np.minimum(static, slowed).min()))
+        highs.append(float(np.maximum(static, slowed).max()))
+    found = bounds.derived_loads(line, max(highs), tuple(lows)) | {"tension_max": max(highs), "tension_min": min(lows)}
+    return found | {"stop_time": time, "coast_distance" if isinstance(scene, Coast) else "stop_distance": way}
+
+
 def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Whether the belt is so short that its waves are too many to simulate.
+    """Whether the belt is so short that its waves are too many to simulate, or the file leaves them out.
 
         n = rounds of a wave in the time of the scene, as 1000/n
 
@@ -42,6 +74,8 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Error** exact.
     **Source** work of `solvers.network`.
     """
+    if spec.effects.get("belt_wave") == "off" and not isinstance(scene, Jam):
+        return Criterion("off", 0.0, 1.0, "the file leaves the waves of the belt out", "the file")
     count = rounds(spec, scene)
     share = MOST_ROUNDS / count if count >= MOST_ROUNDS else 2.0
     meaning = "rounds that can be simulated over those in the time of the scene: above 1 the belt is simulated"
