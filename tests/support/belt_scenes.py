@@ -141,7 +141,7 @@ class Rig:
             "takeup": takeup,
             "tail_drum": {"inertia": f"{self.tail_inertia!r} kg*m^2", "diameter": f"{self.tail_diameter!r} m"},
             "scenes": list(scenes),
-            "effects": {"moving_belt": "off"},
+            "effects": {"moving_belt": "off"} | ({} if self.rigid or self.weight else {"takeup_mass": "off"}),
             "gravity": f"{self.gravity!r} m/s^2",
         } | more
 

@@ -76,6 +76,8 @@ def random_scene(seed: int, kind: str = "") -> dict[str, Any]:
         data["takeup"] = {"type": "gravity", "tension": f"{tension:.2f} kN"}
         if rng.random() < 0.5:
             data["takeup"]["mass"] = f"{2 * tension / 9.81:.3f} t"
+        else:
+            data["effects"] = {"takeup_mass": "off"}
     else:
         data["takeup"] = {"type": "rigid", "tension": f"{2 * tension:.2f} kN"}
     data["brakes"] = {

@@ -78,6 +78,7 @@ def random_conveyor(rng: np.random.Generator, **fixed: Any) -> dict[str, Any]:
             },
         },
         "takeup": {"type": str(takeup), "tension": text(tension, "N")},
+        "effects": {"takeup_mass": "off"} if takeup == "gravity" else {},
         "tail_drum": {"inertia": text(tail * 0.16, "kg*m^2"), "diameter": "0.8 m"},
         "scenes": [
             {

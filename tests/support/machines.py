@@ -26,6 +26,7 @@ BW_02: dict[str, Any] = {
         "drum": {"diameter": "1 m", "wrap": "210 deg", "inertia": "0 kg*m^2"},
     },
     "takeup": {"type": "gravity", "tension": "240 kN"},
+    "effects": {"takeup_mass": "off"},
     "tail_drum": {"inertia": "0 kg*m^2"},
     "scenes": [{"type": "start"}],
 }

@@ -129,7 +129,7 @@ def _moved(case: Moving, fine: Values, change: float) -> dict[str, Interval]:
     """What the largest error of any tension [N] makes of the loads that are no tensions."""
     loads = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     slowing = deceleration(case.spec, case.scene, case.line)
-    heavy = case.spec.takeup.mass is not None
+    heavy = case.spec.takeup_weight > 0
     return bounds.moved(case.line, loads, bounds.Change.any_time(change), slowing, grips(case.spec), off=heavy)
 
 

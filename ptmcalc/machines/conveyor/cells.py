@@ -82,7 +82,7 @@ def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
     tension = _tensions(case, course)
     takeup = None
     if not line.fixed_length:
-        mass = spec.takeup.mass or 0.0 if "takeup_mass" in carried else 0.0
+        mass = spec.takeup_weight if "takeup_mass" in carried else 0.0
         takeup = TakeUp(line.takeup_tension, mass)
     pulled = {"head": 0.0, "tail": 0.0}
     if isinstance(case.scene, Start):

@@ -93,7 +93,7 @@ def _moved(
 ) -> Offsets:
     """Offsets of the loads of any scene when tensions may be off by a change, every one by the same [N] if it is a
     number. The tension at the run-off is constant only where a take-up weight has no inertia."""
-    off = off or (spec.takeup.mass is not None and spec.effects.get("takeup_mass") != "off")
+    off = off or spec.takeup_weight > 0
     slowing = deceleration(spec, scene, line) if isinstance(scene, Stopping) else 0.0
     asked = 0
     if isinstance(scene, Start) and scene.profile.imposes_speed:
@@ -431,7 +431,7 @@ def takeup_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Source** take-up weight on two falls; thresholds are an engineering choice.
     """
     value = 0.0
-    if spec.takeup.mass is not None:
+    if spec.takeup_weight:
         line = running(spec, scene)
         value = inertia_of_weight(spec, line, _force_on_drum(spec, scene, line))
     return Criterion("kappa", value, 1.0, "inertia of the take-up weight", "take-up weight on two falls")
@@ -459,7 +459,7 @@ def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     others, 1.7 in place of 3.
     **Source** take-up weight on two falls; coverage sample.
     """
-    if spec.takeup.mass is None:
+    if not spec.takeup_weight:
         return {}
     if takeup_criterion(spec, scene).exceeded or _slides_first(spec, scene):
         return _anything(spec, scene, loads)

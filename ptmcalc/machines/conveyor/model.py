@@ -260,8 +260,7 @@ def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
     steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
     damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
     slides = scene.belt == "frozen" and not (spec.effects.get("coulomb_idlers") != "off" and thrown_back(spec, scene))
-    heavy = spec.takeup.mass is not None and spec.effects.get("takeup_mass") != "off"
-    light = not heavy or takeup_inertia(spec, scene) < 1
+    light = not spec.takeup_weight or takeup_inertia(spec, scene) < 1
     return is_plain(spec, scene) and slides and light and steady and not damped
 
 

@@ -22,7 +22,8 @@ G that of a drum at imposed speed, and M/4 more of a take-up weight M on two fal
 the speed that the belt loses to it, and does not move with the rigid body, so that neither J, nor e, nor F phi_n(0)
 change; its own period enters w_1 (Dunkerley). phi_below is the friction behind the section, that of a fixed loop
 weighted with the share of compliance behind its place, phi_above (none with a gravity take-up) the friction ahead of it
-with the share ahead. The head comes to rest within twice the time the rigid body still needs and half a round of a wave.
+with the share ahead. The head comes to rest within twice the time the rigid body still needs and half a round of a
+wave.
 
 **Range** one slope, one drive, all brakes at the head, friction that does not go with the speed, a
 softening by sag below 5 %.
@@ -80,7 +81,7 @@ class ShortStop:
     @property
     def weight(self) -> float:
         """Take-up weight as mass of the speed that the belt loses to it, M/4 [kg]."""
-        return _weight(self.spec)
+        return self.spec.takeup_weight / 4
 
     @property
     def reach(self) -> float:
@@ -207,7 +208,7 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     brakes = [braking(spec, one) for one in acting]
     whole, resistance = masses.total_mass, line.static_resistance
     whole_loop = masses.return_compliance + masses.carry_compliance
-    slowest = 1 / math.sqrt(loop_bounds.lowest_frequency_bound(masses) ** -2 + _weight(spec) * whole_loop)
+    slowest = 1 / math.sqrt(loop_bounds.lowest_frequency_bound(masses) ** -2 + spec.takeup_weight / 4 * whole_loop)
     slowest /= math.sqrt(1 + _SOFTEST)
     shares = [_answered(slowest * one.rise) for one in brakes]
     full = sum(one.force for one in brakes)
@@ -217,12 +218,6 @@ def short_stop(spec: Conveyor, scene: ConveyorScene) -> ShortStop | None:
     jumps, felt = ((abs(resistance) + force) / whole for force in (full, felt))
     found = ShortStop(spec, scene, line, masses, (least, most), jumps, felt)
     return found if math.isfinite(found.reach) and found.softening < _SOFTEST else None
-
-
-def _weight(spec: Conveyor) -> float:
-    """M/4 of a take-up weight on two falls [kg]; 0 where it is left out."""
-    off = spec.effects.get("takeup_mass") == "off"
-    return 0.0 if off or spec.takeup.mass is None else spec.takeup.mass / 4
 
 
 def _answered(turned: float) -> float:

@@ -370,6 +370,11 @@ class Conveyor(MachineSpec):
     def settings(self) -> ConveyorChecks:
         return self.checks
 
+    @property
+    def takeup_weight(self) -> float:
+        """Mass of the take-up weight [kg]; 0 of a rigid take-up, and where the file leaves its inertia out."""
+        return 0.0 if self.effects.get("takeup_mass") == "off" else self.takeup.mass or 0.0
+
     def stop_distance_key(self, scene: ConveyorScene) -> KeyPath:
         """The key that limits the stopping distance of a scene: `stop_distance` holds for an emergency stop too where
         that has no limit of its own."""

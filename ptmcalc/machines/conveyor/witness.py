@@ -97,7 +97,7 @@ def _moved(case: Moving, carried: frozenset[str], elements: int) -> Motion:
         pulled["tail"] = float(tension[first - 1] - tension[first])
     takeup = None
     if not line.fixed_length:
-        mass = spec.takeup.mass or 0.0 if "takeup_mass" in carried else 0.0
+        mass = spec.takeup_weight if "takeup_mass" in carried else 0.0
         takeup = (line.takeup_tension, mass)
     plan = Plan(
         lengths,

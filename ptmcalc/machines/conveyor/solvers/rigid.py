@@ -37,7 +37,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads["start_time"] = loads["start_time_rigid"]
     if len(spec.all_drives) == 1:
         loads |= _of_the_drive(next(iter(spec.all_drives)), loads)
-    for number, frequency in enumerate(natural_frequencies(case.masses, spec.takeup.mass or 0.0), 1):
+    for number, frequency in enumerate(natural_frequencies(case.masses, spec.takeup_weight), 1):
         loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
