@@ -30,7 +30,8 @@ class Profile(Fragment):
 
     shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
     """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
-    `curve` as the motors' torque over their speed"""
+    `curve` as the motors' torque over their speed; when left out, the `curve` of the motors if the file gives one, else
+    a step"""
     time: PositiveTime | None = None
     """duration of the rise"""
     points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
@@ -61,6 +62,10 @@ class Profile(Fragment):
             yield given.missing("time", f"a `{shape}` needs its `time`")
         if shape not in ("table", None) and "points" in given:
             yield Conflict(("points",), f"a `{shape}` has no `points`", "write `shape: table`")
+
+    def followed(self, curves: bool) -> "Profile":
+        """The profile of a machine whose motors have curves or not: with curves and no shape given, the curves."""
+        return self.model_copy(update={"shape": "curve"}) if curves and "shape" not in self.model_fields_set else self
 
     @property
     def imposes_speed(self) -> bool:

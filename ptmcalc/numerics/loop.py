@@ -92,10 +92,12 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]."""
+    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]. A drum that
+    slips is driven no faster than `hold` [m/s], the speed of its motor."""
 
     force: Callable[[FloatArray], FloatArray] | None = None
     speed: Callable[[FloatArray], FloatArray] | None = None
+    hold: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)

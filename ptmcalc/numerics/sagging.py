@@ -199,6 +199,7 @@ class _Drum:
         self.speed = 0.0
         self.slipping = 0
         self.slipped = False
+        self.hold, self.was_held = drive.hold, False
 
     def advance(self, force: float, half_speed: float, pull: FloatArray, share: float) -> tuple[float, float]:
         """Move drum and end nodes on by a share of a step; dynamic tensions at run-on and run-off."""
@@ -218,6 +219,8 @@ class _Drum:
             self.speed = half_speed
         elif self.slipping:
             self.speed += step * (force - on + off) / self.mass
+            if self.speed > self.hold:
+                self.speed, self.was_held = self.hold, True
         else:
             self.speed += step * together
         end = float(belt.speed[-1]) + step * rate
@@ -417,7 +420,7 @@ def _balance(loop: Loop, step: float, belt: _Belt, drum: _Drum, forces: FloatArr
     through = (history.on - history.off) * history.belt_speed
     scale = energy.work(np.abs(through), step) + loop.least_energy
     belt_part = energy.residual(energy.work(through, step), belt.dissipated, stored, scale)
-    if drum.imposed:
+    if drum.imposed or drum.was_held:
         return belt_part
     put_in = energy.work(forces * history.drum_speed, step)
     heat = energy.work((history.on - history.off) * (history.drum_speed - history.belt_speed), step)

@@ -232,6 +232,7 @@ class _Drum:
         self.squeeze = math.exp(-loop.grip.exponent) if loop.grip else 0.0
         self.slipping = 0  # +1: the drum runs ahead of the belt, -1: the belt ahead of the drum
         self.slipped = False
+        self.hold, self.was_held = drive.hold, False
         self.grip = loop.grip
         self.belt = np.zeros(len(times))
         self.drum = self.belt if self.grip is None else np.zeros(len(times))
@@ -313,6 +314,7 @@ class _Drum:
                 drum = self.imposed[k]
             else:
                 drum = self.at[1] + self.step_size * (pushed - self._pull(n_on, p_off, belt)) / (2 * self.mass)
+                drum = self._held(drum)
             if self.slipping * (drum - belt) >= 0:
                 return belt, drum
         else:
@@ -372,7 +374,14 @@ class _Drum:
             return slipping, cell.speed(x)
         n0, p0, f0 = cell.waves(at)
         push = f0 + f1 - self._pull(n0, p0, belt) - self._pull(n1, p1, slipping)
-        return slipping, drum + (x - at) * self.step_size * push / (2 * self.mass)
+        return slipping, self._held(drum + (x - at) * self.step_size * push / (2 * self.mass))
+
+    def _held(self, drum: float) -> float:
+        """Speed of a slipping drum whose motor turns it no faster than its own speed."""
+        if drum <= self.hold:
+            return drum
+        self.was_held = True
+        return self.hold
 
     def _excess_at(self, cell: "_Cell", stuck: Callable[[float], float], sense: int, x: float) -> float:
         n_on, p_off, _ = cell.waves(x)
@@ -715,7 +724,7 @@ def _balance(
     through = energy.work((on - off) * belt, step)
     scale = energy.work(np.abs((on - off) * belt), step) + loop.least_energy
     belt_part = energy.residual(through, 0.0, stored, scale)
-    if drum.forces is None:
+    if drum.forces is None or drum.was_held:
         return belt_part
     put_in = energy.work(drum.forces[: len(rim)] * rim, step)
     heat = energy.work((on - off) * (rim - belt), step)

@@ -178,9 +178,15 @@ def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pu
                 _braked(held, step, brakes if last else ()),
                 exponent if "slip" in carried and exponent is not None and exponent < _MOST_GRIP else None,
                 one_way=backstop,
+                hold=line.speed if _holds(case, name) else math.inf,
             )
         )
     return drums
+
+
+def _holds(case: Moving, name: str) -> bool:
+    """Whether a drive pulls with a mean torque: its motor turns no faster than its own speed."""
+    return isinstance(case.scene, Start) and case.imposed is None and name not in case.curves
 
 
 def _read(values: FloatArray, step: float) -> Callable[[float, float], tuple[float, float]]:

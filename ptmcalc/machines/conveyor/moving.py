@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -55,7 +55,14 @@ class Moving:
 
 
 def moving(spec: Conveyor, scene: ConveyorScene) -> Moving:
-    """A scene of this conveyor in motion."""
+    """A scene of this conveyor in motion, over its window."""
+    case = _usual(spec, scene)
+    factor: float = getattr(scene, "window_factor", 1.0)
+    return case if factor == 1 else replace(case, window=case.window * factor)
+
+
+def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
+    """The same over the usual window."""
     line = running(spec, scene)
     names = list(spec.all_drives)
     whole = line.static_resistance + line.tail_pull

@@ -33,7 +33,7 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class DriveDrum(Fragment):
@@ -196,7 +196,7 @@ class Aborted(Fragment):
     """how long they are off before they start again"""
 
 
-class Start(ConveyorScene):
+class Start(ConveyorScene, TransientScene):
     """A start from rest."""
 
     type: Literal["start"] = "start"
@@ -218,7 +218,7 @@ class Start(ConveyorScene):
             yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")
 
 
-class Stopping(ConveyorScene):
+class Stopping(ConveyorScene, TransientScene):
     """Base of the scenes in which a running belt comes to rest."""
 
 
@@ -244,7 +244,7 @@ class Coast(Stopping):
     """way of a real run-out from rated speed, from which the resistance coefficient is computed"""
 
 
-class Jam(ConveyorScene):
+class Jam(ConveyorScene, TransientScene):
     """A drum is blocked at full speed."""
 
     type: Literal["jam"] = "jam"
@@ -342,7 +342,7 @@ class Conveyor(MachineSpec):
 
     @property
     def all_scenes(self) -> Sequence[ConveyorScene]:
-        return self.scenes or self.DEFAULT_SCENES
+        return _followed(self, self.scenes or self.DEFAULT_SCENES)
 
     @property
     def all_drives(self) -> dict[str, PlacedDrive]:
@@ -387,6 +387,16 @@ class Conveyor(MachineSpec):
         """Longest stopping distance of a scene [m], where the file limits it."""
         limit: float | None = self.value_at(self.stop_distance_key(scene))
         return limit
+
+
+@kept_for(64)
+def _followed(spec: Conveyor, scenes: tuple[ConveyorScene, ...]) -> tuple[ConveyorScene, ...]:
+    """Scenes whose starts follow the curves of the motors, where every motor has one."""
+    curves = all(drive.motor.curve is not None for drive in spec.all_drives.values())
+    return tuple(
+        one.model_copy(update={"profile": one.profile.followed(curves)}) if isinstance(one, Start) else one
+        for one in scenes
+    )
 
 
 def _no_motor_there(given: Given) -> Iterator[Conflict]:

@@ -58,6 +58,8 @@ class Drum:
     exponent: float | None = None
     one_way: bool = False
     """held by a backstop: never turns back"""
+    hold: float = math.inf
+    """speed of its motor at the pulley surface [m/s]: a drum that slips is driven no faster"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -388,7 +390,9 @@ class Station:
             brakes = drum.brake(time - step if step else time), drum.brake(time)
             new = _velocity(before[j], drum.mass, -rate, brakes, (pulled, force - rate * before[j] - pull), step)
             new = 0.0 if new < 0 and drum.one_way else new
-            forces[j] = first, force + rate * (new - before[j])
+            held = new > drum.hold
+            new = min(new, drum.hold)
+            forces[j] = first, pull if held else force + rate * (new - before[j])
             speeds.append(new)
         return speeds, forces
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -27,6 +27,10 @@ FloatArray = NDArray[np.float64]
 _FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 50
 _MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0  # on errors estimated from two grids
 _SHIFT_STEPS = 2
+_LONGER = 4
+"""Doublings of the window in which a drum that slips may grip again."""
+_STICKS = 1e-6
+"""Difference of the speeds of drum and belt relative to the rated speed that is rounding."""
 _SECOND_ORDER, _SLOWEST = 0.25, 0.9  # ratio of the differences of three grids: at best, and hardly converging
 _TAIL_SHARE = 5.0
 _STEPS_PER_SCALE = 20
@@ -50,6 +54,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     if not case.moves:
         raise NumericsError("NUM102", "the drive does not move the belt: there is no motion to simulate")
     grid = _grid(case, carried, level)
+    case = replace(case, window=_window(case, carried, grid) * scene.window_factor)
     grids = [grid, loop.refined(grid)]
     if "sag" in carried:
         grids.append(loop.refined(grids[-1]))
@@ -59,6 +64,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads = _loads(case, fine, bars)
     (only,) = spec.all_drives
     loads |= {of(name, only): loads[name] for name in PER_DRIVE & loads.keys()}
+    belt, drum = float(fine.belt_speed[-1]), float(fine.drum_speed[-1])
+    slips = fine.slipped and abs(drum - belt) > _STICKS * case.line.speed
     if case.line.grip_exponent is not None:
         loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
@@ -75,7 +82,24 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         },
         findings=tuple(findings),
         histories=lambda: _histories(case, only, fine, "sag" in carried),
+        beyond={name: Interval(0.0, math.inf) for name in loads if slips and family(name) in SLIPS},
+        open_end=f"belt at {belt:.3g} of {case.line.speed:.3g} m/s, the pulley slips" if slips else "",
     )
+
+
+def _window(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> float:
+    """The usual window [s]; of a drum that slips at its end, until it has gripped, up to some windows."""
+    if case.imposed_speed or "slip" not in carried or case.line.grip_exponent is None:
+        return case.window
+    whole = replace(case, window=case.window)
+    for _ in range(_LONGER):
+        motion = _motion(whole, carried, grid)
+        apart = np.abs(motion.drum_speed - motion.belt_speed) > _STICKS * case.line.speed
+        if not apart[-1]:
+            last = np.flatnonzero(apart)
+            return max(case.window, float(motion.times[last[-1]]) + 2 * grid.step) if len(last) else case.window
+        whole = replace(whole, window=2 * whole.window)
+    return whole.window / 2
 
 
 _KEPT = Kept[loop.Motion](lambda motion: len(motion.times))
@@ -121,7 +145,9 @@ def _loop(case: StartCase, carried: frozenset[str]) -> loop.Loop:
 
 
 def _drive(case: StartCase) -> loop.Drive:
-    return loop.Drive(speed=case.drum_speed) if case.imposed_speed else loop.Drive(force=case.force)
+    return (
+        loop.Drive(speed=case.drum_speed) if case.imposed_speed else loop.Drive(force=case.force, hold=case.line.speed)
+    )
 
 
 def _time_scale(case: StartCase, carried: frozenset[str]) -> float:

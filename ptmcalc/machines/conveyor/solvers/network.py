@@ -36,6 +36,8 @@ from ptmcalc.numerics.belt.station import Seen
 
 _CELLS, _CELLS_OF_JUMP = 60, 240
 _SHORTER = 6
+_LONGEST = 8.0
+"""Windows of a start in which a drum that slips may grip again."""
 _MORE = 1.25
 """Factor by which a window that was too short grows at least."""
 _CONTOURS_AT_REST = 3.0
@@ -64,6 +66,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     except _GripLostError as lost:
         return _before(case, carried, level, lost)
     drawn, ready = runs[-1].drawn, runs[-1].ready
+    slipping = _slips_on(case, drawn)
     findings = list(_findings(case, drawn))
     if "sag" in carried and deep_sag.too_deep(case, drawn):
         window = deep_sag.trusted_window(case, drawn)
@@ -80,6 +83,8 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         events=tuple(_events(drawn, ready)),
         histories=lambda: _histories(case, drawn, ready),
         failures=tuple(_failures(case, drawn, ready)),
+        beyond={name: Interval(0.0, math.inf) for name in loads if slipping and family(name) in SLIPS},
+        open_end=f"belt at {drawn.head[-1].belt:.3g} of {case.line.speed:.3g} m/s, a pulley slips" if slipping else "",
     )
 
 
@@ -173,9 +178,13 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tup
         NumericsError: NUM103, the stop takes more work than a scene may cost.
     """
     work = 0
+    starts = isinstance(case.scene, Start) and case.imposed is None and "slip" in carried
+    usual = case.window
+    if starts and whole:
+        case = replace(case, window=_LONGEST * usual)  # ends when no drum slips any more
     while True:
         ready = set_up(case, carried, cells)
-        still = _still(case)
+        still = _until_it_grips(usual) if starts and whole else _still(case)
         parts = ready.course, ready.head, ready.tail, ready.tension
         drawn = march(*parts, case.speed, case.window, still, ready.give, ready.travel)
         work += drawn.updates
@@ -225,6 +234,16 @@ def _failures(case: Moving, drawn: Drawn, ready: Set) -> Iterator[Failure]:
         yield Failure("CNV101", reason, ("takeup", "tension"), "more take-up tension", element)
     for code in ("CNV106", "CNV107"):
         yield Failure(code, reason, ("takeup", "tension"), "more take-up tension, or a brake on a second pulley")
+
+
+def _until_it_grips(usual: float) -> Callable[[float, Seen], bool]:
+    """Ends the march of a start after its usual window [s], when no drum at the head slips."""
+    return lambda time, head: time >= usual and not any(head.slips)
+
+
+def _slips_on(case: Moving, drawn: Drawn) -> bool:
+    """Whether a start ends with a drum that slips."""
+    return isinstance(case.scene, Start) and any(drawn.head[-1].slips)
 
 
 def _still(case: Moving) -> Callable[[float, Seen], bool]:
