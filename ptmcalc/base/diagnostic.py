@@ -280,6 +280,11 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             " undecided.",
             "Please report it with the file: one of the error bars is wrong.",
         ),
+        "NUM113": CodeText(
+            "a safety device that acts",
+            "A limiter or a slip clutch does in the scene what it is made for.",
+            "Nothing: the loads are those with the device.",
+        ),
         "NUM112": CodeText(
             "a window that ends before the motion is steady",
             "The computation ends while the machine still moves otherwise than it will. Loads that can still grow have"

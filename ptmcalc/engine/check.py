@@ -176,7 +176,7 @@ _WARN = Severity.WARNING
 
 def _severity(finding: Finding) -> Severity:
     """A remark on a textbook's formula, or on a window whose loads have no bound anyway, doubts no number of ours."""
-    return Severity.NOTE if finding.code in (*OF_TEXTBOOKS, "NUM112") else Severity.WARNING
+    return Severity.NOTE if finding.code in (*OF_TEXTBOOKS, "NUM112", "NUM113") else Severity.WARNING
 
 
 def _said(settled: list[Settled]) -> Iterator[tuple[Finding, str]]:

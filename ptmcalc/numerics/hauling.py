@@ -17,7 +17,7 @@ and a decay in closed form; e and e_theta go on through its ends. What r can cha
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -194,6 +194,13 @@ class Hauled:
         return np.asarray(e), np.asarray(e + 2 * z * rate)
 
 
+def _halved(radius: Map, which: NDArray[np.bool_]) -> Map:
+    """The same map with a corner more in the middle of some of its pieces, over which the radius is linear."""
+    middles = (radius.angles[1:] + radius.angles[:-1])[which] / 2
+    angles = np.sort(np.concatenate([radius.angles, middles]))
+    return replace(radius, angles=angles, radii=np.interp(angles, radius.angles, radius.radii))
+
+
 def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
     """Motion of a load that rose steadily before the map begins.
 
@@ -210,8 +217,8 @@ def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
     **Source** module docstring.
 
     Raises:
-        NumericsError: for a map that takes in more rope than there is, a rope that loses more than three quarters of
-            its length from corner to corner or faster than the load swings, a million swings, damping from 1 on.
+        NumericsError: for a map that takes in more rope than there is, a rope that is shortened faster than the load
+            swings, a million swings, damping from 1 on.
     """
     if rope.damping_ratio >= 1:
         raise NumericsError("NUM102", "a load damped so much does not swing")
@@ -220,8 +227,10 @@ def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
     steps = np.diff(times)
     taken = steps * (speeds[:-1] + speeds[1:]) / 2 / (1 + rope.static_strain)
     lengths = rope.length - np.concatenate([[0.0], np.cumsum(taken)])
-    if np.any(lengths[1:] < _LEAST * lengths[:-1]) or lengths[-1] <= 0:
-        raise NumericsError("NUM101", "the drum takes in more rope than is free")
+    if lengths[-1] <= 0:
+        raise NumericsError("NUM102", "the drum takes in more rope than is free")
+    if (short := lengths[1:] < _LEAST * lengths[:-1]).any():
+        return haul(_halved(radius, short), drum_speed, rope)
     offsets = np.diff(speeds) / steps / rope.rate
     blank = np.zeros(len(steps))
     hauled = Hauled(rope, times, lengths, speeds, np.zeros(len(times)), offsets, blank.astype(complex), blank)

@@ -10,7 +10,7 @@ from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
 from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.moving import Moving, case_of
-from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
+from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]
@@ -91,6 +91,12 @@ def _stall_repair(spec: Hoist, scene: Lift) -> KeyPath:
     return ("motor", "mean_starting_torque") if spec.motor.mean_starting_torque is not None else ()
 
 
+def _where_to_lift(spec: Hoist, scene: Lift) -> Iterable[AnyCheck]:
+    """A load that the limiter is made to stop need not be lifted."""
+    stopped = spec.limiter is not None and spec.limiter.factor < 1 and scene.load == "full"
+    return () if stopped else (replace(STALL, each=None),)
+
+
 STALL: Check[Hoist, Lift] = Check(
     code="HST121",
     title="a motor that cannot lift the load",
@@ -101,6 +107,7 @@ STALL: Check[Hoist, Lift] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",),
     repair=_stall_repair,
+    each=_where_to_lift,
     what="The drive brings the rope force up to the weight, so that the load leaves the ground.",
     why="A motor that stalls with the rope tightened burns, and the load stands.",
     formula="t(F = Q) finite",
@@ -220,6 +227,37 @@ SLACK: Check[Hoist, Moving] = Check(
 )
 
 
+def _released_limit(spec: Hoist, scene: Release) -> Estimate:
+    """No force at all: below it the rope is slack.
+
+    **Range** any release.
+    **Error** none: a definition.
+    **Source** a rope never pushes.
+    """
+    return Estimate.exact(0.0)
+
+
+def _share_key(spec: Hoist, scene: Release) -> KeyPath:
+    return ("scenes", list(spec.all_scenes).index(scene), "share")
+
+
+SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
+    code="HST126",
+    title="rope force after a release of the load",
+    scenes=frozenset({Release}),
+    loads=("rope_force_min",),
+    sense=Sense.AT_LEAST,
+    limit=_released_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _share_key(spec, scene),
+    repair=no_repair,
+    what="The rope stays taut while the rest of the load oscillates after a part of it has come off.",
+    why="A rope that goes slack leaves its groove, and the rest of the load falls back into it.",
+    formula="min F > 0; F = (m - dm) g - dm g for a release at once",
+    source="EN 13001-2, factor phi_3: negative where the rope goes slack; motion of drive and load",
+)
+
+
 def _impact_limit(spec: Hoist, scene: Moving) -> Estimate:
     """Torque of the gear over that of the even motion, of the file or 3.
 
@@ -252,4 +290,4 @@ IMPACT: Check[Hoist, Moving] = Check(
     source="EN 13001-2, factor of drive forces; motion of the train with backlash",
 )
 
-CHECKS_OF_MOTION: tuple[AnyCheck, ...] = (LIFT_OFF, STALL, WAY, HARD, SLACK, IMPACT)
+CHECKS_OF_MOTION: tuple[AnyCheck, ...] = (LIFT_OFF, STALL, WAY, HARD, SLACK, SLACK_AFTER_RELEASE, IMPACT)

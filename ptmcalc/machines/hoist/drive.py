@@ -3,12 +3,14 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ptmcalc.components.duty_motor import DutyMotor
-from ptmcalc.laws import brake, duty, hoisting, inertia
+from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive_data import Gearbox
 from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist
+from ptmcalc.machines.hoist.spec import Hoist, Start
 
 MOTOR_SHAFT = "motor"
 
@@ -40,6 +42,32 @@ def starting_torque(motor: DutyMotor) -> float:
     return motor.count * motor.mean_torque
 
 
+_UP_TO = 0.9
+"""Part of the speed of even hoisting up to which the motor must exceed the load: beyond it the curve falls to the load."""
+_SPEEDS = 181
+"""Speeds at which a curve is evaluated: steps of half a percent of the speed."""
+
+
+def starting_reserve(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None) -> float:
+    """Starting torque relative to that of the hanging load, losses against it.
+
+        M_mean/M_load;   min M(n)/M_load where the curve of the motor is below the load at any speed on the way up
+
+    **Range** any hanging load; a mean proves nothing where the motor stalls on its curve.
+    **Error** the minimum over 181 speeds.
+    **Source** power balance of the gearbox.
+    """
+    up = torque_up(spec, mass, hook_height)
+    if up <= 0:
+        return math.inf
+    mean = starting_torque(motor) / up
+    if motor.curve is None:
+        return mean
+    speeds = np.linspace(0.0, _UP_TO * motor_speed(spec), _SPEEDS)
+    least = motor.count * float(motor.curve.torque(speeds).min()) / up
+    return least if least < 1 else mean
+
+
 def start_time(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None, up: bool) -> float:
     """Of a hanging load by the mean starting torque, everything rigid; infinite where it does not move [s]."""
     return hoisting.hoist_start_time(
@@ -53,6 +81,33 @@ def start_time(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | 
         model.reverse_efficiency(spec),
         up,
     )
+
+
+def profiled(spec: Hoist, motor: DutyMotor, scene: Start, mass: float, at_once: float) -> float:
+    """Duration of a start whose torque or speed follows a profile, everything rigid [s].
+
+        an imposed speed: that of the profile;   a torque: when the impulse of M_mean r(t) - M_load is that of the start
+
+    Args:
+        spec: the hoist.
+        motor: its motors.
+        scene: the start.
+        mass: on the hook [kg].
+        at_once: duration with the whole torque from the first moment [s].
+
+    **Range** a start upwards; one downwards takes no longer than its profile.
+    **Error** exact for a rigid drive.
+    **Source** Newton's law; `laws.start_profile`.
+    """
+    profile, rise = scene.profile, scene.profile.rise_time
+    if profile.imposes_speed or not math.isfinite(at_once) or rise <= 0:
+        return rise if profile.imposes_speed else at_once
+    if scene.direction == "down":
+        return max(at_once, rise)
+    mean, load = starting_torque(motor), torque_up(spec, mass, scene.hook_height)
+    held = float(start_profile.time_of_share(profile.rise, rise, load / mean))
+    momentum = (mean - load) * at_once
+    return held + float(start_profile.time_to_momentum(profile.rise, rise, mean, load, held, momentum))
 
 
 def field_speed(motor: DutyMotor) -> float | None:
@@ -90,8 +145,13 @@ class Held:
     """of the hook at its end [m/s]"""
 
 
-def held(spec: Hoist, mass: float, hook_height: float | None) -> Held | None:
-    """The brake with a mass on the hook; None without a brake."""
+def held(spec: Hoist, mass: float, hook_height: float | None, speed: float = 0.0) -> Held | None:
+    """The brake with a mass on the hook that is lowered at a speed [m/s]; None without a brake.
+
+        v_1 = v_0 + a_0 (t_d + t_r/2),   v^2 = v_1^2 + 2 a (h - s_1)
+
+    with a_0 without the brake and a with it: the load can only get faster.
+    """
     if spec.brake is None:
         return None
     gear, on_motor = gearbox_of(spec), spec.brake.shaft == MOTOR_SHAFT
@@ -105,8 +165,16 @@ def held(spec: Hoist, mass: float, hook_height: float | None) -> Held | None:
         return Held(torque, reserve, 0.0, 0.0)
     sinking = _sinking(spec, mass, load, spec.brake.torque if on_motor else 0.0, 0.0 if on_motor else spec.brake.torque)
     way = spec.height if hook_height is None else hook_height
-    hook = sinking / gear.ratio * model.layer_radius(spec, 1) / model.falls_of_a_rope(spec)
-    return Held(torque, reserve, way, hoisting.speed_after_drop(hook, way))
+    to_hook = model.layer_radius(spec, 1) / model.falls_of_a_rope(spec) / gear.ratio
+    if not speed:
+        return Held(torque, reserve, way, hoisting.speed_after_drop(sinking * to_hook, way))
+    late = spec.brake.delay + spec.brake.rise_time / 2
+    free = _sinking(spec, mass, load, 0.0, 0.0) * to_hook
+    first = speed * late + free * late**2 / 2
+    if first >= way:
+        return Held(torque, reserve, way, math.hypot(speed, hoisting.speed_after_drop(free, way)))
+    faster = speed + free * late
+    return Held(torque, reserve, way, math.hypot(faster, hoisting.speed_after_drop(sinking * to_hook, way - first)))
 
 
 def _sinking(spec: Hoist, mass: float, load: float, on_motor: float, on_drum: float) -> float:

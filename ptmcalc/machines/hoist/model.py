@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.laws import gearing, hoisting, lift_off_standard, reeving, rope_drum, wire_rope
+from ptmcalc.laws import gearing, hoisting, lift_off_standard, reeving, rope_drum, rope_rod, wire_rope
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene
 from ptmcalc.numerics.distinct import distinct
 
@@ -107,10 +107,18 @@ def hook_stiffness(spec: Hoist, hook_height: float) -> float:
 
 
 def load_frequency(spec: Hoist, mass: float, hook_height: float) -> float:
-    """Lowest natural frequency of a mass on the hook, the drum held [rad/s]."""
-    under = spec.structure
-    held, moving = (under.stiffness, under.mass) if under is not None else (math.inf, 0.0)
-    return hoisting.load_frequency(hook_stiffness(spec, hook_height), mass, held, moving)
+    """Lowest natural frequency of a mass on the hook, the drum held [rad/s].
+
+    The rope is a rod with its own mass, unless the file leaves that out.
+    """
+    under, stiffness = spec.structure, hook_stiffness(spec, hook_height)
+    off = spec.effects.get("rope_mass") == "off"
+    rope = 0.0 if off else filled(spec.rope.mass) * fall_length(spec, hook_height) * spec.reeving.falls
+    if under is None:
+        return rope_rod.rod_frequency(stiffness, rope, mass, 1)
+    if not rope:
+        return hoisting.load_frequency(stiffness, mass, under.stiffness, under.mass)
+    return rope_rod.framed_rod_frequency(stiffness, rope, math.inf, mass, under.stiffness, under.mass)
 
 
 # -- drum -----------------------------------------------------------------------------------------------------------

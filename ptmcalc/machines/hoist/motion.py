@@ -8,7 +8,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
-from ptmcalc.contract.result import Event, Finding, Found, History, Result
+from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
 from ptmcalc.machines.hoist.moving import (
     BRAKE,
     DRIVE,
@@ -359,6 +359,7 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         findings=tuple(findings),
         events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
         histories=lambda: histories(scene, case, tolerance),
+        failures=tuple(_failures(scene, course)),
     )
 
 
@@ -366,21 +367,8 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
     """What happened on the way that a reader must know."""
     said = []
     label, case = scene.label, course.case
-    if isinstance(scene, Lift):
-        rope = case.named("link", ROPE)
-        assert rope is not None
-        said += stalls(scene, case, math.isfinite(lift_off_time(course)), course.top("link", rope))
-    if isinstance(scene, Start) and not case.lowers and _sinks(course):
-        said.append(
-            Finding(
-                "NUM110",
-                f"scene `{label}`: the motor stalls with the load hanging: it sinks, pulled through the drive",
-                ("motor",),
-                "a stronger motor, a larger gear ratio, or less load",
-            )
-        )
-    if case.stops and math.isinf(stopped(course)):
-        said.append(not_held(scene, case))
+    if isinstance(scene, Lift) and not math.isfinite(lift_off_time(course)):
+        said += not_seen(scene, case)
     time = first_event(course, DRIVE, "started")
     if math.isfinite(time):
         said.append(tripped(scene, time))
@@ -397,28 +385,44 @@ def _remarks(scene: Moving, course: Course) -> list[Finding]:
     return said
 
 
-def not_held(scene: Moving, case: Case) -> Finding:
+def _failures(scene: Moving, course: Course) -> list[Failure]:
+    """What the run found to fail: a motor that stalls or lowers the load it lifts, a brake that does not hold it."""
+    case, found = course.case, []
+    trips = math.isfinite(first_event(course, DRIVE, "started"))
+    if isinstance(scene, Lift):
+        rope = case.named("link", ROPE)
+        assert rope is not None
+        lifted = math.isfinite(lift_off_time(course))
+        found += tripped_early(scene) if trips and not lifted else stalls(case, lifted, course.top("link", rope))
+    if isinstance(scene, Start) and not case.lowers and _sinks(course):
+        reason = "the motor stalls with the load hanging: the load lowers and turns the drive"
+        found.append(Failure("HST114", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load"))
+    if case.stops and math.isinf(stopped(course)):
+        found += not_held(case)
+    return found
+
+
+_TORQUE = ("motor",)
+
+
+def not_held(case: Case) -> list[Failure]:
     """A load that its brake does not hold, or not for long."""
     way = units.show(case.drop, units.SPAN)
-    return Finding(
-        "NUM110",
-        f"scene `{scene.label}`: the load keeps jumping on its rope and slips through the brake at every catch"
-        if case.holds
-        else f"scene `{scene.label}`: the brake does not hold the load: it goes down to the ground, or to the end of"
-        f" the rope, by up to {way}",
-        ("brake", "torque"),
-        "a stronger brake",
-    )
+    reason = f"the brake does not hold the load: it goes down to the ground, or to the end of the rope, by up to {way}"
+    if case.holds:
+        reason = "the load keeps jumping on its rope and slips through the brake each time the rope becomes taut"
+    return [Failure(code, reason, ("brake", "torque"), "a stronger brake") for code in ("HST118", "HST122")]
 
 
 def tripped(scene: Moving, time: float) -> Finding:
-    """A limiter that has tripped."""
-    return Finding(
-        "NUM110",
-        f"scene `{scene.label}`: the limiter trips at {time:.3g} s and stops the hoist",
-        ("limiter", "factor"),
-        "raise its factor or its delay where a normal lift trips it",
-    )
+    """A limiter that has tripped: it works as it should."""
+    return Finding("NUM113", f"scene `{scene.label}`: the limiter trips at {time:.3g} s and stops the hoist")
+
+
+def tripped_early(scene: Moving) -> list[Failure]:
+    """A limiter that trips before the load leaves the ground."""
+    reason, hint = "the limiter trips before the load leaves the ground", "a larger factor or delay of the limiter"
+    return [Failure("HST121", reason, ("limiter", "factor"), hint)]
 
 
 def outlasts(case: Case) -> bool:
@@ -426,34 +430,28 @@ def outlasts(case: Case) -> bool:
     return case.window >= LONGEST and not case.weak
 
 
-def stalls(scene: Lift, case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Finding]:
-    """A drive that stalls in a lift, with its phase; `largest` is the largest force of the rope and its time."""
-    if lifted and not case.weak:
+def not_seen(scene: Lift, case: Case) -> list[Finding]:
+    """A lift that takes longer than is computed."""
+    if not outlasts(case):
         return []
-    if not lifted and outlasts(case):
-        return [
-            Finding(
-                "NUM103",
-                f"scene `{scene.label}`: the load still stands on the ground as the longest window of"
-                f" {case.window:.3g} s ends; what comes later is not looked at",
-                ("speed",),
-                "a larger speed",
-            )
-        ]
+    reason = f"the load still stands on the ground as the longest window of {case.window:.3g} s ends"
+    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "a larger speed")]
+
+
+def stalls(case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Failure]:
+    """A drive that stalls in a lift, with its phase; `largest` is the largest force of the rope and its time."""
+    if (lifted and not case.weak) or (not lifted and outlasts(case)):
+        return []
     force, time = largest[0], largest[1] or 0.0
     phase = "taking up the slack" if force <= 0 else "tensioning the rope"
     if lifted:
-        phase = "holding the load, which only its swing took off the ground"
+        phase = "holding the load, which only its oscillation lifted off the ground"
     reached = units.show(force, units.FORCE)
-    return [
-        Finding(
-            "NUM110",
-            f"scene `{scene.label}`: the motor stalls while {phase}: the rope force comes to {reached} at {time:.3g} s,"
-            f" the load weighs {units.show(case.weight, units.FORCE)}",
-            ("motor",),
-            "a stronger motor, a larger gear ratio, or less load",
-        )
-    ]
+    weight = units.show(case.weight, units.FORCE)
+    reason = (
+        f"the motor stalls while {phase}: the rope force reaches {reached} at {time:.3g} s, the load weighs {weight}"
+    )
+    return [Failure("HST121", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load")]
 
 
 def _sinks(course: Course) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Event, Finding, Found, History, Result
+from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
 from ptmcalc.machines.hoist import motion, rope_case
 from ptmcalc.machines.hoist.moving import Case, Moving
 from ptmcalc.machines.hoist.reduced import travel
@@ -194,7 +194,7 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         # a strong drive that has not lifted yet: what a longer look would show is not known
         forces = {name for name, one in found.items() if math.isfinite(one.estimate.value)}
         found |= {name: Found(Estimate.unknown(found[name].estimate.value), found[name].at) for name in forces}
-    findings, remarks = [], _remarks(scene, case, course, own)
+    findings, remarks = [], _remarks(scene, case, course)
     slack, residual = _slack_at(course), max(course.residual, other.residual)
     if math.isfinite(slack):
         findings.append(
@@ -225,22 +225,33 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         window=(0.0, course.played.time),
         health={"energy_residual": course.residual, "steps": float(len(course.played.panels))},
         findings=(*remarks, *findings),
+        failures=tuple(_failures(scene, case, course, own)),
         events=tuple(Event(time, "drive and load", "", what) for time, what in course.played.events),
         histories=lambda: histories(course),
     )
 
 
-def _remarks(scene: Moving, case: Case, course: Course, own: motion.Readings) -> list[Finding]:
+def _remarks(scene: Moving, case: Case, course: Course) -> list[Finding]:
     """What happened on the way that a reader must know."""
     said = []
-    if isinstance(scene, Lift) and not math.isfinite(course.played.slack_at):
-        said += motion.stalls(scene, case, math.isfinite(course.first("lift")), own["rope_force_max"])
+    if isinstance(scene, Lift) and not math.isfinite(course.first("lift")):
+        said += motion.not_seen(scene, case)
     tripped = course.first("trip")
     if math.isfinite(tripped):
         said.append(motion.tripped(scene, tripped))
-    if case.stops and not math.isfinite(own["stop_time"][0]) and not math.isfinite(course.played.slack_at):
-        said.append(motion.not_held(scene, case))
     return said
+
+
+def _failures(scene: Moving, case: Case, course: Course, own: motion.Readings) -> list[Failure]:
+    """What the run found to fail, as far as the rope stays taut."""
+    if math.isfinite(course.played.slack_at):
+        return []
+    if isinstance(scene, Lift):
+        lifted = math.isfinite(course.first("lift"))
+        if math.isfinite(course.first("trip")) and not lifted:
+            return motion.tripped_early(scene)
+        return motion.stalls(case, lifted, own["rope_force_max"])
+    return motion.not_held(case) if case.stops and not math.isfinite(own["stop_time"][0]) else []
 
 
 def histories(course: Course) -> Mapping[str, History]:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
+from ptmcalc.base.memory import kept_for
 from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.start import Profile
 from ptmcalc.machines.hoist.drive_data import Brake, Classes, Duty, Gearbox
@@ -244,15 +245,25 @@ class Hoist(MachineSpec):
     @property
     def all_scenes(self) -> Sequence[HoistScene]:
         if self.scenes is not None:
-            return self.scenes
+            return _followed(self, self.scenes)
         if self.motor is None or self.gearbox is None or self.brake is None:
             return (Run(),)
         creeps = self.speed.creep is not None and self.classes.drive in CREEPING
-        return (Run(), Lift(speed="creep" if creeps else "main"), LowerBrake())
+        return _followed(self, (Run(), Lift(speed="creep" if creeps else "main"), LowerBrake()))
 
     @property
     def settings(self) -> HoistChecks:
         return self.checks
+
+
+@kept_for(64)
+def _followed(spec: Hoist, scenes: tuple[HoistScene, ...]) -> tuple[HoistScene, ...]:
+    """Scenes whose lifts and starts follow the curve of the motor, where the file gives one."""
+    curve = spec.motor is not None and spec.motor.curve is not None
+    return tuple(
+        one.model_copy(update={"profile": one.profile.followed(curve)}) if isinstance(one, Lift | Start) else one
+        for one in scenes
+    )
 
 
 _DRIVEN = ("lift", "start", "stop", "lower_brake")

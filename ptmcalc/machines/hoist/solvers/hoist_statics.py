@@ -144,9 +144,10 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     if spec.gearbox is None or spec.motor is None:
         return {}
     mass, height = model.hook_mass(spec, scene), scene.hook_height
-    up = drive.torque_up(spec, mass, height)
-    reserve = drive.starting_torque(spec.motor) / up if up > 0 else math.inf
-    time = drive.start_time(spec, spec.motor, mass, height, up=True)
+    reserve = drive.starting_reserve(spec, spec.motor, mass, height)
+    time = drive.start_time(spec, spec.motor, mass, height, up=True) if reserve > 1 else math.inf
+    if isinstance(scene, Start):
+        time = drive.profiled(spec, spec.motor, scene, mass, time)
     note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
     return {
         "starting_reserve": Found(Estimate.exact(reserve), note=note),
@@ -156,7 +157,11 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
 
 def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     """What the closed brake holds, and what happens where it does not."""
-    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height)
+    lowered = isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down")
+    speed = model.hook_speed(spec) if lowered else 0.0
+    if lowered and scene.speed == "creep":
+        speed = filled(spec.speed.creep)
+    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height, speed)
     if held is None:
         return {}
     note = ""

@@ -152,6 +152,8 @@ def run_rod(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int)
     one = reduced(spec, scene)
     drive = moving_inertia(spec, scene) * (ratio(spec) / travel(spec, scene)) ** 2 - one.load_mass
     rope = rope_mass(spec, scene)
+    if drive <= 0:  # rounding of a drum whose load outweighs everything: nothing to show
+        return _shown()
     return _shown(natural_frequency=rope_rod.free_rod_frequency(one.stiffness, rope, drive, one.load_mass))
 
 
