@@ -17,28 +17,29 @@ from ptmcalc.spec.fields import (
     PositiveTorque,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 
 class Motor(Fragment):
     """The drive motors, one of several equal ones."""
 
-    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one motor, as the file describes one")] = 1
     """number of equal motors on the drive shaft"""
     inertia: PositiveInertia
     """rotor of one motor"""
-    speed: PositiveAngularSpeed | None = None
+    speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
     """rated speed; compared with the speed of the machine, ratio and drum or sprocket"""
-    mean_starting_torque: PositiveTorque | None = None
+    mean_starting_torque: Annotated[PositiveTorque | None, OneOf("curve, largest_starting_torque")] = None
     """mean starting torque of one motor, or give the largest and the smallest"""
-    largest_starting_torque: PositiveTorque | None = None
+    largest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque")] = None
     """torque after each step of a rheostat start, one motor"""
-    smallest_starting_torque: PositiveTorque | None = None
+    smallest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque")] = None
     """torque before each step of a rheostat start, one motor"""
     curve: AnyMotor | None = None
     """torque over speed of one motor, which a start of the shape `curve` follows; gives the mean torque too"""
-    start_heat: PositiveEnergy | None = None
+    start_heat: Annotated[PositiveEnergy | None, Limit()] = None
     """heat the rotor of one motor may take up in one start, from its data sheet; with it the start is checked"""
-    no_load_speed: PositiveAngularSpeed | None = None
+    no_load_speed: Annotated[PositiveAngularSpeed | None, Limit()] = None
     """speed without load, of an induction motor the synchronous one; that of the `curve` when it is left out"""
 
     @classmethod
@@ -78,5 +79,5 @@ class Gear(Fragment):
 
     ratio: PositiveRatio
     """motor speed over that of the drive shaft"""
-    efficiency: Efficiency | None = None
+    efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from motor to drive shaft; 0.94 is assumed when it is left out"""

@@ -1,25 +1,26 @@
 """A drive motor with its rating: what its heating and its starts are checked against."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from ptmcalc.components import drive
 from ptmcalc.spec.fields import HourlyRate, Inertia, PositivePower, PositiveShare, PositiveTorque
 from ptmcalc.spec.fragment import Conflict, Given, at_most_one, together
+from ptmcalc.spec.optional import Assumed, Limit
 
 
 class DutyMotor(drive.Motor):
     """The motors of a crane's motion, one of several equal ones."""
 
-    coupling_inertia: Inertia | None = None
+    coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
-    rated_torque: PositiveTorque | None = None
+    rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """of one motor, or give `power` and `speed`; needed to check its heating"""
-    power: PositivePower | None = None
+    power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor"""
-    rated_duty: PositiveShare = 1.0
+    rated_duty: Annotated[PositiveShare, Limit()] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """how often the maker lets it start; needed to check the starts"""
     cooling: Literal["self_ventilated", "self_ventilated_closed", "unventilated", "separately_ventilated"] = (
         "self_ventilated"

@@ -25,6 +25,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+from ptmcalc.spec.optional import Assumed, Limit, OneOf
 
 FloatArray = NDArray[np.float64]
 Curve = Callable[[FloatArray], FloatArray]
@@ -73,7 +74,7 @@ class Motor(Fragment):
     size_key: ClassVar[str] = ""
     """the number that all its torques grow with, where there is one"""
 
-    largest_torque: PositiveTorque | None = None
+    largest_torque: Annotated[PositiveTorque | None, Limit()] = None
     """the most the motor may be loaded with for a short time (overload limit); needed to check it"""
 
     @classmethod
@@ -109,7 +110,7 @@ class Motor(Fragment):
 class RatedMotor(Motor):
     """A motor whose rated torque is given as such."""
 
-    rated_torque: PositiveTorque | None = None
+    rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """the torque the motor bears in its rated duty; needed to check its heating"""
 
     @property
@@ -165,7 +166,9 @@ class InductionBase(Motor):
     """largest (breakdown) torque over the rated one"""
     formula: Literal["simplified", "full"] = "simplified"
     """the formula of Kloss without (`simplified`) or with (`full`) the resistance of the stator"""
-    stator_ratio: PositiveRatio | None = None
+    stator_ratio: Annotated[
+        PositiveRatio | None, Assumed(1.0, 0.5, 1.5, "cage motors: resistance of the stator about that of the rotor")
+    ] = None
     """resistance of the stator over that of the rotor as seen from it, in the full formula; 1 when left out"""
 
     @classmethod
@@ -260,9 +263,11 @@ class RheostatMotor(InductionBase):
     type: Literal["rheostat"]
     steps: Annotated[tuple[RatioAboveOne, ...], Field(min_length=1, max_length=30)]
     """resistance of the rotor circuit over that of the rotor alone, step by step, falling; the rotor alone follows"""
-    smallest_torque: PositiveTorque | None = None
+    smallest_torque: Annotated[PositiveTorque | None, OneOf("switch_times")] = None
     """a step is cut out when its torque has fallen to this, or give `switch_times`"""
-    switch_times: Annotated[tuple[PositiveTime, ...], Field(min_length=1, max_length=30)] | None = None
+    switch_times: Annotated[
+        Annotated[tuple[PositiveTime, ...], Field(min_length=1, max_length=30)] | None, OneOf("smallest_torque")
+    ] = None
     """times after the start at which the steps are cut out, one for each"""
 
     @classmethod
@@ -317,17 +322,17 @@ class ConverterMotor(RatedMotor):
 
     size_key: ClassVar[str] = "torque_limit"
     type: Literal["converter"]
-    power: PositivePower | None = None
+    power: Annotated[PositivePower | None, OneOf("rated_torque")] = None
     """rated power on the shaft, or give `rated_torque`"""
     speed: PositiveAngularSpeed
     """speed asked for"""
-    rated_speed: PositiveAngularSpeed | None = None
+    rated_speed: Annotated[PositiveAngularSpeed | None, OneOf("speed")] = None
     """speed at which the motor has its rated `power` and `slip`; `speed` when left out"""
     ramp_time: Time
     """time in which the reference rises from 0 to `speed`; 0 s asks for it at once"""
     torque_limit: PositiveTorque
     """the most the converter lets the motor give, driving and braking"""
-    slip: RatedSlip | None = None
+    slip: Annotated[RatedSlip | None, OneOf("stiffness")] = None
     """shortfall of speed at rated torque over the rated speed, or give `stiffness`"""
     own_stiffness: PositiveTorqueSlope | None = Field(default=None, alias="stiffness")
     """torque per shortfall of speed, instead of `slip`"""

@@ -14,6 +14,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.optional import Absent, OneOf
 
 
 class ProfilePoint(Fragment):
@@ -32,13 +33,13 @@ class Profile(Fragment):
     """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
     `curve` as the motors' torque over their speed; when left out, the `curve` of the motors if the file gives one, else
     a step"""
-    time: PositiveTime | None = None
+    time: Annotated[PositiveTime | None, OneOf("points, or a shape that is at once")] = None
     """duration of the rise"""
     points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
     """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
     control: Literal["torque", "speed"] | None = None
     """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
-    ripple: PositiveFrequency | None = None
+    ripple: Annotated[PositiveFrequency | None, Absent("a control that does not pulsate")] = None
     """frequency at which the control of the drive pulsates; it is kept away from those of the machine"""
 
     @classmethod

@@ -17,6 +17,27 @@ def _pitch(spec: Hoist) -> float | None:
     return _PITCH * spec.rope.diameter if spec.drum.surface == "grooved" else None
 
 
+def _deflected(spec: Hoist) -> float | None:
+    """Efficiency of a deflection sheave: that of the sheaves of the tackle."""
+    return (spec.reeving.sheave_efficiency or 0.98) if spec.reeving.deflection_sheaves else None
+
+
+_DRUM_SHARE = 0.05
+"""Inertia of a drum relative to that of the rotors on the same shaft, at most in usual hoists."""
+
+
+def _reversed(spec: Hoist) -> float | None:
+    """Reverse efficiency of the gearbox with the losses of the forward one, 2 - 1/eta."""
+    gear = spec.gearbox
+    return None if gear is None or gear.efficiency is None else 2 - 1 / gear.efficiency
+
+
+def _drum_inertia(spec: Hoist) -> Interval:
+    if spec.gearbox is None or spec.motor is None:
+        return Interval(0.0, 0.0)
+    return Interval(0.0, _DRUM_SHARE * spec.motor.count * spec.motor.inertia * spec.gearbox.ratio**2)
+
+
 _OF_THE_TACKLE: tuple[Assumption[Hoist], ...] = (
     Assumption(
         ("reeving", "sheave_efficiency"),
@@ -24,6 +45,20 @@ _OF_THE_TACKLE: tuple[Assumption[Hoist], ...] = (
         lambda spec: 0.98,
         lambda spec: Interval(0.97, 0.985),
         "sheaves on rolling bearings: 0.98 to 0.985; 0.95 to 0.97 on plain ones",
+    ),
+    Assumption(
+        ("reeving", "deflection_efficiency"),
+        units.RATIO,
+        _deflected,
+        lambda spec: Interval(min(0.97, _deflected(spec) or 1.0), max(0.985, _deflected(spec) or 0.0)),
+        "as the sheaves of the tackle; on rolling bearings 0.97 to 0.985",
+    ),
+    Assumption(
+        ("drum", "inertia"),
+        units.INERTIA,
+        lambda spec: 0.0 if spec.gearbox is not None and spec.motor is not None else None,
+        _drum_inertia,
+        "left out; seldom above 5 % of the rotors' inertia on the drum shaft",
     ),
     Assumption(
         ("rope", "fill_factor"),
@@ -67,6 +102,15 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             lambda spec: 0.94,
             lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.90, 0.97),
             "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+        )
+        yield Assumption(
+            ("gearbox", "reverse_efficiency"),
+            units.RATIO,
+            _reversed,
+            lambda spec: Interval(
+                min(_reversed(spec) or 1.0, 1.0), max(_reversed(spec) or 0.0, spec.gearbox.efficiency or 1.0)
+            ),
+            "losses as forward, 2 - 1/eta, or the forward efficiency",
         )
     if spec.duty is not None and DUTY_TYPES[spec.duty.type].at_rest:
         yield Assumption(

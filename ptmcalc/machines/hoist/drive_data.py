@@ -19,6 +19,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit
 
 Mechanism = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 
@@ -26,13 +27,22 @@ Mechanism = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 class Gearbox(drive.Gear):
     """The gear between motor and drum."""
 
-    reverse_efficiency: ReverseEfficiency | None = None
+    reverse_efficiency: Annotated[ReverseEfficiency | None, Assumed()] = None
     """from drum to motor; 2 - 1/efficiency when left out, negative for a self-locking gear"""
-    stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
+    stiffness: Annotated[
+        Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
+        Absent("rigid: impacts in the gear are only checked with it"),
+    ] = None
     """of shafts and gear between rotor and drum, on the drum shaft; rigid when left out"""
-    backlash: Annotated[float, Measure(units.ANGLE, at_least=0)] = 0.0
+    backlash: Annotated[
+        float, Measure(units.ANGLE, at_least=0), Absent("no backlash: its impact is only checked with it")
+    ] = 0.0
     """the whole play between rotor and drum, as an angle of the drum"""
-    damping: Annotated[float, Measure(units.RATIO, at_least=0, at_most=1)] = 0.03
+    damping: Annotated[
+        float,
+        Measure(units.RATIO, at_least=0, at_most=1),
+        Assumed(0.03, 0.02, 0.1, "damping ratio of shafts and teeth: 0.02 to 0.1"),
+    ] = 0.03
     """damping ratio of the swing of the rotor against the drum; shafts and teeth have 0.02 to 0.1"""
 
     @classmethod
@@ -50,9 +60,11 @@ class Brake(Fragment):
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "drum"] = "motor"
     """the shaft it sits on"""
-    delay: Time = 0.0
+    delay: Annotated[
+        Time, Assumed(0.0, 0.0, 0.3, "brakes released by a magnet or thruster close within 0.1 to 0.3 s")
+    ] = 0.0
     """from switching off until it begins to act"""
-    rise_time: Time = 0.0
+    rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until its full torque"""
     rise: Literal["linear", "exponential"] = "linear"
     """how it comes up; `rise_time` is the time constant of an exponential rise"""
@@ -90,15 +102,15 @@ class Duty(Fragment):
 
     type: Literal["S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9", "S10"] = "S3"
     """duty type of IEC 60034-1"""
-    factor: PositiveShare | None = None
+    factor: Annotated[PositiveShare | None, Assumed()] = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""
-    hours: RunningTime | None = None
+    hours: Annotated[RunningTime | None, Limit()] = None
     """time in motion in the life, which with the spectrum gives the group of the mechanism"""
-    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    cycles: Annotated[Annotated[float, Measure(units.FACTOR, above=0)] | None, Limit()] = None
     """hoisting cycles in the life, which with the spectrum give the group of the crane"""
 
     @classmethod

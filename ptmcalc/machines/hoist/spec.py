@@ -35,17 +35,18 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Absent, Limit, OneOf, Setting
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class Speeds(Fragment):
     """How fast the hoist runs."""
 
-    main: PositiveSpeed | None = None
+    main: Annotated[PositiveSpeed | None, OneOf("drum")] = None
     """of the hook with the rope on the first layer, or give `drum`"""
-    drum: PositiveAngularSpeed | None = None
+    drum: Annotated[PositiveAngularSpeed | None, OneOf("main")] = None
     """of the drum"""
-    creep: PositiveSpeed | None = None
+    creep: Annotated[PositiveSpeed | None, Absent("the hoist has one speed")] = None
     """slow speed of the hook, on the first layer"""
 
     @classmethod
@@ -60,47 +61,47 @@ class Speeds(Fragment):
 class HoistChecks(CheckSettings):
     """Limits of the checks of a hoist; None stands for the limit of its class."""
 
-    rope_safety: PositiveRatio | None = None
+    rope_safety: Annotated[PositiveRatio | None, Limit()] = None
     """breaking force over the largest static pull (Zp); by the group of the mechanism when left out"""
-    drum_ratio: PositiveRatio | None = None
+    drum_ratio: Annotated[PositiveRatio | None, Limit()] = None
     """drum diameter over rope diameter (h1), to the middle of the rope; by the group when left out"""
-    sheave_ratio: PositiveRatio | None = None
+    sheave_ratio: Annotated[PositiveRatio | None, Limit()] = None
     """sheave diameter over rope diameter (h2), to the middle of the rope; by the group when left out"""
-    equaliser_ratio: PositiveRatio | None = None
+    equaliser_ratio: Annotated[PositiveRatio | None, Limit()] = None
     """equalising sheave diameter over rope diameter (h3); by the group when left out"""
-    drum_slenderness: PositiveRatio = 5.0
+    drum_slenderness: Annotated[PositiveRatio, Limit()] = 5.0
     """largest length of the wound parts over the diameter of the drum"""
-    layers: Annotated[int, Field(ge=1, strict=True)] | None = None
+    layers: Annotated[Annotated[int, Field(ge=1, strict=True)] | None, Limit()] = None
     """most layers of rope; those of the drum, in the groups M7 and M8 one, when left out"""
-    dead_wraps: PositiveRatio = 2.0
+    dead_wraps: Annotated[PositiveRatio, Limit()] = 2.0
     """fewest turns that stay on the drum"""
-    flange_margin: PositiveRatio = 1.5
+    flange_margin: Annotated[PositiveRatio, Limit()] = 1.5
     """least height of the flanges over the last layer, in rope diameters"""
-    fleet_angle: PositiveAngle | None = None
+    fleet_angle: Annotated[PositiveAngle | None, Limit()] = None
     """largest angle of the rope at the drum; 4 deg, or 2 deg for a rotation-resistant rope, when left out"""
-    layer_factor: PositiveRatio | None = None
+    layer_factor: Annotated[PositiveRatio | None, Limit()] = None
     """hoop stress of all layers over that of the first; 1 for one layer and 1.75 for two when left out"""
-    hoop_stress: PositiveStress | None = None
+    hoop_stress: Annotated[PositiveStress | None, Limit()] = None
     """largest hoop stress of the drum shell; needed to check it"""
-    motor_reserve: PositiveRatio = 1.4
+    motor_reserve: Annotated[PositiveRatio, Limit()] = 1.4
     """least mean starting torque over the static torque of hoisting"""
-    motor_excess: PositiveRatio = 4.0
+    motor_excess: Annotated[PositiveRatio, Limit()] = 4.0
     """largest mean starting torque over the static torque of hoisting"""
-    lift_off_factor: PositiveRatio | None = None
+    lift_off_factor: Annotated[PositiveRatio | None, Limit()] = None
     """largest rope force over the weight as the load is lifted off; phi2 of the hoisting class when left out"""
-    lowering_factor: PositiveRatio | None = None
+    lowering_factor: Annotated[PositiveRatio | None, Limit()] = None
     """largest rope force over the weight in a stop or a start; needed to check it"""
-    stop_distance: PositiveSpan | None = None
+    stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """longest way of a lowered load to its stop; a stop at all is asked for when left out"""
-    rope_share: Fraction = 0.05
+    rope_share: Annotated[Fraction, Limit()] = 0.05
     """least rope force over the weight while it hangs: what keeps the rope in its grooves"""
-    gear_impact: PositiveRatio = 3.0
+    gear_impact: Annotated[PositiveRatio, Limit()] = 3.0
     """largest torque of the gear over that of the even motion"""
-    brake_reserve: PositiveRatio | None = None
+    brake_reserve: Annotated[PositiveRatio | None, Limit()] = None
     """least brake torque over that of the lowering load; by the group when left out"""
-    winding_stress_ratio: PositiveRatio = 0.1
+    winding_stress_ratio: Annotated[PositiveRatio, Limit()] = 0.1
     """largest dynamic over mean stress of a rope that climbs to the next layer"""
-    crossover_detuning: PositiveRatio = 0.2
+    crossover_detuning: Annotated[PositiveRatio, Limit()] = 0.2
     """least distance of the crossovers of a layer from resonance with the load, as a share of its frequency"""
 
 
@@ -109,7 +110,7 @@ class HoistScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the hook, or the hook block alone"""
-    hook_height: Span | None = None
+    hook_height: Annotated[Span | None, Setting("the lowest position, where loads are lifted off and set down")] = None
     """of the hook above its lowest position; at the lowest when left out"""
 
     def default_name(self) -> str:
@@ -123,13 +124,13 @@ class Run(HoistScene):
     type: Literal["run"] = "run"
 
 
-class Lift(HoistScene):
+class Lift(HoistScene, TransientScene):
     """A load is lifted off the ground."""
 
     type: Literal["lift"] = "lift"
     rope: Literal["slack", "taut"] = "slack"
     """whether the drive must take up slack rope first, or the rope is taut without force"""
-    slack: PositiveLength | None = None
+    slack: Annotated[PositiveLength | None, Setting("as much as brings the drive to its speed: the worst case")] = None
     """way of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
     speed: Literal["main", "creep"] = "main"
     """of the hoist"""
@@ -137,7 +138,7 @@ class Lift(HoistScene):
     """how the drive comes up; a torque step when left out"""
 
 
-class Start(HoistScene):
+class Start(HoistScene, TransientScene):
     """A hanging load is set in motion."""
 
     type: Literal["start"] = "start"
@@ -147,7 +148,7 @@ class Start(HoistScene):
     """how the drive comes up; a torque step when left out"""
 
 
-class Stop(HoistScene):
+class Stop(HoistScene, TransientScene):
     """A load in motion is stopped by the brake."""
 
     type: Literal["stop"] = "stop"
@@ -157,7 +158,7 @@ class Stop(HoistScene):
     """before the stop"""
 
 
-class LowerBrake(HoistScene):
+class LowerBrake(HoistScene, TransientScene):
     """A load that is lowered is braked to a halt."""
 
     type: Literal["lower_brake"] = "lower_brake"
@@ -165,21 +166,21 @@ class LowerBrake(HoistScene):
     """before the stop"""
 
 
-class Release(HoistScene):
+class Release(HoistScene, TransientScene):
     """A part of the hanging load comes off at once: a grab, a magnet, a cut sling."""
 
     type: Literal["release"] = "release"
-    share: Fraction = 1.0
+    share: Annotated[Fraction, Setting("all of the load: the worst case")] = 1.0
     """part of the rated load that comes off"""
     manner: Literal["quick", "slow"] = "quick"
     """how it comes off: by a magnet, or by a grab"""
 
 
-class WindUp(HoistScene):
+class WindUp(HoistScene, TransientScene):
     """The rope climbs from a layer to the next one while the drum turns evenly."""
 
     type: Literal["winding"] = "winding"
-    layer: Annotated[int, Field(ge=2, le=20, strict=True)] = 2
+    layer: Annotated[int, Field(ge=2, le=20, strict=True), Setting("the first climb, which is the steepest")] = 2
     """the layer it climbs to"""
 
 
@@ -196,11 +197,11 @@ class Hoist(MachineSpec):
     kind: Literal["hoist"]
     load: PositiveMass
     """rated load on the hook"""
-    hook_block: Mass = 0.0
+    hook_block: Annotated[Mass, Absent("the rated load includes it, or it is written")] = 0.0
     """hook block and whatever stays on the hook"""
     height: PositiveSpan
     """lifting height"""
-    least_fall: Annotated[float, Measure(units.SPAN, at_least=0)] = 0.0
+    least_fall: Annotated[float, Measure(units.SPAN, at_least=0), Absent("the shortest rope is the stiffest")] = 0.0
     """length of a fall with the hook at its highest"""
     speed: Speeds
     """of hook or drum"""

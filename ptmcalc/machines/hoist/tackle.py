@@ -23,6 +23,7 @@ from ptmcalc.spec.fields import (
     Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 MOST_FALLS = 64
 
@@ -36,19 +37,21 @@ class Reeving(Fragment):
     """parts of rope the load hangs on, all together"""
     ropes: Literal[1, 2] = 1
     """parts of rope that run onto the drum: 2 for a twin tackle with an equalising sheave"""
-    sheave_efficiency: Efficiency | None = None
+    sheave_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a sheave in the tackle; 0.98 is assumed when it is left out"""
-    deflection_sheaves: Annotated[int, Field(ge=0, le=40, strict=True)] = 0
+    deflection_sheaves: Annotated[
+        int, Field(ge=0, le=40, strict=True), Absent("no sheaves between drum and tackle")
+    ] = 0
     """sheaves between drum and tackle that only turn the rope, on each rope"""
-    deflection_efficiency: Efficiency | None = None
+    deflection_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a deflection sheave; that of the tackle's sheaves when left out"""
-    sheave_diameter: PositiveLength | None = None
+    sheave_diameter: Annotated[PositiveLength | None, Limit()] = None
     """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
-    equaliser_diameter: PositiveLength | None = None
+    equaliser_diameter: Annotated[PositiveLength | None, Limit()] = None
     """of the equalising sheave at the bottom of the groove"""
-    lead_length: Span = 0.0
+    lead_length: Annotated[Span, Absent("the rope falls straight to the hook block, which is stiffest")] = 0.0
     """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
-    lead_offset: Span = 0.0
+    lead_offset: Annotated[Span, Setting("the middle of the travel, as drums are laid out")] = 0.0
     """of the first sheave, or that of the hook block, from the middle of the rope's travel along the drum, towards the
     turns wound last"""
 
@@ -75,19 +78,19 @@ class Rope(Fragment):
     """nominal diameter"""
     construction: Annotated[str, Field(max_length=200)] = ""
     """what the maker calls it, e.g. `6x36WS-IWRC 1960 sZ`"""
-    area: PositiveArea | None = None
+    area: Annotated[PositiveArea | None, OneOf("fill_factor")] = None
     """metallic area, or give `fill_factor`"""
-    fill_factor: PositiveFraction | None = None
+    fill_factor: Annotated[PositiveFraction | None, Assumed()] = None
     """metallic area over that of the circle round the rope; 0.5 is assumed when neither is given"""
-    modulus: PositiveStress | None = None
+    modulus: Annotated[PositiveStress | None, Assumed()] = None
     """modulus of elasticity of the rope on its metallic area, not of its wire; 105 GPa is assumed when left out"""
-    mass: PositiveLineMass | None = None
+    mass: Annotated[PositiveLineMass | None, Assumed()] = None
     """per length; assumed from the diameter when it is left out"""
-    breaking_force: PositiveForce | None = None
+    breaking_force: Annotated[PositiveForce | None, Limit()] = None
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
     """whether it is a rotation-resistant rope, which bears a smaller fleet angle"""
-    damping: Fraction = 0.0
+    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
     """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
 
     @classmethod
@@ -105,17 +108,17 @@ class Drum(Fragment):
     """along the axis, of the part one rope is wound on"""
     surface: Literal["grooved", "smooth"] = "grooved"
     """of the barrel"""
-    pitch: PositiveLength | None = None
+    pitch: Annotated[PositiveLength | None, Assumed()] = None
     """from turn to turn; of a grooved drum 1.12 rope diameters are assumed when left out, of a smooth one they touch"""
-    layers: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
+    layers: Annotated[int, Field(ge=1, le=20, strict=True), Absent("a drum for one layer")] = 1
     """layers of rope the drum is made for"""
-    dead_wraps: Wraps = 3.0
+    dead_wraps: Annotated[Wraps, Assumed(3.0, 2.0, 5.0, "EN 14492-2: at least two dead wraps; three in practice")] = 3.0
     """turns that stay on the drum with the hook at its lowest"""
-    flange_height: PositiveLength | None = None
+    flange_height: Annotated[PositiveLength | None, Limit()] = None
     """of the flanges above the surface; needed for more than one layer"""
-    shell_thickness: PositiveLength | None = None
+    shell_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the shell below the grooves; needed to check its stress"""
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """of drum and what turns with it, on its shaft; 0 when left out"""
 
 
@@ -124,18 +127,24 @@ class Structure(Fragment):
 
     stiffness: PositiveStiffness
     """force over deflection where the hoist stands"""
-    mass: Mass = 0.0
+    mass: Annotated[Mass, Absent("without mass the structure follows at once")] = 0.0
     """that moves with it; of a simple bridge about half of its own, and the trolley"""
-    damping: Fraction = 0.0
+    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
     """damping ratio of its own vibration"""
 
 
 class Limiter(Fragment):
     """A rated capacity limiter: it switches the motor off."""
 
-    factor: Annotated[float, Measure(units.FACTOR, above=0)] = 1.1
+    factor: Annotated[
+        float,
+        Measure(units.FACTOR, above=0),
+        Assumed(1.1, 1.1, 1.25, "EN 14492-2: set between 1.1 and 1.25 of the rated load"),
+    ] = 1.1
     """force in the rope at which it trips, over the static one of the rated load"""
-    delay: Annotated[float, Measure(units.TIME, at_least=0)] = 0.0
+    delay: Annotated[
+        float, Measure(units.TIME, at_least=0), Assumed(0.0, 0.0, 0.2, "contactors and load cells: up to 0.2 s")
+    ] = 0.0
     """from then until the motor is off and the brake is told to act"""
 
 
@@ -144,11 +153,13 @@ class Winding(Fragment):
 
     packing: Literal["nested", "square"] = "nested"
     """`nested`: a layer lies in the valleys of the one below; `square`: on top of it"""
-    crossovers: Annotated[int, Field(ge=1, le=4, strict=True)] = 2
+    crossovers: Annotated[
+        int, Field(ge=1, le=4, strict=True), Setting("two crossovers a turn, as of drums grooved parallel")
+    ] = 2
     """places in a turn where the rope climbs over to the next valley"""
-    crossover: Annotated[float, Measure(units.ANGLE, above=0)] | None = None
+    crossover: Annotated[Annotated[float, Measure(units.ANGLE, above=0)] | None, Assumed()] = None
     """angle of the drum over which a crossover reaches; 60 deg is assumed when it is left out"""
-    paper_modulus: PositiveStress | None = None
+    paper_modulus: Annotated[PositiveStress | None, Setting("of a textbook formula, which decides nothing")] = None
     """modulus in the formula of the winding paper, which takes that of the wire, 210 GPa, when left out"""
 
     @classmethod
