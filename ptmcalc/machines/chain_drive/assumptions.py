@@ -6,8 +6,9 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Hold, Start, Stopping
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Hold, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
+from ptmcalc.spec.scene import Scene
 
 _STEEL = 2.06e11
 
@@ -21,7 +22,7 @@ def _needs_ratio(spec: ChainDrive) -> float | None:
     return 0.05 if damping.law != ZENER and damping.time is None else None
 
 
-def _has(spec: ChainDrive, *types: type[ChainScene]) -> bool:
+def _has(spec: ChainDrive, *types: type[Scene]) -> bool:
     return any(isinstance(scene, types) for scene in spec.all_scenes)
 
 
@@ -49,7 +50,26 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
     ),
 )
 
+_ROTOR_SHARE = 0.05
+"""Inertia of a sprocket relative to that of the rotors on the same shaft, at most in usual drives."""
+
+
+def _sprocket(spec: ChainDrive) -> Interval:
+    """Inertia of a sprocket on the shaft of the drive sprocket."""
+    if spec.drive is None:
+        return Interval(0.0, 0.0)
+    motor = spec.drive.motor
+    return Interval(0.0, _ROTOR_SHARE * motor.count * motor.inertia * spec.drive.gear.ratio**2)
+
+
 _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
+    Assumption(
+        ("layout", "tail", "inertia"),
+        units.INERTIA,
+        lambda spec: 0.0 if spec.drive is not None and _has(spec, Start, Stopping) else None,
+        _sprocket,
+        "left out; seldom above 5 % of the rotors' inertia on the shaft of the drive sprocket",
+    ),
     Assumption(
         ("layout", "resistance", "turn_factor"),
         units.RATIO,
@@ -73,6 +93,16 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
     ),
 )
 
+_MOVED: tuple[Assumption[ChainDrive], ...] = (
+    Assumption(
+        ("sprocket", "inertia"),
+        units.INERTIA,
+        lambda spec: 0.0 if spec.drive is not None and _has(spec, Start, Stopping) else None,
+        _sprocket,
+        "left out; seldom above 5 % of the rotors' inertia on the same shaft",
+    ),
+)
+
 _OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
     Assumption(
         ("layout", "service_factor"),
@@ -87,6 +117,7 @@ _OF_TWO_SHAFTS: tuple[Assumption[ChainDrive], ...] = (
 def assumptions(spec: ChainDrive) -> Iterator[Assumption[ChainDrive]]:
     """What is assumed of the chain, of where it runs, of its drive and of its wear."""
     yield from _OF_THE_CHAIN
+    yield from _MOVED
     yield from _OF_A_CONVEYOR if isinstance(spec.layout, ConveyorLayout) else _OF_TWO_SHAFTS
     if spec.drive is not None:
         rotor, ratio = spec.drive.motor.inertia, spec.drive.gear.ratio

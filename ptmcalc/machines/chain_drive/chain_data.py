@@ -25,6 +25,7 @@ from ptmcalc.spec.fields import (
     PositiveTime,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
@@ -38,11 +39,11 @@ class Damping(Fragment):
 
     law: Literal["kelvin_voigt", "hysteretic", "zener"] = "kelvin_voigt"
     """`kelvin_voigt`: grows with the frequency; `hysteretic`: the same at all; `zener`: strongest at one"""
-    ratio: Fraction | None = None
+    ratio: Annotated[Fraction | None, Assumed()] = None
     """damping ratio of the first natural frequency; 0.05 is assumed when it is left out"""
-    time: PositiveTime | None = None
+    time: Annotated[PositiveTime | None, OneOf("ratio")] = None
     """retardation time (kelvin_voigt, instead of `ratio`) or relaxation time (zener)"""
-    stiffening: PositiveRatio | None = None
+    stiffening: Annotated[PositiveRatio | None, OneOf("a law that needs none")] = None
     """zener: by what share a fast pull finds the chain stiffer than a slow one"""
 
     @classmethod
@@ -71,27 +72,27 @@ class ChainData(Fragment):
     """distance of the joints"""
     mass: PositiveLineMass
     """of one strand with its plates, flights or slats, without load"""
-    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=64, strict=True), Absent("one chain, as the file describes one")] = 1
     """chains side by side, or rows of a multiple roller chain, in a strand"""
-    unevenness: FactorFromOne | None = None
+    unevenness: Annotated[FactorFromOne | None, Assumed()] = None
     """share of the most loaded of several chains over an even one; 1.2 is assumed when left out, 1 for one chain"""
     breaking_load: PositiveForce
     """of one chain"""
-    stiffness: PositiveForce | None = None
+    stiffness: Annotated[PositiveForce | None, OneOf("section")] = None
     """tensile stiffness EA of one chain (force over strain), or give `section`"""
-    section: PositiveArea | None = None
+    section: Annotated[PositiveArea | None, OneOf("stiffness")] = None
     """of the plates of one chain at their narrowest; with `modulus` it gives the stiffness, and stresses follow"""
-    modulus: PositiveStress | None = None
+    modulus: Annotated[PositiveStress | None, Assumed()] = None
     """effective modulus of the built-up chain on `section`; 0.65 of steel's is assumed when it is left out"""
     damping: Damping = Damping()
     """its internal damping"""
-    pin_diameter: PositiveLength | None = None
+    pin_diameter: Annotated[PositiveLength | None, Limit()] = None
     """of the joints; needed for pressure and wear"""
-    bush_length: PositiveLength | None = None
+    bush_length: Annotated[PositiveLength | None, Limit()] = None
     """bearing length of a joint; needed for pressure"""
-    strength: PositiveStress | None = None
+    strength: Annotated[PositiveStress | None, Limit()] = None
     """tensile strength of the plates; counts the mean stress in the check of fatigue"""
-    fatigue_limit: PositiveStress | None = None
+    fatigue_limit: Annotated[PositiveStress | None, Limit()] = None
     """stress amplitude the plates bear for the passes of the wanted life; needed to check fatigue"""
 
     @classmethod
@@ -108,9 +109,9 @@ class Sprocket(Fragment):
 
     teeth: Annotated[int, Field(strict=True, examples=[8])]
     """number of teeth"""
-    diameter: PositiveLength | None = None
+    diameter: Annotated[PositiveLength | None, OneOf("teeth and pitch")] = None
     """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft, shaft and all; 0 when left out"""
 
     @classmethod
@@ -162,15 +163,15 @@ def wrong_size(given: Given, pitch: float | None, path: tuple[str, ...]) -> Iter
 class TailSprocket(Fragment):
     """The sprocket at the other end of a conveyor."""
 
-    teeth: Annotated[int, Field(strict=True)] | None = None
+    teeth: Annotated[Annotated[int, Field(strict=True)] | None, Setting("as many as the drive sprocket")] = None
     """number of teeth; those of the drive's when left out"""
-    diameter: PositiveLength | None = None
+    diameter: Annotated[PositiveLength | None, OneOf("teeth and pitch")] = None
     """pitch diameter, through the pins; p/sin(pi/z) when left out, and compared with it when given"""
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft, shaft and all; 0 when left out"""
     driven: Literal["on", "off"] = "off"
     """`on`: a drive of its own turns it evenly"""
-    phase: Fraction | None = None
+    phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """place in the pitch of the joints of a driven one, from those of the drive; the worst of all when left out"""
 
     @classmethod
@@ -186,7 +187,7 @@ class DrivenSprocket(Sprocket):
 
     inertia: PositiveInertia
     """of sprocket and driven machine, on this shaft"""
-    phase: Fraction | None = None
+    phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """place in the pitch of its joints, from those of the driver; the worst of all when left out"""
 
 
@@ -197,21 +198,21 @@ class Archard(Fragment):
     """depth of wear over pressure and path, at the reference pressure"""
     reference_pressure: PositivePressure
     """of the test it comes from"""
-    exponent: Annotated[float, Measure(units.RATIO, at_least=1, at_most=4)] = 1.0
+    exponent: Annotated[float, Measure(units.RATIO, at_least=1, at_most=4), Setting("the linear law of Archard")] = 1.0
     """of the pressure: 1 by Archard, 1.5 with scant and 3 with good lubrication by Reshetov"""
 
 
 class Wear(Fragment):
     """Wear of the joints."""
 
-    coefficient: PositiveWearRate | None = None
+    coefficient: Annotated[PositiveWearRate | None, OneOf("archard")] = None
     """of the textbook: wear over force, time and path, from tests at the speed of the machine; or give `archard`"""
     archard: Archard | None = None
     """another model, by pressure and sliding path"""
     tensions: Literal["sum", "mean"] = "sum"
     """textbook: the tensions at run-on and run-off of a sprocket count by their `sum` or their `mean` (twice the
     life)"""
-    elongation: PositiveRatio | None = None
+    elongation: Annotated[PositiveRatio | None, Assumed()] = None
     """share of its length by which the chain may grow; 4 % is assumed when left out, 3 to 6 % is usual"""
 
     @classmethod

@@ -357,6 +357,8 @@ def teeth_bound(spec: ChainDrive, scene: Start | SpeedRange, loads: Loads) -> Of
 
 _STARTS: frozenset[type[Scene]] = frozenset({Start})
 _STOPS: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})
+_TOOTHED: frozenset[type[Scene]] = frozenset((Start, SpeedRange))
+
 EFFECTS_OF_MOTION: tuple[AnyEffect, ...] = (
     Effect("chain_elasticity", "elasticity of the chain", _STARTS | _STOPS, elastic_criterion, elastic_bound),
     Effect(
@@ -371,7 +373,7 @@ EFFECTS_OF_MOTION: tuple[AnyEffect, ...] = (
     Effect(
         "tooth_passing",
         "teeth that pass while the speed changes",
-        frozenset({Start, SpeedRange}),
+        _TOOTHED,
         teeth_criterion,
         teeth_bound,
     ),

@@ -23,6 +23,7 @@ from ptmcalc.spec.fields import (
     SignedSpan,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 
 Exponent = Annotated[float, Measure(units.RATIO, at_least=0, at_most=3)]
 
@@ -32,15 +33,15 @@ class Resistance(Fragment):
 
     coefficient: PositiveRatio
     """resistance of the chain over its weight: 0.1 to 0.15 on rollers, 0.2 to 0.35 sliding"""
-    load_coefficient: PositiveRatio | None = None
+    load_coefficient: Annotated[PositiveRatio | None, Absent("the load rides on the chain")] = None
     """resistance of the load over its weight where the chain drags it; `coefficient` when left out"""
-    turn_factor: FactorFromOne | None = None
+    turn_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """factor k on all resistances for the turns round sprockets and guides; 1.1 is assumed when it is left out"""
-    force: Force = 0.0
+    force: Annotated[Force, Absent("no other resistance")] = 0.0
     """further resistance at the tail end: feeding, boot, cleaning"""
-    start_factor: FactorFromOne | None = None
+    start_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
-    stop_factor: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None = None
+    stop_factor: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
     """lowest resistance there can be, running and warm, over that in motion: for stops and backstops; 0.8 is assumed
     when it is left out"""
 
@@ -52,7 +53,7 @@ class TakeUp(Fragment):
     """`gravity`: a weight beside the drive keeps the run-off tension; `screw`: a fixed length of loop"""
     tension: PositiveForce
     """of the strand: at the run-off (gravity), or the mean round the loop when it was set (screw)"""
-    mass: PositiveMass | None = None
+    mass: Annotated[PositiveMass | None, Absent("the take-up keeps its tension; its inertia is only bounded")] = None
     """of the weight with its carriage (gravity, on two falls); without it the tension stays constant"""
 
     @classmethod
@@ -68,11 +69,11 @@ class ConveyorLayout(Fragment):
     type: Literal["conveyor"]
     length: PositiveSpan
     """between the shafts, one strand"""
-    lift: SignedSpan = 0.0
+    lift: Annotated[SignedSpan, Absent("a level conveyor")] = 0.0
     """height the load is raised by; negative when it is lowered"""
-    load: LineMass | None = None
+    load: Annotated[LineMass | None, OneOf("capacity")] = None
     """on the working strand, per length; or give `capacity`"""
-    capacity: MassFlow | None = None
+    capacity: Annotated[MassFlow | None, OneOf("load")] = None
     """stream of material, instead of `load`"""
     resistance: Resistance
     """resistance to motion"""
@@ -90,31 +91,34 @@ class ConveyorLayout(Fragment):
             yield Conflict(("lift",), "it rises more than it is long", "write a `lift` within the `length`")
 
 
+_SLACK_SAG = Assumed(0.02, 0.01, 0.03, "slack strands of chain drives: sag 1 to 3 % of the span")
+
+
 class TwoShafts(Fragment):
     """A drive: two sprockets, the tight strand between them."""
 
     type: Literal["drive"]
     driven: DrivenSprocket
     """the driven sprocket"""
-    centre_distance: PositiveLength | None = None
+    centre_distance: Annotated[PositiveLength | None, OneOf("pitches")] = None
     """of the shafts; follows from `pitches` when left out"""
-    pitches: Annotated[int, Field(ge=6, le=100_000, strict=True)] | None = None
+    pitches: Annotated[Annotated[int, Field(ge=6, le=100_000, strict=True)] | None, OneOf("centre_distance")] = None
     """length of the chain in pitches, even; follows from `centre_distance`, rounded up to even, when left out"""
     cranked_link: Literal["yes", "no"] = "no"
     """an odd number of pitches, closed by a cranked link, which bears 80 % of the breaking load"""
-    power: PositivePower | None = None
+    power: Annotated[PositivePower | None, OneOf("torque")] = None
     """on the driven shaft, or give `torque`"""
-    torque: PositiveTorque | None = None
+    torque: Annotated[PositiveTorque | None, OneOf("power")] = None
     """on the driven shaft, instead of `power`"""
-    slack_sag: PositiveRatio = 0.02
+    slack_sag: Annotated[PositiveRatio, _SLACK_SAG] = 0.02
     """sag of the slack strand over its length; 1 to 3 % is usual"""
-    rated_power: PositivePower | None = None
+    rated_power: Annotated[PositivePower | None, Limit()] = None
     """of one chain on 19 teeth at this speed, from the maker's chart; needed to check the choice of chain"""
-    service_factor: FactorFromOne | None = None
+    service_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """f_1 of ISO 10823 for driver and driven machine, 1 to 2.1; 1.4 is assumed when it is left out"""
-    tooth_exponent: Exponent = 1.08
+    tooth_exponent: Annotated[Exponent, Setting("ISO 10823: 1.08")] = 1.08
     """of the tooth factor (19/z_1)^e: 1.08 by ISO 10823, 1 in some course cards"""
-    strand_factor: PositiveRatio | None = None
+    strand_factor: Annotated[PositiveRatio | None, Limit()] = None
     """capacity of the rows of chain over that of one; by ACA 1, 1.7, 2.5 for one, two, three when left out"""
 
     @classmethod

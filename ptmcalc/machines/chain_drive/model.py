@@ -246,7 +246,7 @@ def _conveyor(spec: ChainDrive, layout: ConveyorLayout, scene: ChainScene, grown
         chain_mass=chain,
         speed=spec.speed,
         fixed_length=layout.takeup.type == "screw",
-        takeup_mass=layout.takeup.mass or 0.0,
+        takeup_mass=0.0 if spec.effects.get("takeup_mass") == "off" else layout.takeup.mass or 0.0,
     )
 
 

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
+from ptmcalc.base.memory import kept_for
 from ptmcalc.components.drive import Gear, Motor
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import chain_selection, sprocket
@@ -36,7 +37,8 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class Drive(Fragment):
@@ -44,7 +46,7 @@ class Drive(Fragment):
 
     motor: Motor
     """the motors"""
-    coupling_inertia: Inertia | None = None
+    coupling_inertia: Annotated[Inertia | None, Assumed()] = None
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
     gear: Gear
     """the gear; `{ratio: 1, efficiency: 1}` without one"""
@@ -57,9 +59,9 @@ class Brake(Fragment):
     """braking torque when fully applied"""
     shaft: Literal["sprocket", "motor"] = "motor"
     """the shaft it sits on; on the motor's the gear's ratio and losses add to it"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")] = 0.0
     """from the command until it begins to act"""
-    rise_time: Time = 0.0
+    rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until its full torque, rising straight"""
 
 
@@ -68,14 +70,14 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the sprocket shaft"""
-    reserve: FactorFromOne = 1.25
+    reserve: Annotated[FactorFromOne, Limit()] = 1.25
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 
 class Equalising(Fragment):
     """A drive whose sprocket turns so unevenly that the chain runs evenly."""
 
-    residual: Fraction = 0.0
+    residual: Annotated[Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to a tenth is left")] = 0.0
     """what is left of the polygon effect, as a share of it: how imperfectly the law is followed"""
 
 
@@ -98,9 +100,9 @@ class Operating(Fragment):
 class ResonanceLimit(Fragment):
     """What counts as too near a resonance."""
 
-    band: PositiveShare = 0.15
+    band: Annotated[PositiveShare, Limit()] = 0.15
     """how near to a resonance speed, as a share of it; twice the damping ratio where that is more"""
-    weight: PositiveRatio = 0.5
+    weight: Annotated[PositiveRatio, Limit()] = 0.5
     """force of a tooth harmonic in resonance, over m a_max, from which on it matters"""
 
 
@@ -109,37 +111,37 @@ class ChainChecks(CheckSettings):
 
     resonance: ResonanceLimit = ResonanceLimit()
     """how far the speed keeps from resonances"""
-    safety_static: PositiveRatio | None = None
+    safety_static: Annotated[PositiveRatio | None, Limit()] = None
     """breaking load over static and centrifugal tension; 10 for conveyors, 7 for drives when left out"""
-    safety_dynamic: PositiveRatio | None = None
+    safety_dynamic: Annotated[PositiveRatio | None, Limit()] = None
     """breaking load over the largest tension of steady running; 7 for conveyors, 5 for drives when left out"""
-    safety_start: PositiveRatio = 5.0
+    safety_start: Annotated[PositiveRatio, Limit()] = 5.0
     """breaking load over the largest tension of a start or stop"""
-    joint_pressure: PositivePressure | None = None
+    joint_pressure: Annotated[PositivePressure | None, Limit()] = None
     """largest pressure in the joints; 20 to 30 MPa is usual"""
-    wrap: PositiveAngle = 2.0943951023931953
+    wrap: Annotated[PositiveAngle, Limit()] = 2.0943951023931953
     """smallest wrap of a sprocket; 120 deg by handbooks"""
-    teeth: Annotated[int, Field(ge=1, strict=True)] | None = None
+    teeth: Annotated[Annotated[int, Field(ge=1, strict=True)] | None, Limit()] = None
     """fewest teeth; 6 for conveyors, 17 for drives when left out"""
-    ratio: PositiveRatio = 6.0
+    ratio: Annotated[PositiveRatio, Limit()] = 6.0
     """largest ratio of the teeth of a drive"""
-    centre_distance_least: PositiveRatio = 30.0
+    centre_distance_least: Annotated[PositiveRatio, Limit()] = 30.0
     """smallest distance of the shafts of a drive, in pitches"""
-    centre_distance_most: PositiveRatio = 80.0
+    centre_distance_most: Annotated[PositiveRatio, Limit()] = 80.0
     """largest distance of the shafts of a drive without support of the strands, in pitches"""
-    least_tension: Force = 0.0
+    least_tension: Annotated[Force, Limit()] = 0.0
     """smallest tension of a strand in steady running"""
-    life: RunningTime | None = None
+    life: Annotated[RunningTime | None, Limit()] = None
     """wanted life; needed to check wear and fatigue"""
-    fatigue: PositiveRatio = 1.0
+    fatigue: Annotated[PositiveRatio, Limit()] = 1.0
     """largest use of the permissible stress amplitude"""
-    start_time: PositiveTime | None = None
+    start_time: Annotated[PositiveTime | None, Limit()] = None
     """longest start"""
-    stop_distance: PositiveSpan | None = None
+    stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """longest way of the chain in a `stop`"""
-    emergency_stop_distance: PositiveSpan | None = None
-    """longest way of the chain in an `emergency_stop`"""
-    stop_time: PositiveTime | None = None
+    emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
+    """longest way of the chain in an `emergency_stop`; `stop_distance` where it is left out"""
+    stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest time of any stop"""
 
 
@@ -159,7 +161,7 @@ class Run(ChainScene):
     type: Literal["run"] = "run"
 
 
-class Start(ChainScene):
+class Start(ChainScene, TransientScene):
     """A start from rest."""
 
     type: Literal["start"] = "start"
@@ -169,7 +171,7 @@ class Start(ChainScene):
     """how the chain lies: with the tensions of its running in it, or without any but the take-up's after a long rest"""
 
 
-class Stopping(ChainScene):
+class Stopping(ChainScene, TransientScene):
     """Base of the scenes in which a running chain comes to rest."""
 
 
@@ -191,7 +193,7 @@ class Coast(Stopping):
     """The drive is switched off and no brake acts; a measured way tells the resistance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: PositiveSpan | None = None
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
     """way of a real run-out from the speed of the file"""
 
 
@@ -263,8 +265,8 @@ class ChainDrive(MachineSpec):
     @property
     def all_scenes(self) -> Sequence[ChainScene]:
         if self.scenes is not None:
-            return self.scenes
-        return (Run(), Start()) if self.drive is not None else (Run(),)
+            return _followed(self, self.scenes)
+        return _followed(self, (Run(), Start()) if self.drive is not None else (Run(),))
 
     @property
     def settings(self) -> ChainChecks:
@@ -318,6 +320,16 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
         if isinstance(profile, dict) and profile.get("shape") == "curve" and not _has_curve(given):
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"
             yield Conflict(("scenes", index, "start", "profile", "shape"), "the motor has no `curve` to follow", hint)
+
+
+@kept_for(64)
+def _followed(spec: ChainDrive, scenes: tuple[ChainScene, ...]) -> tuple[ChainScene, ...]:
+    """Scenes whose starts follow the curve of the motors, where the file gives one."""
+    curve = spec.drive is not None and spec.drive.motor.curve is not None
+    return tuple(
+        one.model_copy(update={"profile": one.profile.followed(curve)}) if isinstance(one, Start) else one
+        for one in scenes
+    )
 
 
 def _has_curve(given: Given) -> bool:

@@ -38,7 +38,9 @@ def allowed_way(spec: ChainDrive, scene: Stopping) -> float | None:
     if isinstance(scene, Coast):
         return None
     limits = spec.checks
-    return limits.emergency_stop_distance if isinstance(scene, EmergencyStop) else limits.stop_distance
+    if isinstance(scene, EmergencyStop) and limits.emergency_stop_distance is not None:
+        return limits.emergency_stop_distance
+    return limits.stop_distance
 
 
 @dataclass(frozen=True, slots=True)

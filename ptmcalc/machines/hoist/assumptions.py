@@ -32,6 +32,13 @@ def _reversed(spec: Hoist) -> float | None:
     return None if gear is None or gear.efficiency is None else 2 - 1 / gear.efficiency
 
 
+def _either_way(spec: Hoist) -> Interval:
+    """Reverse efficiency of the gearbox: losses as forward, or the forward efficiency."""
+    least = _reversed(spec)
+    assert least is not None
+    return Interval(least, max(least, 1 / (2 - least)))
+
+
 def _drum_inertia(spec: Hoist) -> Interval:
     if spec.gearbox is None or spec.motor is None:
         return Interval(0.0, 0.0)
@@ -107,9 +114,7 @@ def assumptions(spec: Hoist) -> Iterator[Assumption[Hoist]]:
             ("gearbox", "reverse_efficiency"),
             units.RATIO,
             _reversed,
-            lambda spec: Interval(
-                min(_reversed(spec) or 1.0, 1.0), max(_reversed(spec) or 0.0, spec.gearbox.efficiency or 1.0)
-            ),
+            _either_way,
             "losses as forward, 2 - 1/eta, or the forward efficiency",
         )
     if spec.duty is not None and DUTY_TYPES[spec.duty.type].at_rest:

@@ -43,7 +43,7 @@ def starting_torque(motor: DutyMotor) -> float:
 
 
 _UP_TO = 0.9
-"""Part of the speed of even hoisting up to which the motor must exceed the load: beyond it the curve falls to the load."""
+"""Part of the speed of steady hoisting up to which the motor must exceed the load: beyond it, its curve falls to it."""
 _SPEEDS = 181
 """Speeds at which a curve is evaluated: steps of half a percent of the speed."""
 

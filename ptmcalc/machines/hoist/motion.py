@@ -399,7 +399,16 @@ def _failures(scene: Moving, course: Course) -> list[Failure]:
         found.append(Failure("HST114", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load"))
     if case.stops and math.isinf(stopped(course)):
         found += not_held(case)
+    if isinstance(scene, Release) and scene.manner == "quick":
+        found += gone_slack(first_event(course, ROPE, "open"))
     return found
+
+
+def gone_slack(time: float) -> list[Failure]:
+    """A rope that goes slack at a time, after a part of the load has come off."""
+    if not math.isfinite(time):
+        return []
+    return [Failure("HST126", f"the rope goes slack at {time:.3g} s", (), "let less of the load off, or slowly")]
 
 
 _TORQUE = ("motor",)

@@ -12,7 +12,7 @@ from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Res
 from ptmcalc.machines.hoist import motion, rope_case
 from ptmcalc.machines.hoist.moving import Case, Moving
 from ptmcalc.machines.hoist.reduced import travel
-from ptmcalc.machines.hoist.spec import Hoist, Lift
+from ptmcalc.machines.hoist.spec import Hoist, Lift, Release
 from ptmcalc.numerics.rope import rule
 from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy
 from ptmcalc.numerics.rope.parts import Haul
@@ -244,7 +244,10 @@ def _remarks(scene: Moving, case: Case, course: Course) -> list[Finding]:
 
 def _failures(scene: Moving, case: Case, course: Course, own: motion.Readings) -> list[Failure]:
     """What the run found to fail, as far as the rope stays taut."""
-    if math.isfinite(course.played.slack_at):
+    slack = course.played.slack_at
+    if isinstance(scene, Release):
+        return motion.gone_slack(slack) if scene.manner == "quick" else []
+    if math.isfinite(slack):
         return []
     if isinstance(scene, Lift):
         lifted = math.isfinite(course.first("lift"))

@@ -50,7 +50,7 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
     loads["tension_dynamic_polygon"] = Found(found.largest, at)
     loads["tension_dynamic_polygon_min"] = Found(found.smallest)
     loads["tension_dynamic_polygon_far"] = Found(found.far_largest)
-    loads["tension_polygon_bound"] = Found(Estimate.exact(found.bound))
+    loads["tension_polygon_bound"] = Found(_bounded_by(found.largest.low, found.bound))
 
     def histories() -> dict[str, History]:
         speeds = sweep_speeds(spec)
@@ -60,6 +60,15 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
     findings = _near_a_step(spec) + (_without_damping(spec, scene) or _without_bound(found.bound, count))
     return Result(loads, work=count, findings=findings, histories=histories)
+
+
+def _bounded_by(largest: float, bound: float) -> Estimate:
+    """The least bound of the tension: no less than what it reaches, no more than the sum of its absolute harmonics with
+    all that lies behind the last one."""
+    if not math.isfinite(bound):
+        return Estimate.exact(bound)
+    low = min(largest, bound)
+    return Estimate(bound, low, bound, numerical=bound - low)
 
 
 def sweep_speeds(spec: ChainDrive) -> np.ndarray:

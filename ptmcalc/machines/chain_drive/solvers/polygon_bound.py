@@ -25,7 +25,7 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
     least = Estimate(-bound, -bound, 0.0, bound) if math.isfinite(bound) else Estimate.unknown(-bound)
     tail = QUIET if ends_at_tail(spec) else Tail(most, least, most, least)
     loads = loads_of_tension(spec, chain_line(spec, scene), Answer(most, least, most, least, tail, bound, None))
-    loads["tension_polygon_bound"] = Estimate.exact(bound)
+    loads["tension_polygon_bound"] = most  # its rest behind the last harmonic is bounded, too
     return Result({name: Found(one) for name, one in loads.items()}, work=1024)
 
 

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
@@ -63,11 +65,27 @@ def _of_the_drive(spec: ChainDrive, case: StartCase) -> dict[str, float]:
     return {
         "static_resistance": case.line.static_resistance,
         "starting_force": case.available,
-        "starting_reserve": case.available / needed if needed > 0 else math.inf,
+        "starting_reserve": least_force(spec, case) / needed if needed > 0 else math.inf,
         "acceleration_motor": case.acceleration * gear.ratio / arm,
         "reduced_inertia": motor_side_inertia(spec) + driven * (arm / gear.ratio) ** 2 / case.losses,
         "wave_speed": wave.wave_speed(case.line.working.stiffness, case.line.working.line_mass),
     }
+
+
+def least_force(spec: ChainDrive, case: StartCase) -> float:
+    """Force of the drive that must move the chain [N]: the mean one, or the smallest on the curve of the motors up to
+    nine tenths of the rated speed."""
+    curve, gear = drive_of(spec).motor.curve, drive_of(spec).gear
+    if not case.follows_curve or curve is None:
+        return case.available
+    speeds = np.linspace(0.0, _UP_TO * case.line.speed, _SPEEDS) / mean_arm(spec) * gear.ratio
+    return case.available * float(curve.torque(speeds, np.inf).min()) / drive_of(spec).motor.mean_torque
+
+
+_UP_TO = 0.9
+"""Part of the rated speed up to which the motors must exceed the resistance: beyond it, their curve falls to it."""
+_SPEEDS = 181
+"""Speeds at which the curve is evaluated: steps of half a percent of the rated speed."""
 
 
 def inertia_at_chain(spec: ChainDrive, case: StartCase) -> float:

@@ -157,10 +157,9 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
 
 def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     """What the closed brake holds, and what happens where it does not."""
-    lowered = isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down")
-    speed = model.hook_speed(spec) if lowered else 0.0
-    if lowered and scene.speed == "creep":
-        speed = filled(spec.speed.creep)
+    speed = 0.0
+    if isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down"):
+        speed = filled(spec.speed.creep) if scene.speed == "creep" else model.hook_speed(spec)
     held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height, speed)
     if held is None:
         return {}
