@@ -47,7 +47,8 @@ def what_counts(
 
     Of a run over `whole` files it is told what a baseline holds that is no longer there.
     """
-    from ptmcalc.engine.policy import apart_from, baseline_of, chosen, read_baseline
+    from ptmcalc.engine.baseline import apart_from, baseline_of, read_baseline
+    from ptmcalc.engine.policy import chosen
 
     known = read_baseline(Path(baseline)) if baseline else {}
 
@@ -55,7 +56,7 @@ def what_counts(
         found = chosen(reports, choice)
         if baseline:
             found, unmet = apart_from(found, known, Path(baseline).parent)
-            stale = sum(choice.takes(code) for _, code, _ in unmet)
+            stale = sum(choice.takes(code) for _, code, _, _ in unmet)
             if stale and whole:
                 what = "1 finding is" if stale == 1 else f"{stale} findings are"
                 again = "--write-baseline writes it anew"
