@@ -285,10 +285,11 @@ def check(
 
         processes.begin(paths)
     from ptmcalc.cli.batch import Run, rendered, tallies_of, write
-    from ptmcalc.contract.report import status_of
+    from ptmcalc.contract.report import status_at
     from ptmcalc.engine.check import Options
     from ptmcalc.engine.policy import ANY
     from ptmcalc.report import Format
+    from ptmcalc.report.json import RunInfo
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
@@ -309,8 +310,9 @@ def check(
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
     with Run(options, jobs, store, in_json=in_json, whole=whole, executor=executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
+        info = RunInfo(shard or None, fail_level.value, run.left_out, not run.interrupted)
         for target, name in files if not run.interrupted else ():
-            write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
+            write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False, run=info))
         if courses and not run.interrupted:
             from ptmcalc.report import histories
 
@@ -319,13 +321,16 @@ def check(
         if html and not run.interrupted:
             write_pages(html, reports, run.processes(len(reports)))
         as_it_is = chosen in (Format.GITHUB, Format.JSON)
-        say_all(rendered(chosen, reports, verbose, to_terminal=terminal), as_it_is=as_it_is)
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal, run=info), as_it_is=as_it_is)
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
-    status = status_of(tallies)
-    if status in (0, 3) and any(one.loudest and Severity(one.loudest).rank >= fail_level.rank for one in tallies):
-        status = 1
+    if tallies and all(one.unchosen for one in tallies):
+        say("ptmcalc: no check is left by --select and --ignore; nothing was checked\n", err=True)
+    elif unchosen := sum(one.unchosen for one in tallies):
+        files_are = "1 file has" if unchosen == 1 else f"{unchosen} files have"
+        say(f"ptmcalc: {files_are} no check that --select and --ignore leave\n", err=True)
+    status = status_at(tallies, fail_level)
     if run.broken_off is not None:
         raise run.broken_off
     if run.interrupted:

@@ -51,6 +51,8 @@ class Run:
                 "`--jobs` counts processes here, `--executor` has the work done elsewhere", "leave one out"
             )
         self.interrupted = False
+        self.left_out = 0
+        """design files that `--exclude` or `.gitignore` kept out of folders"""
         self.broken_off: GoneError | None = None
         """what ended the run before its end; what was done by then is in its results"""
         self._open = ExitStack()
@@ -68,6 +70,7 @@ class Run:
     ) -> Sequence[FileReport]:
         """The reports of what the command line names."""
         chosen = chosen_files(paths, Excludes(tuple(exclude), gitignore), _listed() if "-" in paths else ())
+        self.left_out = chosen.excluded
         if chosen.excluded:
             files = "1 design file is" if chosen.excluded == 1 else f"{chosen.excluded} design files are"
             say(f"ptmcalc: {files} left out by --exclude or .gitignore\n", err=True)
@@ -75,6 +78,9 @@ class Run:
         if shard:
             named = part(named, shard)
             told = told if shard.startswith("1/") else []
+        if not named and not told:
+            said = f"part {shard} of the run holds no file: it has {_files(len(chosen.files))}" if shard else ""
+            say(f"ptmcalc: {said or 'the list names no file'}; nothing was checked\n", err=True)
         if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
             return (*told, *engine.check_paths(named, self.options))
         return self.batch(named, told)
@@ -151,10 +157,21 @@ def _of(done: int, batch: "Batch") -> str:
     return f"{done} of {len(batch.files)}"
 
 
-def rendered(form: Format, reports: Sequence[FileReport], verbose: bool, *, to_terminal: bool) -> Iterator[str]:
-    """The reports in one format, bit by bit where the format allows it."""
+def _files(number: int) -> str:
+    return "1 file" if number == 1 else f"{number} files"
+
+
+def rendered(
+    form: Format,
+    reports: Sequence[FileReport],
+    verbose: bool,
+    *,
+    to_terminal: bool,
+    run: json.RunInfo | None = None,
+) -> Iterator[str]:
+    """The reports in one format, bit by bit where the format allows it; JSON also with what is known of the run."""
     if form is Format.JSON:
-        return json.pieces(total(tallies_of(reports)), _parts(reports))
+        return json.pieces(total(tallies_of(reports)), _parts(reports), run)
     if form is Format.CSV:
         return csv.pieces(reports)
     if not to_terminal:

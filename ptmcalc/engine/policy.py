@@ -52,6 +52,7 @@ def _without(report: FileReport, choice: Choice) -> FileReport:
     scenes = tuple(
         replace(scene, checks=tuple(one for one in scene.checks if choice.takes(one.code))) for scene in report.scenes
     )
-    gone = len(report.diagnostics) - len(said)
-    gone += sum(len(old.checks) - len(new.checks) for old, new in zip(report.scenes, scenes, strict=True))
-    return replace(report, diagnostics=said, scenes=scenes, ignored=report.ignored + gone)
+    checks = sum(len(old.checks) - len(new.checks) for old, new in zip(report.scenes, scenes, strict=True))
+    ignored = report.ignored + len(report.diagnostics) - len(said) + checks
+    without = report.ignored_checks + checks
+    return replace(report, diagnostics=said, scenes=scenes, ignored=ignored, ignored_checks=without)

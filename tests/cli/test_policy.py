@@ -27,13 +27,10 @@ def last(done: Done) -> str:
     [
         ((), 1, "1 file, 6 checks passed, 1 failed, 1 undecided"),
         (("--ignore", "CNV101"), 0, "1 file, 6 checks passed, 2 ignored"),
-        (("--ignore", "CNV"), 0, "1 file, 0 checks passed, 8 ignored"),
         (("--select", "CNV101"), 1, "1 file, 0 checks passed, 1 failed, 1 undecided, 6 ignored"),
         (("--select", "cnv102, CNV105"), 0, "1 file, 4 checks passed, 4 ignored"),
         (("--select", "CNV102", "--ignore", "CNV1"), 0, "1 file, 2 checks passed, 6 ignored"),
         (("--select", "CNV1", "--ignore", "CNV101"), 0, "1 file, 6 checks passed, 2 ignored"),
-        (("--select", "CNV101", "--ignore", "CNV101"), 0, "1 file, 0 checks passed, 8 ignored"),
-        (("--select", "HST"), 0, "1 file, 0 checks passed, 8 ignored"),
     ],
     ids=str,
 )
@@ -42,6 +39,33 @@ def test_the_longer_prefix_wins_and_what_is_left_out_is_counted(
 ) -> None:
     done = checked(SLIPPING, *options)
     assert (done.status, done.err, last(done)) == (status, "", summary)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [("--ignore", "CNV"), ("--select", "CNV101", "--ignore", "CNV101"), ("--select", "HST"), ("--select", "NUM")],
+    ids=str,
+)
+def test_a_run_that_checks_nothing_has_not_passed(options: tuple[str, ...]) -> None:
+    done = checked(SLIPPING, *options)
+    assert (done.status, last(done)) == (3, "1 file, 0 checks passed, 8 ignored")
+    assert done.err == "ptmcalc: no check is left by --select and --ignore; nothing was checked\n"
+    (entry,) = json.loads(ptmcalc("check", "--no-repairs", "--format", "json", SLIPPING, *options).out)["files"]
+    assert (entry["verdict"], entry["ignored_checks"]) == ("undecided", 8)
+
+
+def test_a_file_without_a_chosen_check_decides_nothing_beside_others(tmp_path: Path) -> None:
+    (tmp_path / "belt.yaml").write_bytes((SPECS / "passing.yaml").read_bytes())
+    (tmp_path / "hoist.yaml").write_text(ptmcalc("new", "hoist").out, encoding="utf-8")
+    done = checked(tmp_path, "--select", "CNV101")
+    assert done.status == 0
+    assert done.err == "ptmcalc: 1 file has no check that --select and --ignore leave\n"
+    assert checked(tmp_path / "hoist.yaml", "--select", "CNV101").status == 3
+
+
+def test_only_reading_a_file_leaves_no_check_out() -> None:
+    done = checked(SPECS / "passing.yaml", "--validate-only", "--select", "HST")
+    assert (done.status, done.err) == (0, "")
 
 
 @pytest.mark.parametrize("prefix", ["CVN", "CNV999", "", "FRICTION", "CNV101,"])
