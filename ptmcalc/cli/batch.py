@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from shutil import get_terminal_size
 from types import TracebackType
@@ -93,11 +94,13 @@ class Run:
         """The reports of files, as far as the run gets."""
         from ptmcalc.cli.processes import pool
         from ptmcalc.cli.worker import only_text, with_text, without_text
-        from ptmcalc.engine.batch import ALONE, Batch, GoneError
+        from ptmcalc.engine.batch import ALONE, Batch, GoneError, Work
         from ptmcalc.engine.store import Store
 
         kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
-        work = without_text if not self.in_json else with_text if self.whole else only_text
+        chosen = without_text if not self.in_json else with_text if self.whole else only_text
+        place = os.path.abspath(self.store) if self.store and self.executor == LOCAL else ""
+        work: Work = partial(chosen, place=place) if place else chosen
         batch = Batch(files, self.options, kept, work, told=told)
         executor: Callable[[], Executor] | None
         if self.executor != LOCAL:

@@ -7,6 +7,8 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import threading
+import time
 import tracemalloc
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
@@ -190,6 +192,48 @@ def test_a_store_that_is_none_is_wrong_usage(folder: Path) -> None:
     assert (done.status, done.out) == (2, "")
     assert "`results` cannot be used as a store" in done.err
     assert Path("results").read_text("utf-8") == "notes of mine"
+
+
+def test_a_file_is_kept_while_a_slow_one_of_its_chunk_is_worked_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slow, place = threading.Event(), tmp_path / "results"
+
+    def fresh(raw: bytes, options: Options, patience: float) -> Any:
+        if b"slow" in raw:
+            slow.wait(10)
+        return engine.fresh_within(raw, options, patience)
+
+    monkeypatch.setattr(worker, "fresh_within", fresh)
+    texts = [PASSING, PASSING + b"# slow\n"]
+    options = Options(repairs=False)
+    with Store(place) as store:
+        work = threading.Thread(target=worker.with_text, args=(texts, options), kwargs={"place": str(place)})
+        work.start()
+        end = time.monotonic() + 10
+        while not len(store) and time.monotonic() < end:
+            time.sleep(0.02)
+        known = store.tallies([Keys(options).of(text) for text in texts], "")
+        assert (len(known), work.is_alive()) == (1, True)
+        slow.set()
+        work.join()
+
+
+def test_no_damaged_byte_of_a_store_changes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is made again, or the store is refused; never a pass of what fails."""
+    monkeypatch.chdir(tmp_path)
+    Path("a.yaml").write_bytes(SLIPPING)
+    command = ("check", "a.yaml", "--no-repairs", "--format", "plain", "--store", "kept")
+    good = ptmcalc(*command)
+    whole = Path("kept").read_bytes()
+    tally = whole.index(b'"counts"')
+    places = [*range(tally - 60, tally + 200, 4), *range(0, len(whole), len(whole) // 40)]
+    for place in places:
+        Path("kept").write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+        Path("kept-journal").unlink(missing_ok=True)
+        done = ptmcalc(*command)
+        refused = done.status == 2 and "cannot be used as a store" in done.err
+        assert refused or (done.status, done.out) == (good.status, good.out)
 
 
 # -- shards ---------------------------------------------------------------------------------------------------------
