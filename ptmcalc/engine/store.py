@@ -1,8 +1,8 @@
 """What was found out about design files, kept by their content: a batch goes on where it was stopped.
 
 A store is a SQLite file. Results are added in transactions, so that a process killed at any moment leaves every result
-that was added before it whole; several processes may use one store. A record carries a checksum and counts as absent
-where that does not hold, its tally, its report and its text each on its own. The file holds data only: reading one constructs nothing but reports.
+that was added before it whole; several processes may use one store. Tally, report and text of a record carry checksums
+and count as absent where those do not hold. The file holds data only: reading one constructs nothing but reports.
 """
 
 import json

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,10 @@ RECORD = Record(tally(REPORT), packed(REPORT), b'"text": 1')
 OPTIONS = Options()
 
 
+def _holds(store: Store, key: bytes) -> bool:
+    return store.get(key) is not None
+
+
 def until(there: Callable[[], bool], seconds: float = 5.0) -> bool:
     end = time.monotonic() + seconds
     while not there():
@@ -34,7 +39,8 @@ def test_a_result_is_kept_within_a_moment_under_the_key_of_its_text(tmp_path: Pa
     with Store(place) as store, Keeper(str(place), OPTIONS) as keeper:
         for text in (b"one", b"two"):
             keeper.add(text, RECORD)
-            assert until(lambda key=keys.of(text): store.get(key) is not None)  # type: ignore[misc]
+            key = keys.of(text)
+            assert until(partial(_holds, store, key))
         assert len(store) == 2
 
 
