@@ -15,7 +15,7 @@ from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.words import shown
 from ptmcalc.cli.decode import decode
-from ptmcalc.cli.output import say, say_all, steady_streams
+from ptmcalc.cli.output import is_full, let_go_of_all, say, say_all, steady_streams
 from ptmcalc.cli.policy import (
     BaselineOption,
     ExitZeroOption,
@@ -145,15 +145,19 @@ ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print."
 
 def main() -> None:
     """Entry point: maps what can go wrong to exit statuses."""
-    steady_streams()
-    sys.argv[1:] = history_with_its_value(sys.argv[1:])
     try:
+        steady_streams()
+        sys.argv[1:] = history_with_its_value(sys.argv[1:])
         _with_one_command(sys.argv[1:])()
     except UsageError as error:
         _fail(error)
     except KeyboardInterrupt:
         sys.exit(130)
     except Exception as error:
+        if isinstance(error, OSError) and is_full(error):  # help and usage are printed by typer
+            say(f"ptmcalc: cannot write: {error.strerror}\n", err=True)
+            let_go_of_all()
+            sys.exit(EXIT_USAGE)
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
         say(

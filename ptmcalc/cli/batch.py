@@ -136,7 +136,7 @@ class Run:
 
 def follow(batch: "Batch", steps: Iterable[tuple[int, float]], console: "Console | None" = None) -> None:
     """Go through the steps of a batch; on a terminal with what is done, in predicted seconds, where that is long."""
-    visible = sys.stderr.isatty()
+    visible = sys.stderr is not None and sys.stderr.isatty()
     done, seconds = batch.reused, 0.0
     for files, more in steps:
         done, seconds = done + files, seconds + more
@@ -233,8 +233,18 @@ def _told(chosen: Chosen) -> list[FileReport]:
 
 
 def _listed() -> list[str]:
-    """Names from standard input: one a line, or with a NUL behind each."""
-    text = sys.stdin.read()
+    """Names from standard input: one a line, or with a NUL behind each.
+
+    Raises:
+        UsageError: it is closed, or cannot be read.
+    """
+    if sys.stdin is None:
+        raise UsageError("standard input is closed, and `-` reads a list of files from it", "pipe one in")
+    try:
+        bytes_of_it = getattr(sys.stdin, "buffer", None)  # names of files need not be UTF-8
+        text = os.fsdecode(bytes_of_it.read()) if bytes_of_it is not None else sys.stdin.read()
+    except OSError as error:
+        raise UsageError(f"standard input cannot be read: {error.strerror}", "pipe a list of files in") from None
     names = text.split("\0") if "\0" in text else text.splitlines()
     return [name for name in names if name.strip()]
 
