@@ -80,12 +80,10 @@ def prefixes(option: str, given: list[str] | None) -> tuple[str, ...]:
         UsageError: one that no code begins with.
     """
     from ptmcalc.base.diagnostic import CODES
-    from ptmcalc.engine.registry import kind_names, load_kind
+    from ptmcalc.engine.registry import begins_a_code
 
     words = [word.strip().upper() for text in given or () for word in text.split(",")]
-    kinds = [load_kind(name) for name in kind_names()] if words else ()
-    codes = {*CODES, *(check.code for kind in kinds for one in (kind, *kind.types) for check in one.checks)}
     for word in words:
-        if not word or not any(code.startswith(word) for code in codes):
+        if not word or not (any(code.startswith(word) for code in CODES) or begins_a_code(word)):
             raise UsageError(f"{option}: no code begins with `{word}`", "e.g. CNV, CNV1 or CNV101")
     return tuple(words)
