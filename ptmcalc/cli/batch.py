@@ -110,16 +110,21 @@ class Run:
             jobs = min(self.jobs or _cores(), batch.missing)
             executor = pool(jobs, batch.kinds) if jobs > 1 else None
             alone = ALONE if self.jobs is None else 0.0
+        gone: GoneError | None = None
         try:
             follow(batch, batch.run(executor, jobs, alone))
         except KeyboardInterrupt:
             self.interrupted = True
         except GoneError as error:
-            self.interrupted, self.broken_off = True, error
+            self.interrupted, gone = True, error
         results = batch.results(whole=not self.interrupted)
         if self.interrupted:
             rest = "the same command goes on from there" if self.store else "with --store the next run would go on"
-            say(f"ptmcalc: interrupted after {len(results)} of {len(files)} files; {rest}\n", err=True)
+            said = f"interrupted after {len(results)} of {len(files)} files; {rest}"
+            if gone is not None:
+                self.broken_off = GoneError(gone.message, said)
+            else:
+                say(f"ptmcalc: {said}\n", err=True)
         elif self.store:
             say(f"ptmcalc: {batch.reused} of {len(files)} files known from `{self.store}`\n", err=True)
         return results
