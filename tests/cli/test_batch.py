@@ -479,6 +479,21 @@ def test_a_bug_on_one_file_stops_no_other_and_is_not_kept(
     assert checked(*options, "--budget", "50 s").status == 2, "what was broken is tried again"
 
 
+@pytest.mark.parametrize("options", [(), ("--jobs", "1", "--store", "results")], ids=["one by one", "batch"])
+def test_a_file_beyond_the_memory_is_undecided_and_no_bug(
+    folder: Path, options: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("PTMCALC_TRACEBACK", raising=False)
+    with mock.patch("ptmcalc.engine.purse.settle", side_effect=MemoryError):
+        done = ptmcalc("check", "specs/0.yaml", "--format", "json", *options)
+        several = ptmcalc("check", "specs/0.yaml", "specs/1.yaml", "--format", "json", *options)
+    assert (done.status, several.status) == (3, 3)
+    entries = document(done)["files"] + document(several)["files"]
+    assert [(entry["verdict"], entry["diagnostics"][0]["code"]) for entry in entries] == [("undecided", "NUM103")] * 3
+    with_memory = ptmcalc("check", "specs/0.yaml", "specs/1.yaml", "--format", "json", *options)
+    assert (with_memory.status, with_memory.out.count("NUM103")) == (0, 0), "it is no result to keep"
+
+
 class Slow(Executor):
     """An executor that is interrupted when a certain number of chunks is done."""
 
