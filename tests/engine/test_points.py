@@ -184,7 +184,6 @@ def test_a_point_is_a_file_of_its_own() -> None:
         ("drum.friction", "did you mean `drive.drum.friction`?"),
         ("takeup", "`takeup.tension`"),
         ("takeup.type", "`takeup.tension`"),
-        ("drive.motor.count", "did you mean `drive.motor.inertia`?"),
         ("scenes[7].time", "`"),
         ("", "keys: "),
         ("[0]", "keys: "),
@@ -204,6 +203,9 @@ def test_a_key_knows_its_place_and_its_value() -> None:
     assert key.present == pytest.approx(np.radians(200))
     assert measure.above == 0
     assert varied_key(loaded_file(), "scenes[1].profile.time")[0].present == 12
+    assert not key.whole
+    count, _ = varied_key(loaded_file(), "drive.motor.count")
+    assert (count.whole, count.quantity.si) == (True, "1")
 
 
 def test_points_that_are_no_machines_are_left_out() -> None:
