@@ -243,7 +243,8 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
         ),
         "NUM103": CodeText(
             "an answer beyond the work budget",
-            "A finer or richer computation would be needed and its predicted work is over the budget.",
+            "A finer or richer computation would be needed and its predicted work is over the budget, or it takes more"
+            " memory than there is.",
             "Raise `--budget`, relax `accuracy`, or simplify the scene (`ptmcalc cost FILE` shows what it takes).",
         ),
         "NUM104": CodeText(

@@ -15,7 +15,7 @@ from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.words import shown
 from ptmcalc.cli.decode import decode
-from ptmcalc.cli.output import say, say_all, steady_streams
+from ptmcalc.cli.output import is_full, let_go_of_all, say, say_all, steady_streams
 from ptmcalc.cli.policy import (
     BaselineOption,
     ExitZeroOption,
@@ -145,15 +145,19 @@ ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print."
 
 def main() -> None:
     """Entry point: maps what can go wrong to exit statuses."""
-    steady_streams()
-    sys.argv[1:] = history_with_its_value(sys.argv[1:])
     try:
+        steady_streams()
+        sys.argv[1:] = history_with_its_value(sys.argv[1:])
         _with_one_command(sys.argv[1:])()
     except UsageError as error:
         _fail(error)
     except KeyboardInterrupt:
         sys.exit(130)
     except Exception as error:
+        if isinstance(error, OSError) and is_full(error):  # help and usage are printed by typer
+            say(f"ptmcalc: cannot write: {error.strerror}\n", err=True)
+            let_go_of_all()
+            sys.exit(EXIT_USAGE)
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
         say(
@@ -285,10 +289,11 @@ def check(
 
         processes.begin(paths)
     from ptmcalc.cli.batch import Run, rendered, tallies_of, write
-    from ptmcalc.contract.report import status_of
+    from ptmcalc.contract.report import status_at
     from ptmcalc.engine.check import Options
     from ptmcalc.engine.policy import ANY
     from ptmcalc.report import Format
+    from ptmcalc.report.json import RunInfo
 
     files = [_target(text) for text in output or ()]
     courses = _history_files(history)
@@ -309,8 +314,9 @@ def check(
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
     with Run(options, jobs, store, in_json=in_json, whole=whole, executor=executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
+        info = RunInfo(shard or None, fail_level.value, run.left_out, not run.interrupted)
         for target, name in files if not run.interrupted else ():
-            write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False))
+            write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False, run=info))
         if courses and not run.interrupted:
             from ptmcalc.report import histories
 
@@ -319,13 +325,16 @@ def check(
         if html and not run.interrupted:
             write_pages(html, reports, run.processes(len(reports)))
         as_it_is = chosen in (Format.GITHUB, Format.JSON)
-        say_all(rendered(chosen, reports, verbose, to_terminal=terminal), as_it_is=as_it_is)
+        say_all(rendered(chosen, reports, verbose, to_terminal=terminal, run=info), as_it_is=as_it_is)
         if history and not courses and not in_json:
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
-    status = status_of(tallies)
-    if status in (0, 3) and any(one.loudest and Severity(one.loudest).rank >= fail_level.rank for one in tallies):
-        status = 1
+    if tallies and all(one.unchosen for one in tallies):
+        say("ptmcalc: no check is left by --select and --ignore; nothing was checked\n", err=True)
+    elif unchosen := sum(one.unchosen for one in tallies):
+        files_are = "1 file has" if unchosen == 1 else f"{unchosen} files have"
+        say(f"ptmcalc: {files_are} no check that --select and --ignore leave\n", err=True)
+    status = status_at(tallies, fail_level)
     if run.broken_off is not None:
         raise run.broken_off
     if run.interrupted:

@@ -4,6 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from shutil import get_terminal_size
 from types import TracebackType
@@ -51,6 +52,8 @@ class Run:
                 "`--jobs` counts processes here, `--executor` has the work done elsewhere", "leave one out"
             )
         self.interrupted = False
+        self.left_out = 0
+        """design files that `--exclude` or `.gitignore` kept out of folders"""
         self.broken_off: GoneError | None = None
         """what ended the run before its end; what was done by then is in its results"""
         self._open = ExitStack()
@@ -68,6 +71,7 @@ class Run:
     ) -> Sequence[FileReport]:
         """The reports of what the command line names."""
         chosen = chosen_files(paths, Excludes(tuple(exclude), gitignore), _listed() if "-" in paths else ())
+        self.left_out = chosen.excluded
         if chosen.excluded:
             files = "1 design file is" if chosen.excluded == 1 else f"{chosen.excluded} design files are"
             say(f"ptmcalc: {files} left out by --exclude or .gitignore\n", err=True)
@@ -75,6 +79,9 @@ class Run:
         if shard:
             named = part(named, shard)
             told = told if shard.startswith("1/") else []
+        if not named and not told:
+            said = f"part {shard} of the run holds no file: it has {_files(len(chosen.files))}" if shard else ""
+            say(f"ptmcalc: {said or 'the list names no file'}; nothing was checked\n", err=True)
         if len(named) < FEW and not self.store and self.jobs is None and self.executor == LOCAL:
             return (*told, *engine.check_paths(named, self.options))
         return self.batch(named, told)
@@ -87,11 +94,13 @@ class Run:
         """The reports of files, as far as the run gets."""
         from ptmcalc.cli.processes import pool
         from ptmcalc.cli.worker import only_text, with_text, without_text
-        from ptmcalc.engine.batch import ALONE, Batch, GoneError
+        from ptmcalc.engine.batch import ALONE, Batch, GoneError, Work
         from ptmcalc.engine.store import Store
 
         kept = self._open.enter_context(Store(Path(self.store) if self.store else None))
-        work = without_text if not self.in_json else with_text if self.whole else only_text
+        chosen = without_text if not self.in_json else with_text if self.whole else only_text
+        place = os.path.abspath(self.store) if self.store and self.executor == LOCAL else ""
+        work: Work = partial(chosen, place=place) if place else chosen
         batch = Batch(files, self.options, kept, work, told=told)
         executor: Callable[[], Executor] | None
         if self.executor != LOCAL:
@@ -101,16 +110,21 @@ class Run:
             jobs = min(self.jobs or _cores(), batch.missing)
             executor = pool(jobs, batch.kinds) if jobs > 1 else None
             alone = ALONE if self.jobs is None else 0.0
+        gone: GoneError | None = None
         try:
             follow(batch, batch.run(executor, jobs, alone))
         except KeyboardInterrupt:
             self.interrupted = True
         except GoneError as error:
-            self.interrupted, self.broken_off = True, error
+            self.interrupted, gone = True, error
         results = batch.results(whole=not self.interrupted)
         if self.interrupted:
             rest = "the same command goes on from there" if self.store else "with --store the next run would go on"
-            say(f"ptmcalc: interrupted after {len(results)} of {len(files)} files; {rest}\n", err=True)
+            said = f"interrupted after {len(results)} of {len(files)} files; {rest}"
+            if gone is not None:
+                self.broken_off = GoneError(gone.message, said)
+            else:
+                say(f"ptmcalc: {said}\n", err=True)
         elif self.store:
             say(f"ptmcalc: {batch.reused} of {len(files)} files known from `{self.store}`\n", err=True)
         return results
@@ -127,7 +141,7 @@ class Run:
 
 def follow(batch: "Batch", steps: Iterable[tuple[int, float]], console: "Console | None" = None) -> None:
     """Go through the steps of a batch; on a terminal with what is done, in predicted seconds, where that is long."""
-    visible = sys.stderr.isatty()
+    visible = sys.stderr is not None and sys.stderr.isatty()
     done, seconds = batch.reused, 0.0
     for files, more in steps:
         done, seconds = done + files, seconds + more
@@ -151,10 +165,21 @@ def _of(done: int, batch: "Batch") -> str:
     return f"{done} of {len(batch.files)}"
 
 
-def rendered(form: Format, reports: Sequence[FileReport], verbose: bool, *, to_terminal: bool) -> Iterator[str]:
-    """The reports in one format, bit by bit where the format allows it."""
+def _files(number: int) -> str:
+    return "1 file" if number == 1 else f"{number} files"
+
+
+def rendered(
+    form: Format,
+    reports: Sequence[FileReport],
+    verbose: bool,
+    *,
+    to_terminal: bool,
+    run: json.RunInfo | None = None,
+) -> Iterator[str]:
+    """The reports in one format, bit by bit where the format allows it; JSON also with what is known of the run."""
     if form is Format.JSON:
-        return json.pieces(total(tallies_of(reports)), _parts(reports))
+        return json.pieces(total(tallies_of(reports)), _parts(reports), run)
     if form is Format.CSV:
         return csv.pieces(reports)
     if not to_terminal:
@@ -213,8 +238,18 @@ def _told(chosen: Chosen) -> list[FileReport]:
 
 
 def _listed() -> list[str]:
-    """Names from standard input: one a line, or with a NUL behind each."""
-    text = sys.stdin.read()
+    """Names from standard input: one a line, or with a NUL behind each.
+
+    Raises:
+        UsageError: it is closed, or cannot be read.
+    """
+    if sys.stdin is None:
+        raise UsageError("standard input is closed, and `-` reads a list of files from it", "pipe one in")
+    try:
+        bytes_of_it = getattr(sys.stdin, "buffer", None)  # names of files need not be UTF-8
+        text = os.fsdecode(bytes_of_it.read()) if bytes_of_it is not None else sys.stdin.read()
+    except OSError as error:
+        raise UsageError(f"standard input cannot be read: {error.strerror}", "pipe a list of files in") from None
     names = text.split("\0") if "\0" in text else text.splitlines()
     return [name for name in names if name.strip()]
 

@@ -27,6 +27,10 @@ T = TypeVar("T")
 _ADDRESS = re.compile(r"dask://(?P<place>[^/\s@]+:[0-9]{1,5})/?")
 _PATIENCE = 10.0
 """Seconds that a scheduler may take to answer."""
+_DEADLINE = 15.0
+"""Seconds after which a connection that is begun is given up, whatever dask still waits for."""
+_COUNT, _MOST_PARTS = 8, 1000
+"""Bytes of the number of parts of a greeting, and more parts than any has: those of a text would be 1e18."""
 _LOOK = 0.2
 """Seconds between two looks at a connection."""
 _SAME = "install the same ptmcalc, and the same numpy, for the scheduler and its workers (docs/cluster.md)"
@@ -79,13 +83,48 @@ class Cluster:
             raise UsageError(
                 "a cluster needs dask.distributed, which is not installed", 'python -m pip install "ptmcalc[dask]"'
             ) from None
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is said by us
+        _silence()
         host, _, port = self.place.rpartition(":")
         try:
-            socket.create_connection((host.strip("[]"), int(port)), _PATIENCE).close()  # dask would try on and on
-            return Client(f"tcp://{self.place}", timeout=_PATIENCE, set_as_default=False)
+            if not _speaks_first(host.strip("[]"), int(port)):
+                return None
         except (OSError, OverflowError, ValueError):
             return None
+        return _within(_DEADLINE, lambda: Client(f"tcp://{self.place}", timeout=_PATIENCE, set_as_default=False))
+
+
+def _silence() -> None:
+    """What dask and what it is built on log is said by us, as far as it matters. Its import gives several of its
+    loggers levels of their own, so that of the topmost does not count."""
+    for name in ("distributed", "tornado", "asyncio", *logging.root.manager.loggerDict):
+        if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
+
+def _speaks_first(host: str, port: int) -> bool:
+    """Whether what listens at an address begins as dask does: the number of parts of its greeting, of which there are
+    few, as eight bytes. dask itself would wait without end for a server that waits to be spoken to."""
+    with socket.create_connection((host, port), _PATIENCE) as connection:
+        connection.settimeout(_PATIENCE)
+        begun = b""
+        while len(begun) < _COUNT and (more := connection.recv(_COUNT - len(begun))):
+            begun += more
+    return len(begun) == _COUNT and 0 < int.from_bytes(begun, "little") <= _MOST_PARTS
+
+
+def _within(seconds: float, make: Callable[[], T]) -> T | None:
+    """What a function makes; None where it raises, or is not done in time: it goes on then in a thread that ends with
+    the process."""
+    made: list[T] = []
+
+    def run() -> None:
+        with suppress(Exception, CancelledError):
+            made.append(make())
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    return made[0] if made else None
 
 
 class _OnCluster(Executor):

@@ -2,11 +2,12 @@
 
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ptmcalc.base.errors import UsageError
+from ptmcalc.cli.output import say
 
 _OPTIONS: Mapping[str, tuple[str, type]] = {
     "format": ("form", str),
@@ -25,6 +26,8 @@ _OPTIONS: Mapping[str, tuple[str, type]] = {
     "store": ("store", str),
 }
 """Keys of the file: the parameter of `check` and the form of its value."""
+_HIDING = ("select", "ignore", "baseline", "exit-zero")
+"""Keys that keep findings out of the report or of the exit status: who reads the report may not know the file."""
 _FORMS = {str: 'text, e.g. "..."', bool: "true or false", list: 'a list of texts, e.g. ["..."]'}
 
 
@@ -40,8 +43,15 @@ def defaults(folder: Path) -> dict[str, Any]:
             if path.is_file():
                 found = _read(path)
                 if found is not None:
-                    return _parameters(found, path)
+                    given = _parameters(found, path)
+                    _tell(path, [key for key in found if key in _HIDING and found[key]])
+                    return given
     return {}
+
+
+def _tell(path: Path, hiding: Sequence[str]) -> None:
+    if hiding:
+        say(f"ptmcalc: `{os.path.relpath(path)}` sets {', '.join(hiding)}\n", err=True)
 
 
 def _read(path: Path) -> Any:

@@ -47,7 +47,8 @@ def what_counts(
 
     Of a run over `whole` files it is told what a baseline holds that is no longer there.
     """
-    from ptmcalc.engine.policy import apart_from, baseline_of, chosen, read_baseline
+    from ptmcalc.engine.baseline import apart_from, baseline_of, read_baseline
+    from ptmcalc.engine.policy import chosen
 
     known = read_baseline(Path(baseline)) if baseline else {}
 
@@ -55,7 +56,7 @@ def what_counts(
         found = chosen(reports, choice)
         if baseline:
             found, unmet = apart_from(found, known, Path(baseline).parent)
-            stale = sum(choice.takes(code) for _, code, _ in unmet)
+            stale = sum(choice.takes(code) for _, code, _, _ in unmet)
             if stale and whole:
                 what = "1 finding is" if stale == 1 else f"{stale} findings are"
                 again = "--write-baseline writes it anew"
@@ -79,12 +80,10 @@ def prefixes(option: str, given: list[str] | None) -> tuple[str, ...]:
         UsageError: one that no code begins with.
     """
     from ptmcalc.base.diagnostic import CODES
-    from ptmcalc.engine.registry import kind_names, load_kind
+    from ptmcalc.engine.registry import begins_a_code
 
     words = [word.strip().upper() for text in given or () for word in text.split(",")]
-    kinds = [load_kind(name) for name in kind_names()] if words else ()
-    codes = {*CODES, *(check.code for kind in kinds for one in (kind, *kind.types) for check in one.checks)}
     for word in words:
-        if not word or not any(code.startswith(word) for code in codes):
+        if not word or not (any(code.startswith(word) for code in CODES) or begins_a_code(word)):
             raise UsageError(f"{option}: no code begins with `{word}`", "e.g. CNV, CNV1 or CNV101")
     return tuple(words)

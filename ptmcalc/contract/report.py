@@ -1,6 +1,6 @@
 """What is said about a file, before anyone decides how to print it."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
@@ -213,6 +213,8 @@ class FileReport:
     tables: tuple[TableReport, ...] = ()
     ignored: int = 0
     """findings and verdicts that the run was told to leave out"""
+    ignored_checks: int = 0
+    """the verdicts among them"""
     computed: bool = True
     """whether checks were to be made: not where a file is only validated"""
 
@@ -237,7 +239,12 @@ class FileReport:
             return "fail"
         if verdicts & {Verdict.UNDECIDED, Verdict.NOT_CHECKED}:
             return "undecided"
-        return "pass" if verdicts & {Verdict.PASS, Verdict.WAIVED} or self.ignored or not self.computed else "undecided"
+        return "pass" if self.judged or not self.computed else "undecided"
+
+    @property
+    def judged(self) -> bool:
+        """Whether there is a verdict of a check that was made and counts."""
+        return any(judgement.verdict is not Verdict.OFF for _, judgement in self.judgements)
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,6 +257,8 @@ class Tally:
     """the severest of what is said besides verdicts; empty where nothing is said"""
     broken: bool = False
     """whether it is our own program that failed"""
+    unchosen: bool = False
+    """whether it has checks, and the run was told to leave out all of them"""
 
 
 def tally(report: FileReport) -> Tally:
@@ -260,7 +269,9 @@ def tally(report: FileReport) -> Tally:
     counts |= {"invalid": int(not report.valid), "ignored": report.ignored}
     said = [diagnostic.severity for diagnostic in report.diagnostics]
     loudest = max(said, key=lambda severity: severity.rank).value if said else ""
-    return Tally(report.verdict, counts, loudest, any(d.code == BROKEN for d in report.diagnostics))
+    is_broken = any(d.code == BROKEN for d in report.diagnostics)
+    unchosen = report.valid and not report.judged and report.ignored_checks > 0
+    return Tally(report.verdict, counts, loudest, is_broken, unchosen)
 
 
 def total(tallies: Iterable[Tally]) -> dict[str, int]:
@@ -281,10 +292,21 @@ def count(reports: Iterable[FileReport]) -> dict[str, int]:
 
 def status_of(tallies: Iterable[Tally]) -> int:
     """0 all pass, 1 a check failed, 2 an invalid file, 3 undecided, 4 our own bug; the worst wins in the order 4, 2,
-    1, 3."""
-    found = {"broken" if one.broken else one.verdict for one in tallies}
-    worst = (("broken", 4), ("invalid", 2), ("fail", 1), ("undecided", 3))
-    return next((status for name, status in worst if name in found), 0)
+    1, 3.
+
+    A file without a check among those chosen decides nothing where another one has some: `--select CNV` over machines
+    of several kinds. A run in which nothing was checked is undecided.
+    """
+    found = {"broken" if one.broken else "unchosen" if one.unchosen else one.verdict for one in tallies}
+    worst = (("broken", 4), ("invalid", 2), ("fail", 1), ("undecided", 3), ("pass", 0))
+    return next((status for name, status in worst if name in found), 3)
+
+
+def status_at(tallies: Sequence[Tally], level: Severity) -> int:
+    """The exit status of a run in which findings from a severity up count as a failure."""
+    status = status_of(tallies)
+    loud = any(one.loudest and Severity(one.loudest).rank >= level.rank for one in tallies)
+    return 1 if status in (0, 3) and loud else status
 
 
 def exit_status(reports: Iterable[FileReport]) -> int:

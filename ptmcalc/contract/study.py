@@ -39,6 +39,8 @@ class VariedKey:
     quantity: Quantity
     present: float | None
     span: Span
+    whole: bool = False
+    """whether it takes whole numbers only"""
 
     @property
     def name(self) -> str:
@@ -118,9 +120,26 @@ class Points:
 
 
 @dataclass(frozen=True, slots=True)
+class Stretch:
+    """Values of a key from `low` to `high` at which a check says the same, on one line of a grid: that on which the
+    other keys, in their order, have the values `others`.
+
+    Between a point that passes and one that fails it ends where a straight line through their margins is 0, else in
+    the middle of two points.
+    """
+
+    said: Said
+    low: float
+    high: float
+    line: int
+    others: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Turning:
-    """Where a check turns along a key of a grid: the least and the largest such value over all lines of the grid, how
-    often it passes above, how often below, on so many lines."""
+    """Where the verdict of a check changes along a key of a grid: the least and the largest such value over all lines
+    of the grid, how often it passes above, how often below, on so many lines; and of each line on which it changes the
+    stretches of one verdict, by rising values."""
 
     scene: str
     code: str
@@ -131,6 +150,9 @@ class Turning:
     above: int
     below: int
     lines: int
+    stretches: tuple[Stretch, ...] = ()
+    others: tuple[VariedKey, ...] = ()
+    """the other keys of the grid"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,7 +27,7 @@ from ptmcalc.engine.check import Options, broken, check, check_file, guarded, pl
 from ptmcalc.engine.files import machine_in
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import Plan
-from ptmcalc.engine.run import foresee
+from ptmcalc.engine.run import NO_MEMORY, foresee
 from ptmcalc.engine.store import Record, Store, packed
 from ptmcalc.text.document import MAX_BYTES
 from ptmcalc.text.source import beginning_of
@@ -108,7 +108,13 @@ def record_of(report: FileReport, raw: bytes, today: date, text: bytes = b"", *,
     dated = dated or any(d.path[:1] == ("waive",) for d in report.diagnostics)
     counted = tally(report)
     kept = packed(report) if whole or counted.broken else b""
+    if any(d.code == "NUM103" and NO_MEMORY in d.message for d in report.diagnostics):
+        return Record(counted, kept, text, _NO_DAY)
     return Record(counted, kept, text, today.isoformat() if dated else "")
+
+
+_NO_DAY = "no other run"
+"""The day of what a run with more memory would find otherwise."""
 
 
 # -- keys -----------------------------------------------------------------------------------------------------------

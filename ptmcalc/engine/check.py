@@ -37,7 +37,7 @@ from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
 from ptmcalc.engine.repair import Repairs
-from ptmcalc.engine.run import WORK_BUDGET, Run, Settled, sensitive, without
+from ptmcalc.engine.run import NO_MEMORY, WORK_BUDGET, Run, Settled, sensitive, without
 from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.unknown import why_open
@@ -77,7 +77,10 @@ class Options:
 def check_paths(paths: Sequence[Path], options: Options) -> tuple[FileReport, ...]:
     """The reports of files, in their order; of several, one that our own program breaks down on stops no other."""
     if len(paths) == 1:
-        return (check_file(paths[0], options),)
+        try:
+            return (check_file(paths[0], options),)
+        except MemoryError:
+            return (beyond_memory(paths[0].as_posix()),)
     return tuple(guarded(path.as_posix(), partial(check_file, path, options)) for path in paths)
 
 
@@ -91,10 +94,19 @@ def guarded(name: str, make: Callable[[], T]) -> T | FileReport:
         return make()
     except UsageError:
         raise
+    except MemoryError:
+        return beyond_memory(name)
     except Exception as error:
         if os.environ.get("PTMCALC_TRACEBACK"):
             raise
         return broken(name, f"{type(error).__name__}: {error}")
+
+
+def beyond_memory(name: str) -> FileReport:
+    """The report of a file that takes more memory than there is: nothing is known, and nothing is wrong with it."""
+    hint = "simplify the machine or its scenes, or give the process more memory"
+    reason = f"the file {NO_MEMORY}: nothing was computed"
+    return FileReport(name, diagnostics=(Diagnostic("NUM103", reason, hint=hint, severity=_WARN),))
 
 
 def broken(name: str, reason: str) -> FileReport:
@@ -369,7 +381,7 @@ class _Assembly:
         found: dict[str, History] = {}
         asked = self.options.histories or self.options.courses or self.options.figures
         for run in self.settled.runs if asked else ():
-            with suppress(NumericsError):  # given up, as the run itself was not
+            with suppress(NumericsError, MemoryError):  # given up, as the run itself was not
                 found |= run.result.histories()
         return found
 

@@ -21,7 +21,7 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import forget
 from ptmcalc.base.span import KeyPath, dotted, key_path
-from ptmcalc.base.units import Quantity, show
+from ptmcalc.base.units import RATIO, Quantity, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import AssumedReport, FileReport
@@ -37,7 +37,7 @@ from ptmcalc.numerics.lanes import Lanes, LanesError, SplitError
 from ptmcalc.spec.fields import Measure
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
-from ptmcalc.spec.shape import did_you_mean, keys_of, measure_of
+from ptmcalc.spec.shape import did_you_mean, is_whole, keys_of, measure_of
 
 BLOCK = 8192
 """Points computed at once: their numbers stay near the processor."""
@@ -64,43 +64,51 @@ Key = tuple[str, str, str]
 # -- keys -----------------------------------------------------------------------------------------------------------
 
 
-def numbers_of(spec: MachineSpec) -> list[str]:
-    """The keys of a machine behind which a number with a quantity stands."""
-    return [dotted(path) for path in _numbers(spec, ())]
+def numbers_of(spec: MachineSpec, *, whole: bool = False) -> list[str]:
+    """The keys of a machine behind which a number with a quantity stands; also those of `whole` numbers."""
+    return [dotted(path) for path in _numbers(spec, (), whole=whole)]
 
 
-def _numbers(node: Any, path: KeyPath) -> Iterator[KeyPath]:
+def _numbers(node: Any, path: KeyPath, *, whole: bool) -> Iterator[KeyPath]:
     if isinstance(node, BaseModel):
         for key, about in keys_of(type(node)).items():
             value = getattr(node, next(n for n, f in type(node).model_fields.items() if (f.alias or n) == key))
-            if measure_of(about) is not None:
+            if measure_of(about) is not None or (whole and is_whole(about)):
                 if value is not None:
                     yield (*path, key)
             else:
-                yield from _numbers(value, (*path, key))
+                yield from _numbers(value, (*path, key), whole=whole)
     elif isinstance(node, Mapping):
         for key, value in node.items():
-            yield from _numbers(value, (*path, key))
+            yield from _numbers(value, (*path, key), whole=whole)
     elif isinstance(node, tuple | list):
         for index, value in enumerate(node):
-            yield from _numbers(value, (*path, index))
+            yield from _numbers(value, (*path, index), whole=whole)
 
 
 def varied_key(loaded: Loaded, name: str) -> tuple[VariedKey, Measure]:
     """The key of that name, and what it takes.
 
     Raises:
-        UsageError: no number with a quantity stands there.
+        UsageError: no number stands there.
     """
     spec = loaded.spec
     assert spec is not None
     path = key_path(name)
-    measure = measure_at(spec, path) if path else None
+    whole = _is_whole(spec, path)
+    measure = Measure(RATIO) if whole else measure_at(spec, path) if path else None
     present = spec.value_at(path)
     if measure is None or isinstance(present, bool) or not isinstance(present, int | float | None):
-        known = numbers_of(spec)
+        known = numbers_of(spec, whole=True)
         raise UsageError(f"`{name}` is no key of a number in this file", did_you_mean(name, known, "keys: "))
-    return VariedKey(path, measure.quantity, present, loaded.document.value_span(path)), measure
+    return VariedKey(path, measure.quantity, present, loaded.document.value_span(path), whole), measure
+
+
+def _is_whole(spec: MachineSpec, path: KeyPath) -> bool:
+    """Whether a whole number stands at a path."""
+    node = spec.value_at(path[:-1]) if path else None
+    about = keys_of(type(node)).get(str(path[-1])) if isinstance(node, BaseModel) else None
+    return about is not None and is_whole(about)
 
 
 # -- studies --------------------------------------------------------------------------------------------------------
@@ -146,7 +154,7 @@ class Study:
         data: Any = self.loaded.document.data
         data = {key: value for key, value in data.items() if key not in _LEFT_OUT}
         for key, value in zip(self.points.keys, values, strict=True):
-            data = with_key(data, key.path, written(float(value), key.quantity))
+            data = with_key(data, key.path, int(value) if key.whole else written(float(value), key.quantity))
         return json.dumps(data, ensure_ascii=False).encode()
 
     def take(self, index: int, report: FileReport, labels: Iterable[str]) -> None:
@@ -220,7 +228,8 @@ class Study:
         """All points, of every scene whose first solver takes lanes; what they leave open stays open."""
         if not self._leave_out_what_is_no_machine():
             return
-        for label in self._open:
+        by_lanes = not any(key.whole for key in self.points.keys)  # how many parts there are is a branch
+        for label in self._open if by_lanes else ():
             if self._takes_lanes(label):
                 self._scene_by_lanes(label)
         self._count_missing()
@@ -260,7 +269,8 @@ class Study:
     def _machine(self, values: Sequence[Any] | FloatArray) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:
         spec = self._spec
         for key, value in zip(self.points.keys, values, strict=True):
-            spec = spec.with_value(key.path, value if isinstance(value, Lanes) else float(value))
+            number = value if isinstance(value, Lanes) else int(value) if key.whole else float(value)
+            spec = spec.with_value(key.path, number)
         return fill(self._kind, spec)
 
     def _scene_by_lanes(self, label: str) -> None:

@@ -39,6 +39,27 @@ def _theirs() -> Mapping[str, str]:
     return {entry.name: entry.value for entry in metadata.entry_points(group=_GROUP)}
 
 
+def begins_a_code(word: str) -> bool:
+    """Whether a check of some kind has a code that begins so. Only kinds whose codes may are imported."""
+    known = machines.PREFIXES
+    if any(prefix.startswith(word) for name, prefix in known.items() if name in _ours()):
+        return True
+    for name in _ours():
+        if name in known and word.startswith(known[name]) and _has(name, word):
+            return True
+    unknown = [name for name in kind_names() if name not in known or name not in _ours()]
+    return any(_has(name, word) for name in unknown)
+
+
+def _has(name: str, word: str) -> bool:
+    """Whether a kind has a code that begins so; of one with several types, asked type by type."""
+    types = getattr(import_module(_place(name).partition(":")[0]), "TYPES", {})
+    kinds = (load_type(name, one) for one in types) if types else iter((load_kind(name),))
+    return any(
+        check.code.startswith(word) for kind in kinds if kind for one in (kind, *kind.types) for check in one.checks
+    )
+
+
 def is_kind(name: object) -> bool:
     """Whether a kind is called so."""
     return isinstance(name, str) and (name in _ours() or name in _theirs())

@@ -18,6 +18,8 @@ from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
 """Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
+NO_MEMORY = "takes more memory than there is"
+"""What is said of a computation that finds none; the same one may find it another time."""
 _CHEAP = 0.01
 """Predicted seconds of a run that is made to see how far the ladder goes."""
 _ANYTHING = 1.0
@@ -278,13 +280,18 @@ def _imagined(seen: Settled, kind: AnyKind, spec: MachineSpec, rung: Rung, elsew
 
 
 def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
-    """The result of a rung; None, and a finding, where its numerics break down."""
+    """The result of a rung; None, and a finding, where its numerics break down or find no memory."""
     scene = settled.plan.scene
     try:
         return rung.solver.run(spec, scene, rung.carried, rung.level)
     except NumericsError as error:
         settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
         settled.beside += max(rung.seconds, error.spent)
+        return None
+    except MemoryError:
+        said = f"scene `{scene.label}`, {rung.solver.name}: the computation {NO_MEMORY}"
+        settled.findings.append(Finding("NUM103", said))
+        settled.beside += rung.seconds
         return None
 
 
@@ -553,7 +560,7 @@ def without(
     coarsest = min(alike, key=lambda run: run.rung.level)
     try:
         result = solver.run(spec, settled.plan.scene, carried - gone, coarsest.rung.level)
-    except NumericsError:
+    except (NumericsError, MemoryError):
         return None
     return coarsest.estimates, _loads_of(result)
 

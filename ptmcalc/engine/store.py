@@ -1,8 +1,8 @@
 """What was found out about design files, kept by their content: a batch goes on where it was stopped.
 
 A store is a SQLite file. Results are added in transactions, so that a process killed at any moment leaves every result
-that was added before it whole; several processes may use one store. A record carries a checksum and counts as absent
-where that does not hold. The file holds data only: reading one constructs nothing but reports.
+that was added before it whole; several processes may use one store. Tally, report and text of a record carry checksums
+and count as absent where those do not hold. The file holds data only: reading one constructs nothing but reports.
 """
 
 import json
@@ -71,7 +71,8 @@ class Store:
     def __init__(self, path: Path | None = None) -> None:
         self.path = path
         try:
-            self._base = sqlite3.connect(path or "", timeout=_WAIT, isolation_level=None)
+            self._base = sqlite3.connect(path or "", timeout=_WAIT, isolation_level=None, check_same_thread=False)
+            self._base.text_factory = _lenient
             self._prepare(lasting=path is not None)
         except sqlite3.Error as error:
             raise _unusable(path, error) from None
@@ -106,7 +107,7 @@ class Store:
 
     def add(self, records: Iterable[tuple[bytes, Record]]) -> None:
         """Keep results under their keys, all of them or none."""
-        rows = [(key, *_row(record)) for key, record in records]
+        rows = [_row(key, record) for key, record in records]
         try:
             self._base.execute("begin immediate")
             self._base.executemany("insert or replace into result values (?, ?, ?, ?, ?, ?, ?)", rows)
@@ -117,15 +118,12 @@ class Store:
     def get(self, key: bytes) -> Record | None:
         """The result under a key, without its text; None where there is none, or a damaged one."""
         row = self._one("select day, tally, checksum, report from result where key = ?", key)
-        return _record(row) if row else None
+        return _record(key, row) if row else None
 
     def tally(self, key: bytes, day: str) -> Tally | None:
         """The tally of the result under a key that holds on a day."""
         row = self._one("select day, tally from result where key = ?", key)
-        try:
-            return _tally(row[1]) if row and row[0] in ("", day) else None
-        except (ValueError, TypeError):
-            return None
+        return _tally_of(key, *row) if row and row[0] in ("", day) else None
 
     def tallies(self, keys: Sequence[bytes], day: str) -> dict[bytes, Tally]:
         """The tallies that there are under keys, and that hold on a day."""
@@ -134,17 +132,17 @@ class Store:
             some = keys[begin : begin + _ASKED]
             marks = ", ".join("?" * len(some))
             for key, its_day, text in self._all(f"select key, day, tally from result where key in ({marks})", some):
-                try:
-                    if its_day in ("", day):
-                        found[key] = _tally(text)
-                except (ValueError, TypeError):
-                    continue
+                tally = _tally_of(key, its_day, text) if its_day in ("", day) else None
+                if tally is not None:
+                    found[key] = tally
         return found
 
     def text(self, key: bytes) -> bytes:
         """The JSON of a result; empty where there is none, or a damaged one."""
         row = self._one("select text, text_checksum from result where key = ?", key)
-        return bytes(row[0]) if row and zlib.crc32(row[0]) == row[1] else b""
+        if row is None or not isinstance(row[0], bytes):
+            return b""
+        return row[0] if _text_checksum(key, row[0]) == row[1] else b""
 
     def __len__(self) -> int:
         row = self._one("select count(*) from result")
@@ -155,7 +153,7 @@ class Store:
         """All results that are whole, with their keys and texts."""
         try:
             for key, *row in self._base.execute("select key, day, tally, checksum, report from result order by key"):
-                record = _record(row)
+                record = _record(key, row)
                 if record is not None:
                     yield bytes(key), replace(record, text=self.text(key))
         except sqlite3.Error as error:
@@ -185,22 +183,47 @@ def _unusable(path: Path | None, error: sqlite3.Error) -> UsageError:
     return UsageError(f"`{name}` cannot be used as a store of results: {error}", "name another, or delete the file")
 
 
-def _row(record: Record) -> tuple[Any, ...]:
+def _lenient(raw: bytes) -> str:
+    """Damaged letters fail the checksum of their record, not the whole store."""
+    return raw.decode("utf-8", "replace")
+
+
+def _row(key: bytes, record: Record) -> tuple[Any, ...]:
     tally, report = json.dumps(asdict(record.tally)), zlib.compress(record.packed, 1)
-    checksum = _checksum(record.day, tally, report)
-    return record.day, tally, checksum, report, zlib.crc32(record.text), record.text
+    sealed = f"{_seal(key, record.day, tally)} {tally}"
+    checksum = _checksum(record.day, sealed, report)
+    return key, record.day, sealed, checksum, report, _text_checksum(key, record.text), record.text
+
+
+def _seal(key: bytes, day: str, tally: str) -> str:
+    """The checksum of a tally, which is read without the report beside it."""
+    return f"{zlib.crc32(tally.encode(), zlib.crc32(day.encode(), zlib.crc32(key))):08x}"
+
+
+def _text_checksum(key: bytes, text: bytes) -> int:
+    return zlib.crc32(text, zlib.crc32(key))
 
 
 def _checksum(day: str, tally: str, report: bytes) -> int:
     return zlib.crc32(report, zlib.crc32(f"{day}\n{tally}\n".encode()))
 
 
-def _record(row: Sequence[Any]) -> Record | None:
-    day, tally, checksum, report = row
+def _record(key: bytes, row: Sequence[Any]) -> Record | None:
+    day, sealed, checksum, report = row
+    tally = _tally_of(key, day, sealed)
     try:
-        whole = _checksum(day, tally, report) == checksum
-        return Record(_tally(tally), zlib.decompress(report), day=day) if whole else None
+        whole = tally is not None and _checksum(day, sealed, report) == checksum
+        return Record(tally, zlib.decompress(report), day=day) if tally is not None and whole else None
     except (ValueError, TypeError, zlib.error):
+        return None
+
+
+def _tally_of(key: bytes, day: Any, sealed: Any) -> Tally | None:
+    """A tally as it is kept; None of a damaged one, or one of an earlier form without a checksum of its own."""
+    try:
+        seal, _, text = sealed.partition(" ")
+        return _tally(text) if _seal(key, day, text) == seal else None
+    except (ValueError, TypeError, AttributeError):
         return None
 
 

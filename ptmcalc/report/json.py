@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
@@ -49,10 +50,23 @@ def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: b
     return "".join(pieces(count(reports), ((report.path, part_of(report)) for report in reports)))
 
 
-def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]]) -> Iterator[str]:
+@dataclass(frozen=True, slots=True)
+class RunInfo:
+    """What the document says of the run: which part of it this is, if not the whole, what its exit status counts, how
+    many files were left out of folders, and whether it was interrupted."""
+
+    shard: str | None = None
+    fail_level: str = "error"
+    left_out: int = 0
+    complete: bool = True
+
+
+def pieces(summary: Mapping[str, int], files: Iterable[tuple[str, str]], run: RunInfo | None = None) -> Iterator[str]:
     """The document bit by bit, of files as their paths and parts."""
     yield f'{{\n "schema_version": {line(SCHEMA_VERSION)},\n'
     yield f' "tool": {line({"name": "ptmcalc", "version": __version__})},\n'
+    if run is not None:
+        yield f' "run": {line(asdict(run))},\n'
     yield f' "summary": {line(summary)},\n "files": ['
     before = "\n"
     for path, part in files:
@@ -119,6 +133,8 @@ def _file(report: FileReport) -> dict[str, Any]:
         "scenes": [_scene(scene) for scene in report.scenes],
         **({"tables": [_table(table) for table in report.tables]} if report.tables else {}),
         **({"ignored": report.ignored} if report.ignored else {}),
+        **({"ignored_checks": report.ignored_checks} if report.ignored_checks else {}),
+        **({} if report.computed else {"computed": False}),
     }
 
 

@@ -73,7 +73,7 @@ def sweep_table(
     if found:
         text += "\nwhere they turn\n"
         rows_of = [(f"{one.code} {one.element}".strip(), one.scene, one.key.name, _turn(one)) for one in found]
-        text += listing(("check", "scene", "key", "passes"), rows_of, width=width)
+        text += listing(("check", "scene", "key", "verdicts"), rows_of, width=width)
     return text + "".join(f"note: {note}\n" for note in points.notes)
 
 
@@ -88,12 +88,44 @@ def at(points: Points, index: int) -> str:
 
 
 def _turn(one: Turning) -> str:
+    """Of one line its stretches; of many where the verdict changes, and on how many of them."""
+    if one.lines == 1:
+        return _along(one)
     value = show(one.least, one.key.quantity)
     if show(one.most, one.key.quantity) != value:
         value += f" to {show(one.most, one.key.quantity)}"
-    side = "above and below" if one.above and one.below else "from" if one.above else "up to"
-    lines = f"   (on {max(one.above, one.below)} of {one.lines} lines)" if one.lines > 1 else ""
-    return f"{side} {value}{lines}"
+    changing = len({stretch.line for stretch in one.stretches})
+    simple = {stretch.said for stretch in one.stretches} == {Said.PASS, Said.FAIL}
+    if simple and 0 in (one.above, one.below) and max(one.above, one.below) == changing:
+        return f"passes {'from' if one.above else 'up to'} {value}   (on {changing} of {one.lines} lines)"
+    states = sorted({stretch.said for stretch in one.stretches})
+    named = ", ".join(said.word.replace("_", " ") for said in states)
+    return f"{named}: changes at {value}   (on {changing} of {one.lines} lines; --format json has each)"
+
+
+def _along(one: Turning) -> str:
+    """The stretches of each verdict on one line: `passes 0.29 m/s to 0.44 m/s; fails 0.2 m/s to 0.29 m/s`."""
+    first, *rest = one.stretches
+    if len(rest) == 1 and {first.said, rest[0].said} == {Said.PASS, Said.FAIL}:
+        passing, is_above = (first, False) if first.said is Said.PASS else (rest[0], True)
+        end = passing.low if is_above else passing.high
+        return f"passes {'from' if is_above else 'up to'} {show(end, one.key.quantity)}"
+    parts = []
+    for said, word in _VERDICTS.items():
+        there = [stretch for stretch in one.stretches if stretch.said is said]
+        ends = [[show(end, one.key.quantity) for end in (stretch.low, stretch.high)] for stretch in there]
+        if ends:
+            parts.append(f"{word} {', '.join(low if low == high else f'{low} to {high}' for low, high in ends)}")
+    return "; ".join(parts)
+
+
+_VERDICTS = {
+    Said.PASS: "passes",
+    Said.FAIL: "fails",
+    Said.UNDECIDED: "undecided",
+    Said.NOT_CHECKED: "not checked",
+    Said.NOT_COMPUTED: "not computed",
+}
 
 
 def sweep_json(points: Points, found: Sequence[Turning]) -> Iterator[str]:
@@ -119,6 +151,19 @@ def _turning(one: Turning) -> Row:
         "passes_above": one.above,
         "passes_below": one.below,
         "lines": one.lines,
+        "intervals": [
+            {
+                "verdict": stretch.said.word,
+                "low": stretch.low,
+                "high": stretch.high,
+                "line": stretch.line,
+                "at": [
+                    {"path": list(key.path), "value": value, "unit": key.quantity.si}
+                    for key, value in zip(one.others, stretch.others, strict=True)
+                ],
+            }
+            for stretch in one.stretches
+        ],
     }
 
 

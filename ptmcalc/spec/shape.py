@@ -103,6 +103,15 @@ def measure_of(field: FieldInfo) -> Measure | None:
     return next((part for part in (*field.metadata, *_metadata(field.annotation)) if isinstance(part, Measure)), None)
 
 
+def is_whole(field: FieldInfo) -> bool:
+    """Whether a field is a whole number, which has no quantity."""
+    return measure_of(field) is None and int in map(_bare, _options(field.annotation))
+
+
+def _bare(annotation: Any) -> Any:
+    return get_args(annotation)[0] if hasattr(annotation, "__metadata__") else annotation
+
+
 def _metadata(annotation: Any) -> list[Any]:
     found = list(getattr(annotation, "__metadata__", ()))
     if get_origin(annotation) in (Union, UnionType):

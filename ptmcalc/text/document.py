@@ -194,8 +194,7 @@ class _Reader:
             reason, hint = f"with this the file has more than {MAX_NODES} nodes", "split the file, or use fewer aliases"
             raise _UnreadableError("TXT108", reason, span, hint)
         if len(path) + levels > MAX_DEPTH:
-            reason, hint = f"more than {MAX_DEPTH} levels are nested here", "nest less deeply"
-            raise _UnreadableError("TXT108", reason, span, hint)
+            raise _UnreadableError("TXT108", f"more than {MAX_DEPTH} levels are nested here", span, _NEST_LESS)
 
     def _say(self, code: str, reason: str, span: Span, path: KeyPath, hint: str) -> None:
         if len(self.problems) >= MAX_FAULTS:
@@ -378,6 +377,10 @@ def _place(mark: Any) -> Span:
 _at = lru_cache(maxsize=1 << 14)(Span)
 
 
+_NEST_LESS = "nest less deeply"
+_OWN_DEPTH = "nesting depth"
+"""In the parser's own words for more than 1000 levels. It reads ahead of its events by up to a line, so PyYAML from
+6.0.4 refuses an endless row of brackets before the 101st of them reaches the count here."""
 _SYNTAX_HINTS = (
     ("end of stream", "close the quote"),
     ("document indicator", "close the quote"),
@@ -395,6 +398,8 @@ def _syntax_error(error: yaml.MarkedYAMLError, lines: list[str]) -> _UnreadableE
     """
     reason = " ".join(part for part in (error.context, error.problem) if part)
     mark = error.problem_mark or error.context_mark
+    if _OWN_DEPTH in reason:
+        return _UnreadableError("TXT108", f"more than {MAX_DEPTH} levels are nested here", _place(mark), _NEST_LESS)
     begun = error.context in ("while scanning a quoted scalar", "while scanning a simple key")
     if mark and error.context_mark and (begun or not any(_behind(mark, lines))):
         mark = error.context_mark

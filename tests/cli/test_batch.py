@@ -7,6 +7,8 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import threading
+import time
 import tracemalloc
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future
@@ -192,6 +194,48 @@ def test_a_store_that_is_none_is_wrong_usage(folder: Path) -> None:
     assert Path("results").read_text("utf-8") == "notes of mine"
 
 
+def test_a_file_is_kept_while_a_slow_one_of_its_chunk_is_worked_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slow, place = threading.Event(), tmp_path / "results"
+
+    def fresh(raw: bytes, options: Options, patience: float) -> Any:
+        if b"slow" in raw:
+            slow.wait(10)
+        return engine.fresh_within(raw, options, patience)
+
+    monkeypatch.setattr(worker, "fresh_within", fresh)
+    texts = [PASSING, PASSING + b"# slow\n"]
+    options = Options(repairs=False)
+    with Store(place) as store:
+        work = threading.Thread(target=worker.with_text, args=(texts, options), kwargs={"place": str(place)})
+        work.start()
+        end = time.monotonic() + 10
+        while not len(store) and time.monotonic() < end:
+            time.sleep(0.02)
+        known = store.tallies([Keys(options).of(text) for text in texts], "")
+        assert (len(known), work.is_alive()) == (1, True)
+        slow.set()
+        work.join()
+
+
+def test_no_damaged_byte_of_a_store_changes_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is made again, or the store is refused; never a pass of what fails."""
+    monkeypatch.chdir(tmp_path)
+    Path("a.yaml").write_bytes(SLIPPING)
+    command = ("check", "a.yaml", "--no-repairs", "--format", "plain", "--store", "kept")
+    good = ptmcalc(*command)
+    whole = Path("kept").read_bytes()
+    tally = whole.index(b'"counts"')
+    places = [*range(tally - 60, tally + 200, 4), *range(0, len(whole), len(whole) // 40)]
+    for place in places:
+        Path("kept").write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+        Path("kept-journal").unlink(missing_ok=True)
+        done = ptmcalc(*command)
+        refused = done.status == 2 and "cannot be used as a store" in done.err
+        assert refused or (done.status, done.out) == (good.status, good.out)
+
+
 # -- shards ---------------------------------------------------------------------------------------------------------
 
 
@@ -201,7 +245,7 @@ def test_the_reports_of_the_shards_make_the_report_of_the_whole(folder: Path, nu
     for index in range(1, number + 1):
         checked("--ignore", "CNV103", "--shard", f"{index}/{number}", "-o", f"json={index}.json")
     parts = [f"{index}.json" for index in range(1, number + 1)]
-    done = ptmcalc("merge", *reversed(parts), parts[0])
+    done = ptmcalc("merge", *reversed(parts))
     assert (done.status, done.err) == (2, "")
     assert done.out == whole.out
     assert ptmcalc("merge", *parts, "-o", "all.json") == Done(2, "", "")
@@ -223,7 +267,9 @@ def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
     Path("b.json").write_text(text.replace("Yard conveyor", "Another one"), encoding="utf-8")
     Path("c.json").write_text('{"files": []}', encoding="utf-8")
     for parts, reason in (
-        (("a.json", "b.json"), "has different reports in `a.json` and `b.json`"),
+        (("a.json", "b.json"), "`specs/0.yaml` is in `a.json` and in `b.json`"),
+        (("a.json", "a.json"), "`a.json` is named twice"),
+        (("a.json", "./a.json"), "`a.json` is named twice"),
         (("a.json", "c.json"), "`c.json` is no JSON report of ptmcalc"),
         (("a.json", "nowhere.json"), "the report `nowhere.json` cannot be read"),
         (("a.json", "a.store"), "stores and reports do not mix"),
@@ -232,6 +278,141 @@ def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
         done = ptmcalc("merge", *parts)
         assert (done.status, done.out) == (2, "")
         assert reason in done.err
+
+
+@pytest.fixture
+def parts(folder: Path) -> dict[str, dict[str, Any]]:
+    """The reports of both shards of a run over files that pass and files with warnings, and of a third of three."""
+    for index in range(3):
+        (folder / "inner" / f"{index}.yaml").unlink()
+        (folder / "inner" / f"{index + 3}.yaml").write_bytes((SPECS / "disagreeing.yaml").read_bytes())
+    found = {}
+    for shard in ("1/2", "2/2", "3/3"):
+        name = f"{shard.replace('/', 'of')}.json"
+        checked("--shard", shard, "-o", f"json={name}", "--fail-level", "warning")
+        found[name] = json.loads(Path(name).read_text("utf-8"))
+    return found
+
+
+def merged(parts: dict[str, dict[str, Any]], *names: str) -> Done:
+    for name, document in parts.items():
+        Path(name).write_text(json.dumps(document), encoding="utf-8")
+    return ptmcalc("merge", *(names or ("1of2.json", "2of2.json")))
+
+
+def test_the_level_that_fails_is_that_of_the_parts(parts: dict[str, dict[str, Any]]) -> None:
+    assert checked("--fail-level", "warning").status == 1
+    done = merged(parts)
+    assert (done.status, done.out) == (1, checked("--fail-level", "warning").out)
+    for part in parts.values():
+        part["run"]["fail_level"] = "error"
+    assert merged(parts).status == 0
+    parts["1of2.json"]["run"]["fail_level"] = "note"
+    done = merged(parts)
+    assert (done.status, done.out) == (2, "")
+    assert "`2of2.json` has --fail-level error, `1of2.json` has note" in done.err
+
+
+@pytest.mark.parametrize(
+    ("names", "reason"),
+    [
+        (("1of2.json",), "part 2/2 of the run is missing"),
+        (("2of2.json",), "part 1/2 of the run is missing"),
+        (("3of3.json",), "parts 1/3, 2/3 of the run are missing"),
+        (("1of2.json", "2of2.json", "3of3.json"), "parts of different runs"),
+        (("1of2.json", "2of2.json", "1of2.json"), "`1of2.json` is named twice"),
+    ],
+)
+def test_a_part_that_is_missing_or_doubled_is_refused(
+    parts: dict[str, dict[str, Any]], names: tuple[str, ...], reason: str
+) -> None:
+    done = merged(parts, *names)
+    assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
+    assert reason in done.err
+    parts["copy.json"] = parts["1of2.json"]
+    assert "`1of2.json` and `copy.json` are both part 1/2" in merged(parts, "1of2.json", "copy.json", "2of2.json").err
+
+
+def test_a_part_of_an_interrupted_run_is_refused(parts: dict[str, dict[str, Any]]) -> None:
+    parts["2of2.json"]["run"]["complete"] = False
+    assert "the run of `2of2.json` was interrupted" in merged(parts).err
+
+
+def _set(*path: Any, to: Any) -> Any:
+    def change(document: dict[str, Any]) -> None:
+        *way, last = path
+        inner: Any = document
+        for key in way:
+            inner = inner[key]
+        inner[last] = to
+
+    return change
+
+
+_FILE = ("files", 0)
+_CHECK = (*_FILE, "scenes", 0, "checks", 0)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (_set(*_FILE, "verdict", to="undecided"), "is called `undecided`, and by its checks is `pass`"),
+        (_set(*_CHECK, "verdict", to="fail"), "is called `pass`, and by its checks is `fail`"),
+        (_set(*_CHECK, "value", to=-1e9), "is called `pass`, with its value beyond the limit"),
+        (_set("summary", "pass", to=99), "the summary counts 99 of `pass`"),
+        (_set("summary", to={}), "the summary counts None of `files`"),
+        (_set("run", to=None), "does not say which part of a run it is"),
+        (_set("run", "shard", to="2/1"), "does not say which part of a run it is"),
+        (_set("run", "shard", to="a/b"), "does not say which part of a run it is"),
+        (_set("run", "shard", to=[]), "does not say which part of a run it is"),
+        (_set("run", "fail_level", to="all"), "does not say which part of a run it is"),
+        (_set("run", "more", to=1), "does not say which part of a run it is"),
+        (_set(*_FILE, "verdict", to="good"), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "verdict", to=[]), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "path", to=3), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", to=None), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", to={"a": 1}), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "scenes", 0, "checks", to=3), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "ignored", to="many"), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "ignored", to=-1), "is no JSON report of ptmcalc"),
+        (_set(*_CHECK, "verdict", to={}), "is no JSON report of ptmcalc"),
+        (_set(*_CHECK, "value", to="9"), "is no JSON report of ptmcalc"),
+        (_set(*_CHECK, "value", to=float("nan")), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, "diagnostics", to=[{}]), "is no JSON report of ptmcalc"),
+        (_set(*_FILE, to=None), "is no JSON report of ptmcalc"),
+        (_set("files", to=7), "is no JSON report of ptmcalc"),
+        (_set("tool", to="ptmcalc"), "is no JSON report of ptmcalc"),
+    ],
+)
+def test_a_part_that_contradicts_itself_or_is_malformed_is_refused(
+    parts: dict[str, dict[str, Any]], change: Any, reason: str
+) -> None:
+    change(parts["1of2.json"])
+    done = merged(parts)
+    assert (done.status, done.out, done.err.count("\n")) == (2, "", 1)
+    assert reason in done.err
+
+
+def test_a_shard_without_a_file_has_checked_nothing(folder: Path) -> None:
+    done = checked("--shard", "13/13")
+    assert (done.status, document(done)["files"]) == (3, [])
+    assert done.err == "ptmcalc: part 13/13 of the run holds no file: it has 12 files; nothing was checked\n"
+    assert checked("--shard", "13/13", "--exit-zero").status == 0
+
+
+def test_a_list_without_a_name_has_checked_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", StringIO("\n"))
+    done = ptmcalc("check", "-", "--format", "plain")
+    assert (done.status, done.err) == (3, "ptmcalc: the list names no file; nothing was checked\n")
+
+
+def test_what_gitignore_hides_is_told_and_counted(folder: Path) -> None:
+    (folder / ".gitignore").write_text("*.yaml\n", encoding="utf-8")
+    done = checked()
+    assert done.status == 2
+    assert "12 design files are left out by --exclude or .gitignore" in done.err
+    assert document(done)["run"]["left_out"] == 12
+    assert "the folder holds no design file; 12 are left out" in done.out
 
 
 # -- what goes wrong ------------------------------------------------------------------------------------------------
@@ -296,6 +477,21 @@ def test_a_bug_on_one_file_stops_no_other_and_is_not_kept(
         assert len(said) == 12
     assert checked(*options).out == good.out
     assert checked(*options, "--budget", "50 s").status == 2, "what was broken is tried again"
+
+
+@pytest.mark.parametrize("options", [(), ("--jobs", "1", "--store", "results")], ids=["one by one", "batch"])
+def test_a_file_beyond_the_memory_is_undecided_and_no_bug(
+    folder: Path, options: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("PTMCALC_TRACEBACK", raising=False)
+    with mock.patch("ptmcalc.engine.purse.settle", side_effect=MemoryError):
+        done = ptmcalc("check", "specs/0.yaml", "--format", "json", *options)
+        several = ptmcalc("check", "specs/0.yaml", "specs/1.yaml", "--format", "json", *options)
+    assert (done.status, several.status) == (3, 3)
+    entries = document(done)["files"] + document(several)["files"]
+    assert [(entry["verdict"], entry["diagnostics"][0]["code"]) for entry in entries] == [("undecided", "NUM103")] * 3
+    with_memory = ptmcalc("check", "specs/0.yaml", "specs/1.yaml", "--format", "json", *options)
+    assert (with_memory.status, with_memory.out.count("NUM103")) == (0, 0), "it is no result to keep"
 
 
 class Slow(Executor):

@@ -5,9 +5,14 @@ A real scheduler and real workers, as processes on the loopback.
 
 import json
 import signal
+import socket
+import subprocess
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
+from contextlib import suppress
 from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
@@ -15,7 +20,7 @@ from unittest import mock
 
 import pytest
 from support.cluster import Cluster, cluster
-from support.command import Done, ptmcalc
+from support.command import ROOT, Done, environment, ptmcalc
 
 from ptmcalc.base.errors import UsageError
 from ptmcalc.cli import cluster as ours
@@ -98,10 +103,9 @@ def test_a_scheduler_that_goes_leaves_one_clear_error_and_what_is_done(
         done = checked("--executor", found.executor, "--store", "results", "-o", "json=report.json")
     place = found.executor.removeprefix("dask://")
     assert done.status == 2
-    lines = done.err.splitlines()
-    assert len(lines) == 2
-    assert lines[0].startswith("ptmcalc: interrupted after ")
-    assert lines[1] == f"ptmcalc: the scheduler of dask at `{place}` is gone (what came back by then is kept)"
+    (line,) = done.err.splitlines()
+    assert line.startswith(f"ptmcalc: the scheduler of dask at `{place}` is gone (interrupted after ")
+    assert line.endswith(" of 400 files; the same command goes on from there)")
     assert not Path("report.json").exists(), "a report that is not whole replaces none"
     printed = json.loads(done.out)["files"]
     with Store(Path("results")) as store:
@@ -128,6 +132,58 @@ def test_what_is_no_cluster_is_refused(executor: str, reason: str, specs: Callab
     done = checked("--executor", executor)
     assert (done.status, done.out) == (2, "")
     assert reason in done.err
+
+
+@pytest.mark.parametrize("greeting", [b"", b"SSH-2.0-OpenSSH_9.6\r\n", (2).to_bytes(8, "little")], ids=str)
+def test_a_server_that_is_no_scheduler_ends_the_run_soon(
+    greeting: bytes, specs: Callable[[int], None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A server of HTTP waits to be spoken to; one that begins as dask does may never go on."""
+    monkeypatch.setattr(ours, "_PATIENCE", 0.5)
+    monkeypatch.setattr(ours, "_DEADLINE", 1.0)
+    specs(1)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        held = []
+
+        def answer() -> None:
+            with suppress(OSError):
+                while True:
+                    held.append(server.accept()[0])
+                    held[-1].sendall(greeting)
+
+        threading.Thread(target=answer, daemon=True).start()
+        place = f"127.0.0.1:{server.getsockname()[1]}"
+        begun = time.monotonic()
+        done = checked("--executor", f"dask://{place}")
+        assert time.monotonic() - begun < 10
+    assert (done.status, done.out) == (2, "")
+    assert done.err.startswith(f"ptmcalc: no scheduler of dask answers at `{place}`")
+    assert done.err.count("\n") == 1
+
+
+def test_a_scheduler_that_is_killed_leaves_one_line(tmp_path: Path, specs: Callable[[int], None]) -> None:
+    """In a process of its own: dask would write a traceback to its standard error."""
+    specs(1500)
+    with cluster(tmp_path, 1) as found:
+        command = [
+            sys.executable,
+            "-m",
+            "ptmcalc",
+            "check",
+            "specs",
+            "--format",
+            "summary",
+            "--executor",
+            found.executor,
+        ]
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+        run = subprocess.Popen(command, env=environment(ROOT), text=True, **quiet)  # type: ignore[call-overload]
+        time.sleep(2.0)
+        found.scheduler.kill()
+        _, err = run.communicate(timeout=30)
+    assert run.returncode == 2
+    assert err.count("\n") == 1
+    assert "dask" in err
 
 
 def test_jobs_are_not_those_of_a_cluster(specs: Callable[[int], None]) -> None:

@@ -13,7 +13,8 @@ from support.command import Done, ptmcalc
 
 from ptmcalc.cli import worker
 from ptmcalc.engine import sweep as engine
-from ptmcalc.engine.load import load_file
+from ptmcalc.engine.check import Options, check
+from ptmcalc.engine.load import load_file, load_text
 
 SPEC = Path(__file__).parent / "specs" / "passing.yaml"
 RUN = ("--scene", "run_loaded")
@@ -94,6 +95,35 @@ def test_verdicts_turn_where_solve_says(file: Path) -> None:
     assert "yard.yaml:25  takeup.tension: 10 kN to 40 kN, now 30 kN" in table.out
     assert "where they turn" in table.out
     assert f"from {one['least'] / 1e3:.2f} kN" in table.out
+
+
+EDGES = Path(__file__).parents[1] / "edges" / "tools"
+
+
+def test_windows_between_resonances_are_listed_one_by_one() -> None:
+    """From 0.2 to 0.25 m/s it fails, from 0.45 to 0.6 m/s it passes: between 0.29 and 0.84 m/s neither holds."""
+    command = ("sweep", EDGES / "sweep-windows.yaml", "--vary", "speed=0.2 m/s:1.1 m/s:19", "--scene", "run_loaded")
+    found = document(ptmcalc(*command, "--format", "json"))
+    (one,) = (one for one in found["turnings"] if one["code"] == "CHN101")
+    speeds = [row["values"][0]["value"] for row in found["rows"]]
+    for speed, row in zip(speeds, found["rows"], strict=True):
+        (said,) = (check["verdict"] for check in row["checks"] if check["code"] == "CHN101")
+        assert [part["verdict"] for part in one["intervals"] if part["low"] <= speed <= part["high"]] == [said]
+    for low, high, verdict in ((0.2, 0.25, "fail"), (0.45, 0.6, "pass")):
+        assert [p["verdict"] for p in one["intervals"] if p["low"] <= low and high <= p["high"]] == [verdict]
+    assert "passes 0.2898 m/s to 0.3121 m/s, 0.4223 m/s to 0.6243 m/s" in ptmcalc(*command, "--format", "table").out
+
+
+def test_a_whole_number_varies_too() -> None:
+    """Room for the rope on a drum of 3 m, at every number of layers as `check` has it."""
+    done = ptmcalc("sweep", EDGES / "solve-layers.yaml", "--vary", "drum.layers=1:4:4", "--format", "json")
+    rows = document(done)["rows"]
+    assert [row["values"][0]["value"] for row in rows] == [1, 2, 3, 4]
+    for row in rows:
+        text = (EDGES / "solve-layers.yaml").read_text("utf-8")
+        changed = load_text(text.replace("layers: 1", f"layers: {row['values'][0]['value']:.0f}").encode(), "")
+        told = {one.code: one.verdict.value for _, one in check(changed, Options(repairs=False)).judgements}
+        assert {one["code"]: one["verdict"] for one in row["checks"]} == told
 
 
 def test_boundaries_of_a_grid_are_those_of_its_lines(file: Path) -> None:

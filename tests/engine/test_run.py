@@ -507,6 +507,17 @@ def test_a_load_that_is_not_a_number_is_a_finding_and_undecided() -> None:
     assert scene_of(found).loads == ()
 
 
+def test_a_run_that_finds_no_memory_is_beyond_the_budget_and_undecided() -> None:
+    def greedy(carried: frozenset[str], level: int) -> Estimate:
+        raise MemoryError
+
+    found = report(kind_of(solver("top", greedy)))
+    assert (codes(found), judgement(found).verdict) == (["NUM103"], Verdict.UNDECIDED)
+    assert "top: the computation takes more memory than there is" in found.diagnostics[0].message
+    spared = report(kind_of(solver("low", pull(9)), solver("top", greedy, decides=False)))
+    assert judgement(spared).verdict is Verdict.PASS
+
+
 def test_a_run_that_breaks_down_is_a_finding_and_undecided() -> None:
     def broken(carried: frozenset[str], level: int) -> Estimate:
         raise NumericsError("NUM102", "the rope is slack")

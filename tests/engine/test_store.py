@@ -63,7 +63,8 @@ def test_a_process_stopped_amid_a_transaction_leaves_what_was_before(tmp_path: P
 def test_a_damaged_record_counts_as_absent(tmp_path: Path, column: str) -> None:
     with Store(tmp_path / "results") as store:
         store.add([(key(1), RECORD), (key(2), RECORD)])
-    harm = {"checksum": "1", "text_checksum": "1", "day": "'2026-11-23'", "tally": "replace(tally, '1', '2')"}
+    harm = {"checksum": "1", "text_checksum": "1", "day": "'2026-11-23'"}
+    harm["tally"] = "replace(tally, '\"fail\": 1', '\"fail\": 0')"
     change = harm.get(column, f"cast(x'00' || substr({column}, 2) as blob)")
     with sqlite3.connect(tmp_path / "results") as base:
         base.execute(f"update result set {column} = {change} where key = ?", [key(1)])
@@ -74,7 +75,33 @@ def test_a_damaged_record_counts_as_absent(tmp_path: Path, column: str) -> None:
         else:
             assert store.get(key(1)) is None
             assert [name for name, _ in store.items()] == [key(2)]
+        if column in ("day", "tally"):  # what an exit status is made of, read without the report
+            assert (store.tally(key(1), RECORD.day), store.tally(key(1), "2026-11-23")) == (None, None)
+            assert store.tallies([key(1), key(2)], RECORD.day) == {key(2): RECORD.tally}
         assert store.text(key(2)) == RECORD.text
+
+
+def test_a_record_under_the_key_of_another_counts_as_absent(tmp_path: Path) -> None:
+    """A damaged index leads to the row of another file, which is whole."""
+    with Store(tmp_path / "results") as store:
+        store.add([(key(1), RECORD)])
+    with sqlite3.connect(tmp_path / "results") as base:
+        base.execute("update result set key = ?", [key(2)])
+    base.close()
+    with Store(tmp_path / "results") as store:
+        found = store.get(key(2)), store.tally(key(2), RECORD.day), store.text(key(2)), list(store.items())
+        assert found == (None, None, b"", [])
+
+
+@pytest.mark.parametrize("form", ["cast(x'ff' || tally as text)", "cast(tally as blob)", "3", "''"])
+def test_a_tally_of_another_form_counts_as_absent(tmp_path: Path, form: str) -> None:
+    with Store(tmp_path / "results") as store:
+        store.add([(key(1), RECORD)])
+    with sqlite3.connect(tmp_path / "results") as base:
+        base.execute(f"update result set tally = {form}")
+    base.close()
+    with Store(tmp_path / "results") as store:
+        assert (store.get(key(1)), store.tally(key(1), RECORD.day)) == (None, None)
 
 
 @pytest.mark.parametrize("content", [b"kind: conveyor\n" * 100, b"SQLite format 3\0" + b"x" * 5000])

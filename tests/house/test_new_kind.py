@@ -75,6 +75,7 @@ def done(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
         "plan": ["plan", "sound.yaml", "--format", "json"],
         "solve": ["solve", "overloaded.yaml", "--check", "TOY101", "--vary", "load"],
     }
+    commands["select"] = ["check", "sound.yaml", "--select", "TOY101", "--format", "plain"]
     commands |= {f"check {name}": ["check", f"{name}.yaml"] for name in files}
     result = python("-c", DRIVER, json.dumps(commands), cwd=place, env=environment(*paths))
     assert (result.status, result.err) == (0, "")
@@ -89,6 +90,10 @@ def test_it_stands_among_the_kinds(done: dict[str, Done]) -> None:
     assert {"kind": "toy", "title": "a weight on a hook"} in rows
     assert [row["kind"] for row in rows] == sorted(row["kind"] for row in rows)
     assert "conveyor" in {row["kind"] for row in rows}
+
+
+def test_its_checks_can_be_chosen(done: dict[str, Done]) -> None:
+    assert "pass TOY101" in done["select"].out
 
 
 def test_it_has_a_schema_of_its_own(done: dict[str, Done]) -> None:

@@ -6,6 +6,8 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
+from importlib import metadata
+from pathlib import Path
 
 import pytest
 from support.command import ROOT, ptmcalc, unpainted
@@ -80,6 +82,26 @@ def test_ci_runs_the_commands_of_the_readme_and_no_others_of_its_own() -> None:
             [sys.executable, "-", heading], input=found[1], cwd=ROOT, capture_output=True, text=True, check=True
         )
         assert taken.stdout.strip() == command
+
+
+def test_ci_runs_the_commands_as_a_user_does_and_the_tests_once_more_where_versions_differ(tmp_path: Path) -> None:
+    """A version that only the lock file knows hid what every fresh machine met."""
+    before, _, after = CI.partition("export PIP_CONSTRAINT=")
+    assert before.count('bash -euc "$') == 2
+    assert after.count('bash -euc "$tests"') == 1
+    found = re.search(r"^others\(\).*?<<'PY'\n(.*?)^PY$", CI, re.MULTILINE | re.DOTALL)
+    assert found is not None
+    pins = tmp_path / "pinned.txt"
+    own = metadata.version("pyyaml")
+    for text, said in (
+        (f"pyyaml=={own}\n", ""),
+        ("unheard-of==1.0\n", ""),
+        ("pyyaml==1.0 ; (python_full_version < '3')\n", f"PyYAML {own}, locked 1.0\n"),
+        (f"pyyaml==1.0 ; (a)\npyyaml=={own} ; (b)\n", ""),
+    ):
+        pins.write_text(text, encoding="utf-8")
+        done = subprocess.run([sys.executable, "-", pins], input=found[1], capture_output=True, text=True, check=True)
+        assert done.stdout.lower() == said.lower()
 
 
 def test_ci_is_executable_and_checks_lint_types_and_contracts() -> None:

@@ -792,6 +792,20 @@ def test_a_hundred_thousand_levels_are_refused_at_once(open_: str) -> None:
     assert [problem.code for problem in read(open_ * 100_000).problems] == ["TXT108"]
 
 
+def test_levels_that_the_parser_itself_refuses_have_the_same_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    """PyYAML from 6.0.4 refuses 1000 levels before it hands out the first event; others never do."""
+
+    class Refusing:
+        def __init__(self, text: str) -> None: ...
+
+        def get_event(self) -> yaml.Event:
+            mark = yaml.Mark("a", 3, 0, 3, None, None)
+            raise yaml.scanner.ScannerError("while increasing flow level", mark, "exceeded maximum nesting depth", mark)
+
+    monkeypatch.setattr("ptmcalc.text.document._Loader", Refusing)
+    assert places("a: [[[[") == [("TXT108", 1, 4)]
+
+
 def test_a_mebibyte_is_allowed_and_a_byte_more_is_not() -> None:
     end = b"\na: 1\n"
     largest = b"#" * (MAX_BYTES - len(end)) + end
