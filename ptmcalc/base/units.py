@@ -233,9 +233,12 @@ def _combine(a: Dimension, b: Dimension, power: int) -> Dimension:
 
 
 def _suggest(text: str, part: str) -> str:
-    for candidate in (text, part):
-        if candidate in _HINTS:
-            return _HINTS[candidate]
+    if text in _HINTS:
+        return _HINTS[text]
+    if text != part and (whole := _converted(text)):
+        return whole
+    if part in _HINTS:
+        return _HINTS[part]
     if without_blanks := [joined for sign in ("*", "") if _is_unit(joined := sign.join(text.split()))]:
         return f"write {' or '.join(f'`{unit}`' for unit in without_blanks)}"
     if part[:1] == "m" and part[1:] in UNITS:  # in lower case: `mN` is no slip of `MN`
@@ -246,6 +249,44 @@ def _suggest(text: str, part: str) -> str:
     if close:
         return f"did you mean `{close}`?"
     return "units are SI and engineering ones: " + " ".join(name for name in UNITS if name not in {"1", "°"})
+
+
+_FOREIGN: Mapping[str, tuple[str, float]] = MappingProxyType(
+    {
+        "lb": ("kg", 0.45359237),
+        "lbf": ("N", 4.4482216152605),
+        "kgf": ("N", 9.80665),
+        "kp": ("N", 9.80665),
+        "ft": ("m", 0.3048),
+        "in": ("m", 0.0254),
+        "hp": ("kW", 0.74569987),
+        "sec": ("s", 1.0),
+    }
+)
+"""Units outside the table inside a compound one: the unit of the table, and how many of it they are."""
+
+
+def _converted(text: str) -> str:
+    """How a compound unit with parts outside the table is written, with its factor; empty where that is not known."""
+    factor, found = 1.0, ""
+    above = 1
+    for part in re.split(r"([*/])", text):
+        if part in ("*", "/"):
+            above = -1 if part == "/" else above
+            found += part
+            continue
+        match = _FACTOR.fullmatch(part)
+        name = (match[1] or "") if match else ""
+        if name in UNITS or part == "1":
+            found += part
+        elif match and name in _FOREIGN:
+            unit, size = _FOREIGN[name]
+            power = int(match[2] or 1)
+            factor *= size ** (above * power)
+            found += unit if power == 1 else f"{unit}^{power}"
+        else:
+            return ""
+    return f"write `{found}`: 1 {text} = {factor:.6g} {found}" if _is_unit(found) else ""
 
 
 def _is_unit(text: str) -> bool:

@@ -12,6 +12,7 @@ from pydantic.fields import FieldInfo
 
 from ptmcalc.base.span import KeyPath
 from ptmcalc.spec.fields import Measure
+from ptmcalc.spec.synonyms import by_meaning
 
 Model = type[BaseModel]
 
@@ -159,6 +160,6 @@ def meant(word: str, known: tuple[str, ...]) -> str:
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     """A hint for a word that is not known: the one that is meant, else `otherwise` with the list of them."""
     choice = tuple(known)
-    if close := meant(word, choice):
+    if close := by_meaning(word, choice) or meant(word, choice):
         return f"did you mean `{close}`?"
     return f"{otherwise}{', '.join(choice)}"
