@@ -22,7 +22,7 @@ OF_TRAVEL = (
     LoadInfo("motor_speed", "speed of the motors", units.ANGULAR_SPEED),
     LoadInfo("torque_motor_travel", "torque of all motors, even travel", units.TORQUE, governing=True),
     LoadInfo("power_travel", "power of all motors, even travel", units.POWER, governing=True),
-    LoadInfo("starting_reserve", "mean starting torque over that of even travel", units.RATIO, governing=True),
+    LoadInfo("starting_reserve", "least starting torque over that of even travel", units.RATIO, governing=True),
     LoadInfo("wind_reserve", "driving force over the largest resistance in service", units.RATIO, governing=True),
     LoadInfo("torque_motor_rms", "heating torque of all motors (rms)", units.TORQUE),
     LoadInfo("heating_utilisation", "heating torque over what the duty allows", units.SHARE, governing=True),

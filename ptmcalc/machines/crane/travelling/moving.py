@@ -3,8 +3,6 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.machines.crane.travelling import model, resisting
 from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Moving
@@ -128,11 +126,10 @@ def _rising(spec: Travelling) -> float:
 
 def _least_force(spec: Travelling, force: float) -> float:
     """Of a motor's curve on its way to full speed [N]."""
-    motor = spec.drive.motor
-    if motor.curve is None or isinstance(motor.curve, ConverterMotor):
+    curve = spec.drive.motor.curve
+    if curve is None or isinstance(curve, ConverterMotor):
         return force
-    speeds = np.linspace(0.0, model.motor_speed(spec), 257)
-    return model.driving_force(spec, motor.count * float(np.min(motor.curve.torque(speeds, np.inf))))
+    return model.driving_force(spec, model.least_torque(spec))
 
 
 def stalls(motion: Motion) -> bool:

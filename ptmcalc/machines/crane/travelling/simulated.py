@@ -15,6 +15,7 @@ from ptmcalc.contract.result import Event, Finding, History
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.course import Course, Reading, State, Worst
 from ptmcalc.machines.crane.travelling.linear import linear_course, stalled
+from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -286,7 +287,7 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
 def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     drive = spec.drive
     ratio = model.rim_ratio(spec)
-    wheels = model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2
+    wheels = model.driven_wheels(spec) * filled(spec.wheels.inertia) / model.radius(spec) ** 2
     free = motion.ramp is not None
     brake = drive.brake
     held = braking(brake.torque * ratio, 0.0, brake.delay, brake.rise_time) if brake is not None else None

@@ -87,7 +87,7 @@ def collide(spec: Travelling, scene: Collision, carried: frozenset[str], level: 
     given = spec.buffers
     assert given is not None
     drive, ratio = spec.drive, model.rim_ratio(spec)
-    wheels = model.wheel_count(spec) * spec.wheels.inertia / model.radius(spec) ** 2
+    wheels = model.wheel_count(spec) * filled(spec.wheels.inertia) / model.radius(spec) ** 2
     mass = sum(body.mass for body in model.bodies(spec, 0.0)) + wheels + drive.efficiency * drive.inertia * ratio**2
     mass += model.hanging(spec, scene) if scene.suspension == "guided" else 0.0
     push = drive.torque * ratio * drive.efficiency if scene.drive == "on" else 0.0
@@ -296,7 +296,7 @@ def lean(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> 
     assert given is not None
     base = given.base if given.base is not None else spec.wheels.base
     whole = skew.skew_angle(
-        given.clearance, given.wear, base, skew.LEAST_PLAY[given.type], given.tolerance, given.edition
+        given.clearance, filled(given.wear), base, skew.LEAST_PLAY[given.type], given.tolerance, given.edition
     )
     angle = min(whole, skew.LARGEST_ANGLE)
     full = given.adhesion * (1 - math.exp(-250 * angle))

@@ -107,7 +107,7 @@ TRAVEL_STATICS: Solver[Travelling, TravelScene] = Solver(
 def reserve(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: int) -> Result:
     """What the motors have over the resistance in a scene that begins with them.
 
-        reserve = M_mean/(W r/(u eta))
+        reserve = min M(n)/(W r/(u eta))
 
     **Range** as `travel_statics`.
     **Error** exact for that model.
