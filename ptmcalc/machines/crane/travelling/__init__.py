@@ -16,6 +16,7 @@ from ptmcalc.machines.crane.travelling.effects import EFFECTS_OF_TRAVEL
 from ptmcalc.machines.crane.travelling.factors import CREEPING
 from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.loads import LOADS, parts
+from ptmcalc.machines.crane.travelling.relations import RELATIONS
 from ptmcalc.machines.crane.travelling.solvers import SOLVERS
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -57,8 +58,8 @@ def _plays(spec: Travelling) -> Iterator[Finding]:
     if used > guide.clearance:
         yield Finding(
             "SPC201",
-            f"{units.show(guide.clearance, units.LENGTH)} of play is below the least of EN 1991-3 with {guide.type}: the"
-            f" angle of skewing is computed with {units.show(least, units.LENGTH)}",
+            f"{units.show(guide.clearance, units.LENGTH)} of play is below the least of EN 1991-3 with {guide.type}:"
+            f" the angle of skewing is computed with {units.show(least, units.LENGTH)}",
             ("guide", "clearance"),
             f"write `clearance: {units.show(least / 0.75, units.LENGTH)}` or more, or another `edition`",
         )
@@ -80,4 +81,5 @@ TRAVELLING = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     parts=parts,
+    relations=RELATIONS,
 )

@@ -44,8 +44,8 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=_torque,
     repair=torque_repair,
-    what="The smallest torque of the motors up to full speed exceeds the torque of even travel against friction, slope and the wind in which the"
-    " crane works, by the reserve asked.",
+    what="The smallest torque of the motors up to full speed exceeds the torque of even travel against friction, slope"
+    " and the wind in which the crane works, by the reserve asked.",
     why="A motor below the resistance does not move the crane: it stalls and burns.",
     formula="min M(n)/(W r/(u eta)) >= 1.1",
     source="power balance of the gear; handbooks of lifting machines",

@@ -53,6 +53,8 @@ class Motion:
     """of the brake [s]"""
     rising: float
     """time in which a converter's reference rises, where it starts the crane up to a limit of torque [s]"""
+    looks: float
+    """length of the window of time that is looked at, over the usual one [1]"""
     rotor: float
     """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
     rotor_braked: float
@@ -113,6 +115,7 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         delay=brake.delay if brake is not None else 0.0,
         rise=brake.rise_time if brake is not None else 0.0,
         rising=_rising(spec) if starts else 0.0,
+        looks=scene.window_factor,
         rotor=model.rotor_mass(spec, braking=False),
         rotor_braked=model.rotor_mass(spec, braking=True),
     )

@@ -192,7 +192,7 @@ def turns(spec: Travelling, scene: Moving) -> float:
         return math.inf
     mass = motion.body + motion.rotor
     stiffer = 1.0 if motion.ramp is not None else 1 + motion.load / mass
-    return lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi
+    return motion.looks * (lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi)
 
 
 def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
@@ -211,7 +211,7 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
     reached, legs = _until_speed(spec, scene, motion, tolerance)
     begins = max(reached, motion.hoist_time)
     length = motion.length - motion.hoisting * motion.hoist_time
-    window = begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity)
+    window = motion.looks * (begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity))
     legs = _lengthened(tolerance, legs, window)
     there = None if motion.ramp is not None else _there(motion, legs[-1].swing)
     if there is not None:  # a longer run comes there at its own time: before it the crane moves, after it it does not

@@ -61,7 +61,7 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail A to rail B"""
-    centre: Annotated[PositiveSpan | None, Assumed()] = None
+    centre: Annotated[PositiveSpan | None, Absent("bridges are alike on both sides")] = None
     """of gravity, from rail A; in the middle when left out"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
@@ -159,7 +159,7 @@ class Rail(Fragment):
     """What it runs on."""
 
     slope: Annotated[
-        Slope, Assumed(0.0, 0.0, 0.002, "runways are laid to 0.001 to 0.002 along their length (ISO 12488-1)")
+        Slope, Assumed(0.0, 0.0, 0.001, "runways are laid to a slope of 0.001 along their length (ISO 12488-1)")
     ] = 0.0
     """rise over length"""
     adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
@@ -407,7 +407,8 @@ class Travelling(MachineSpec):
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
     """what happens to the machine; when left out: even travel, a start and a stop, loaded and empty, and what the
-    file has the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing, a storm"""
+    file has the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
+    a storm"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
