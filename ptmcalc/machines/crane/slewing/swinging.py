@@ -232,7 +232,7 @@ def _against(spec: SlewingCrane, scene: SlewingScene, since: float, *, gust: boo
     steady = -(model.steady_torque(spec, scene) - spec.friction)
     if not gust or spec.wind.gust_torque == 0:
         return Pieces.constant(steady)
-    rise, lasts, most = spec.wind.gust_rise, spec.wind.gust_time, spec.wind.gust_torque
+    rise, lasts, most = (spec.wind.gust_rise or 2.0), (spec.wind.gust_time or 5.0), spec.wind.gust_torque
     times, sizes = (0.0, rise, rise + lasts, 2 * rise + lasts), (0.0, most, most, 0.0)
     points = [(0.0, steady - float(np.interp(since, times, sizes)))]
     points += [(time - since, steady - size) for time, size in zip(times, sizes, strict=True) if time > since]
@@ -246,6 +246,7 @@ def _stop(march: _March, rigid: float) -> tuple[float, float]:
     """The stop: when the crane stands for the first time, and the farthest position it gets to."""
     spec, brake = march.spec, march.spec.brake
     after = _PERIODS_AFTER * _period(spec)
+    after += (march.scene.window_factor - 1) * (march.time + rigid + after)
     blown = Pieces.constant(model.driving_wind(spec, march.scene))
     if brake is None or spec.gear.back <= 0:
         ramp = max(rigid, 1e-3 * _period(spec))

@@ -83,14 +83,14 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     hanging = model.hanging_mass(spec, scene) * spec.gravity
     tension, across, along = (moved.farthest(name) for name in ("tension", "pull_across", "pull_along"))
     sideways = math.hypot(across.value + across.bar, along.value + along.bar)
-    wind, head = spec.ring.wind_force or 0.0, spec.ring.head_height
+    wind, head = spec.ring.wind_force or 0.0, (spec.ring.head_height or 0.0)
     own = ring.moment_above(spec)
     behind = abs(own) / spec.gravity * spec.speed**2
     jerk = moved.farthest("acceleration")
     dragged = abs(own) / spec.gravity * math.hypot(spec.speed**2, jerk.value + jerk.bar)
     upright = tension.value + tension.bar
     down = math.sqrt(max(tension.value**2 - sideways**2, 0.0))
-    blown = wind * spec.ring.wind_height
+    blown = wind * (spec.ring.wind_height or 0.0)
     tilting = (own + load.radius * down, own + load.radius * upright)
     still = own + load.radius * hanging
     found = {
@@ -128,6 +128,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     omega = math.sqrt((spec.gravity + spec.speed**2 * load.radius) / load.rope_length)
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     whole = 3 * start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
+    whole *= scene.window_factor
     if not math.isfinite(whole):
         return 0.01
     return (0.08 + 8e-3 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)
