@@ -255,11 +255,9 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, loads: Loads, pull: float, an
     jerk = (torque + radius * largest * sine) / crane
     dragged = abs(ring.moment_above(spec)) / spec.gravity * (jerk + 2 * spec.speed**2)
     more, sideways = max(largest - mass * spec.gravity, 0.0), largest * sine
+    head = spec.ring.head_height or 0.0
     return {
         "ring_force_axial": Interval(0.0, more),
         "ring_force_radial": Interval(-mass * radius * spec.speed**2 - dragged, sideways + dragged),
-        "ring_moment": Interval(
-            -mass * radius * spec.speed**2 * (spec.ring.head_height or 0.0),
-            radius * more + sideways * (spec.ring.head_height or 0.0),
-        ),
+        "ring_moment": Interval(-mass * radius * spec.speed**2 * head, radius * more + sideways * head),
     }
