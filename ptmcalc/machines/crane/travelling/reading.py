@@ -9,7 +9,7 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, of
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling import model, stability
 from ptmcalc.machines.crane.travelling.checks import rate_key
 from ptmcalc.machines.crane.travelling.course import Course, State, extreme
 from ptmcalc.machines.crane.travelling.moving import motion_of
@@ -79,6 +79,8 @@ def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found
     for name, largest in (("wheel_load_max", True), ("wheel_load_min", False)):
         worst = course.extreme(partial(_wheel, wheels, largest), largest)
         loads[name] = Found(worst.estimate, note=f"{wheels.where(worst.state, largest)}, {worst.phase}")
+    tips = course.extreme(partial(stability.reserve, spec, scene), largest=False).estimate
+    loads["stability_reserve"] = Found(tips)
     if model.hanging(spec, scene):
         period = 2 * math.pi * math.sqrt(model.rope_length(spec, scene) / spec.gravity)
         loads["sway_period"] = Found(Estimate.exact(period))

@@ -314,6 +314,8 @@ class Classes(Fragment):
     """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
     play: Literal["small", "large"] = "small"
     """of the travel drive, for phi5"""
+    stability: Literal["en_13001_2", "fem_1_001"] = "en_13001_2"
+    """by which standard's partial factors it is proved that the crane does not tip"""
     buffer_edition: Literal["line", "two_values"] = "line"
     """phi7 along a line by the shape of the buffer's curve (EN 13001-2, ISO 8686-1), or one of two values"""
 
