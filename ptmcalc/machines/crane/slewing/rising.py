@@ -57,7 +57,7 @@ def rise_of(spec: SlewingCrane, scene: SlewingScene) -> Rise | None:
     inertia = model.slew_inertia(spec, scene) + model.rotor_at_column(spec)
     steady = model.steady_torque(spec, scene)
     factor = spec.motor.count * spec.gear.ratio * spec.gear.efficiency
-    return _rise(spec.motor.curve, spec.motor.count, inertia, steady, factor, spec.gear.ratio, spec.speed)  # type: ignore[arg-type]
+    return _rise(spec.motor.curve, spec.motor.count, inertia, steady, factor, spec.gear.ratio, spec.speed)
 
 
 @lru_cache(maxsize=64)

@@ -152,7 +152,7 @@ def _followed(one: yawing.Yawing, tolerance: float) -> dict[str, float]:
     )  # fmt: skip
     times = np.linspace(0.0, float(run.t[-1]), _STROKE_LOOKS)
     looks = run.sol(times)
-    tops = [_top(looks[side], looks[side + 3], times) for side in (0, 1)]
+    tops = [_deepest(looks[side], looks[side + 3], times) for side in (0, 1)]
     side = int(tops[1] > tops[0])
     forces = [one.force(min(float(u), given.stroke), float(v)) for u, v in looks[[side, side + 3]].T]
     most = max(forces) if given.type == "hydraulic" else one.force(min(tops[side], given.stroke), start)
@@ -170,7 +170,7 @@ def _followed(one: yawing.Yawing, tolerance: float) -> dict[str, float]:
     }
 
 
-def _top(strokes: Any, rates: Any, times: Any) -> float:
+def _deepest(strokes: Any, rates: Any, times: Any) -> float:
     """Largest stroke, where its rate vanishes between two looks too."""
     best = int(strokes.argmax())
     top = float(strokes[best])
