@@ -23,6 +23,7 @@ from ptmcalc.spec.fields import (
     PositiveStiffness,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 _SLOW = 0.01
 """PositiveShare of the speed from which on something in an orifice buffer stands."""
@@ -41,25 +42,28 @@ class Buffer(Fragment):
     type: Literal["linear", "progressive", "constant", "hydraulic"] = "linear"
     """`linear`: springs, rubber; `progressive`: cellular plastic, its force grows as a power of the stroke; `constant`:
     friction, hydraulic with a tapered pin; `hydraulic`: one orifice, its force goes with the square of the speed"""
-    count: Annotated[int, Field(ge=1, le=16, strict=True)] = 2
+    count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one on each rail, as cranes have them")] = 2
     """buffers that are hit at once, one on each rail"""
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[PositiveStiffness | None, OneOf("force, end_force, orifice")] = None
     """of one `linear` buffer"""
-    force: PositiveForce | None = None
+    force: Annotated[PositiveForce | None, OneOf("stiffness, end_force, orifice")] = None
     """of one `constant` buffer"""
-    end_force: PositiveForce | None = None
+    end_force: Annotated[PositiveForce | None, OneOf("stiffness, force, orifice")] = None
     """of one `progressive` buffer at the end of its stroke"""
-    power: Annotated[float, Measure(units.RATIO, above=0, at_most=10)] = 2.0
+    power: Annotated[
+        Annotated[float, Measure(units.RATIO, above=0, at_most=10)],
+        Assumed(2.0, 1.5, 3.0, "cellular plastic: 2 to 3; rubber about 1.5"),
+    ] = 2.0
     """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
-    orifice: PositiveLineMass | None = None
+    orifice: Annotated[PositiveLineMass | None, OneOf("stiffness, force, end_force")] = None
     """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
     stroke: PositiveLength
     """way it can be pressed in"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of one buffer, or of what it stands on; needed to check it"""
-    largest_speed: PositiveSpeed | None = None
+    largest_speed: Annotated[PositiveSpeed | None, Limit()] = None
     """it may be hit with, from its maker's list"""
-    shape: PositiveFraction | None = None
+    shape: Annotated[PositiveFraction | None, Absent("that of the curve which the `type` has")] = None
     """energy over largest force times stroke; by the type when left out"""
 
     @classmethod

@@ -23,6 +23,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 PartsFactor = Annotated[float, Measure(units.FACTOR, at_least=1, at_most=3)]
 
@@ -30,31 +31,31 @@ PartsFactor = Annotated[float, Measure(units.FACTOR, at_least=1, at_most=3)]
 class SlewMotor(Fragment):
     """The slewing motors, one of several equal ones."""
 
-    count: Annotated[int, Field(ge=1, le=16, strict=True)] = 1
+    count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one motor, the least torque")] = 1
     """number of equal motors"""
     inertia: PositiveInertia
     """rotor of one motor"""
-    coupling_inertia: Inertia | None = None
+    coupling_inertia: Annotated[Inertia | None, OneOf("coupling_factor")] = None
     """coupling and brake disc of one motor, on the motor shaft, or give `coupling_factor`"""
-    coupling_factor: PartsFactor | None = None
+    coupling_factor: Annotated[PartsFactor | None, Assumed()] = None
     """rotor with coupling over the rotor alone, 1.4 to 2; 1.7 is assumed when neither is given"""
-    mean_starting_torque: PositiveTorque | None = None
+    mean_starting_torque: Annotated[PositiveTorque | None, OneOf("largest_starting_torque, curve")] = None
     """mean starting torque of one motor, or give the largest and the smallest, or a `curve`"""
-    largest_starting_torque: PositiveTorque | None = None
+    largest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque, curve")] = None
     """torque after each step of a rheostat start, one motor"""
-    smallest_starting_torque: PositiveTorque | None = None
+    smallest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque, curve")] = None
     """torque before each step of a rheostat start, one motor"""
     curve: AnyMotor | None = None
     """torque over speed of one motor"""
-    speed: PositiveAngularSpeed | None = None
+    speed: Annotated[PositiveAngularSpeed | None, Absent("only compared with that of the crane")] = None
     """rated speed; compared with that of the crane and the ratio"""
-    rated_torque: PositiveTorque | None = None
+    rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """of one motor, or give `power` and `speed`; needed to check its heating"""
-    power: PositivePower | None = None
+    power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor"""
-    rated_duty: PositiveShare = 1.0
+    rated_duty: Annotated[PositiveShare, Absent("continuous: the least torque a motor of this rating bears")] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
-    largest_torque: PositiveTorque | None = None
+    largest_torque: Annotated[PositiveTorque | None, Limit()] = None
     """the most one motor may be loaded with for a short time"""
 
     @classmethod
@@ -108,7 +109,7 @@ class OpenGear(Fragment):
 
     ratio: PositiveRatio
     """pinion speed over speed of the crane"""
-    efficiency: Efficiency = 0.95
+    efficiency: Annotated[Efficiency, Assumed(0.95, 0.92, 0.97, "open stages with grease 0.92 to 0.97")] = 0.95
     """of this stage"""
 
 
@@ -119,15 +120,17 @@ class SlewGear(Fragment):
     """motor speed over speed of the crane, open stage included"""
     efficiency: Efficiency
     """from motor to crane, open stage included"""
-    reverse_efficiency: ReverseEfficiency | None = None
+    reverse_efficiency: Annotated[ReverseEfficiency | None, Assumed()] = None
     """from crane to motor; 2 - 1/efficiency when left out, negative for a self-locking worm"""
     open: OpenGear | None = None
     """the open stage; needed for the torque of the pinion"""
-    rotating_factor: PartsFactor = 1.15
+    rotating_factor: Annotated[PartsFactor, Assumed(1.15, 1.1, 1.2, "shafts and wheels of the gear add 10 to 20 %")] = (
+        1.15
+    )
     """all rotating parts of the drive over those on the motor shaft, 1.1 to 1.2"""
-    rated_torque: PositiveTorque | None = None
+    rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """of the gearbox on its fast shaft, in its group of the mechanism; needed to check it"""
-    pinion_torque: PositiveTorque | None = None
+    pinion_torque: Annotated[PositiveTorque | None, Limit()] = None
     """that the open pinion bears for its life; needed to check it"""
 
     @classmethod
@@ -161,7 +164,7 @@ class SlewBrake(Fragment):
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "crane"] = "motor"
     """the shaft it sits on: the motor's, or the slewing axis"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
     """from switching off until it begins to act"""
-    rise_time: Time = 0.0
+    rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until its full torque, in a straight line"""

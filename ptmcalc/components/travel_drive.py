@@ -1,7 +1,7 @@
 """The drive that makes a crane, a trolley or a stacker travel: motors, gear, brakes, and how it is controlled."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from ptmcalc.components.drive import Gear
 from ptmcalc.components.duty_motor import DutyMotor
@@ -14,6 +14,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+from ptmcalc.spec.optional import Absent, Assumed
 
 _SELF_LOCKING = 0.5
 
@@ -21,7 +22,7 @@ _SELF_LOCKING = 0.5
 class TravelGear(Gear):
     """The gear between motors and driven wheels, the last stage included."""
 
-    reverse_efficiency: Efficiency | None = None
+    reverse_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from wheel to motor; 2 - 1/efficiency when left out"""
 
     @classmethod
@@ -40,9 +41,9 @@ class TravelBrake(Fragment):
 
     torque: PositiveTorque
     """of all brakes together, fully applied"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "travel brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
     """from switching off until they begin to act"""
-    rise_time: Time = 0.0
+    rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until their full torque, in a straight line"""
 
 
@@ -55,12 +56,12 @@ class TravelDrive(Fragment):
     """between motor shafts and driven wheels"""
     brake: TravelBrake | None = None
     """the brakes; without them the machine stops by `deceleration`"""
-    acceleration: PositiveAcceleration | None = None
+    acceleration: Annotated[PositiveAcceleration | None, Absent("the motors start with their torque")] = None
     """of a drive that keeps to a ramp of speed (converter); or give `ramp_time`; without either the motors start with
     their mean starting torque"""
-    ramp_time: PositiveTime | None = None
+    ramp_time: Annotated[PositiveTime | None, Absent("the motors start with their torque")] = None
     """from rest to full speed, instead of `acceleration`"""
-    deceleration: PositiveAcceleration | None = None
+    deceleration: Annotated[PositiveAcceleration | None, Absent("the brakes stop the machine")] = None
     """of a service stop along a ramp of speed; without it the brakes stop the machine"""
     wheels: Literal["separate", "coupled"] = "separate"
     """whether every driven wheel has its own share of the torque, or all are geared to one shaft"""
@@ -86,6 +87,15 @@ class TravelDrive(Fragment):
     def efficiency(self) -> float:
         """From motor to wheel [1]."""
         return self.gear.efficiency if self.gear.efficiency is not None else 1.0
+
+    @property
+    def reverse_range(self) -> tuple[float, float]:
+        """Least and largest efficiency from wheel to motor that a gear of this efficiency has [1].
+
+        With the same loss both ways it is 2 - 1/efficiency; losses that grow with the torque alone make it as large as
+        the efficiency, with which the brakes have most of the crane to stop.
+        """
+        return gearing.reverse_efficiency(self.efficiency), self.efficiency
 
     @property
     def reverse_efficiency(self) -> float:

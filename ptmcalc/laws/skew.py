@@ -67,6 +67,29 @@ def skew_angle(
     **Error** none: conventions; the full play is what geometry allows, the others are less likely to be reached.
     **Source** EN 13001-2 and EN 1991-3, skewing, as quoted from memory; to be confirmed.
     """
+    return skew_play(play, least_play, edition) / guide_distance + wear / guide_distance + tolerance
+
+
+def skew_play(play: float, least_play: float, edition: str = EN_13001_2) -> float:
+    """Play of a guide that counts for the angle of skewing.
+
+        full: s = x;   en_13001_2: s = x up to 4/3 x_min, 3/4 x above;   en_1991_3: s = 3/4 x, at least x_min
+
+    Args:
+        play: x, between guides and rail, new [m].
+        least_play: x_min, `LEAST_PLAY` [m].
+        edition: `full`, `en_13001_2` or `en_1991_3`.
+
+    Returns:
+        s; larger than x where EN 1991-3 puts its least play in place of x [m].
+
+    Raises:
+        ValueError: for another edition.
+
+    **Range** any play.
+    **Error** none: conventions.
+    **Source** EN 13001-2 and EN 1991-3, skewing, as quoted from memory; to be confirmed.
+    """
     plays = {
         FULL_PLAY: play,
         EN_13001_2: play if play <= 4 / 3 * least_play else 0.75 * play,
@@ -74,7 +97,7 @@ def skew_angle(
     }
     if edition not in plays:
         raise ValueError(f"the play of guides goes by {FULL_PLAY}, {EN_13001_2} or {EN_1991_3}")
-    return plays[edition] / guide_distance + wear / guide_distance + tolerance
+    return plays[edition]
 
 
 def skew_friction(angle: ArrayLike, adhesion: float) -> FloatArray:

@@ -9,6 +9,7 @@ from ptmcalc.machines.crane.slewing.effects import EFFECTS
 from ptmcalc.machines.crane.slewing.figures import FIGURES
 from ptmcalc.machines.crane.slewing.inspection import inspect
 from ptmcalc.machines.crane.slewing.loads import LOADS
+from ptmcalc.machines.crane.slewing.relations import RELATIONS
 from ptmcalc.machines.crane.slewing.solvers import SOLVERS
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
 
@@ -26,5 +27,6 @@ SLEWING = MachineKind(
     symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,
+    relations=RELATIONS,
     seconding=witnesses_in(__package__),
 )

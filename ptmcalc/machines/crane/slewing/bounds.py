@@ -91,8 +91,9 @@ def _torques(
     found: dict[str, Interval] = {}
     for by in (False, True):
         at = chain.torques(spec, scene, at_column, by_direction=by)
-        equivalent = _mean(times, (at.start, at.steady, at.brake), spec.cycle.exponent)
-        worm = _mean(times, at.fast, spec.cycle.exponent)
+        more = chain.worth(spec, scene, spec.cycle.exponent)
+        equivalent = _mean(times, (more * at.start, at.steady, at.brake), spec.cycle.exponent)
+        worm = _mean(times, (more * at.fast[0], *at.fast[1:]), spec.cycle.exponent)
         one = {
             "torque_equivalent": equivalent,
             "torque_worm": worm,
@@ -106,7 +107,8 @@ def _torques(
             for name in one
         }  # fmt: skip
     motors = spec.motor.count
-    heating = _mean(times[:2], (at.fast[0] / motors, at.fast[1] / motors), 2.0)
+    hot = chain.worth(spec, scene, 2.0) * at.fast[0]
+    heating = _mean(times[:2], (hot / motors, at.fast[1] / motors), 2.0)
     found["torque_motor_rms"] = heating
     if spec.motor.rated is not None:
         on = (times[0].low + steady.low, times[0].high + steady.high)
@@ -158,8 +160,14 @@ def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
     reach, angle = slewing.swing_reach(driven, mass, radius, rope, speed, gravity)
     least, most = slewing.momentum_range(driven, mass, reach, speed)
     rigid = (driven + mass * radius**2) * speed
-    known = loads["start_time"]
+    known = _bar(loads["start_time"])
     start_torque = start_of(spec, scene)[1]
+    spread = model.torque_range(spec, scene)
+    if spread is not None:  # the load may keep the motor at any part of its curve
+        left = [model.at_column(spec, torque) - model.steady_torque(spec, scene) for torque in spread[:2]]
+        slowest, fastest = (rigid / one if one > 0 else math.inf for one in left)
+        known = Interval(min(known.low, fastest), max(known.high, slowest))
+        start_torque = model.at_column(spec, spread[1])
     free = rigid / known.low if known.low > 0 else math.inf
     beside = speed * (math.sqrt(reach**2 + driven / mass) + reach + radius)
     pull = mass * (gravity + beside**2 / rope + radius * speed**2)
@@ -169,7 +177,7 @@ def of_swing(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
         start, turned = ANYTHING, None
     else:
         start = Interval(known.low * (driven * speed + least) / rigid, known.high * (driven * speed + most) / rigid)
-        steady = known.high - known.low <= 1e-12 * known.high
+        steady = spread is None and known.high - known.low <= 1e-12 * known.high
         lowest = driven * speed / (2 * rigid) * known.low * speed if steady else -speed * start.high
         turned = Interval(lowest, speed * start.high)
     stop, end_angle = _stop(spec, scene, driven, reach, most)
@@ -247,10 +255,9 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, loads: Loads, pull: float, an
     jerk = (torque + radius * largest * sine) / crane
     dragged = abs(ring.moment_above(spec)) / spec.gravity * (jerk + 2 * spec.speed**2)
     more, sideways = max(largest - mass * spec.gravity, 0.0), largest * sine
+    head = spec.ring.head_height or 0.0
     return {
         "ring_force_axial": Interval(0.0, more),
         "ring_force_radial": Interval(-mass * radius * spec.speed**2 - dragged, sideways + dragged),
-        "ring_moment": Interval(
-            -mass * radius * spec.speed**2 * spec.ring.head_height, radius * more + sideways * spec.ring.head_height
-        ),
+        "ring_moment": Interval(-mass * radius * spec.speed**2 * head, radius * more + sideways * head),
     }

@@ -1,10 +1,11 @@
 """The chain of a rotation: times, shares, torques of its phases, and what they are worth."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ptmcalc.laws import brake, slewing
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing import model, rising
 from ptmcalc.machines.crane.slewing.loads import OF_THE_CHAIN
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
@@ -88,14 +89,23 @@ def torques(
     return Torques(torque_start, steady, inertia, stop, (torque_start / forward, steady / forward, fast))
 
 
-def loads(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques, *, rounded: bool) -> Mapping[str, float]:
-    """All loads of the chain."""
+def worth(spec: SlewingCrane, scene: SlewingScene, power: float) -> float:
+    """What the torque of a start along a motor's curve is worth, over its mean; 1 without a curve."""
+    rise, mean = rising.rise_of(spec, scene), model.motor_torque(spec, scene)
+    return 1.0 if rise is None or not mean or mean < 0 or math.isinf(rise.time) else rise.mean(power) / mean
+
+
+def loads(
+    spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques, *, rounded: bool, even: bool = False
+) -> Mapping[str, float]:
+    """All loads of the chain; with `even` the starting torque counts by its mean, as handbooks have it."""
     shares = [time / times.whole for time in (times.start[0], times.steady[0], times.brake[0])]
     if rounded:
         shares = [round(share, 3) for share in shares]
     exponent = spec.cycle.exponent
-    equivalent = slewing.fatigue_torque(shares, [at.start, at.steady, at.brake], exponent)
-    worm = slewing.fatigue_torque(shares, at.fast, exponent)
+    more = 1.0 if even else worth(spec, scene, exponent)
+    equivalent = slewing.fatigue_torque(shares, [more * at.start, at.steady, at.brake], exponent)
+    worm = slewing.fatigue_torque(shares, (more * at.fast[0], *at.fast[1:]), exponent)
     found = {
         "slew_inertia": model.slew_inertia(spec, scene),
         "start_time": times.start[0],

@@ -48,7 +48,7 @@ def _torque_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 
 
 def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Least mean starting torque over that of steady slewing, 1.1 by default.
+    """Least starting torque over that of steady slewing, 1.1 by default.
 
     **Range** motors that start against friction, steady wind and slope.
     **Error** none: an engineering rule.
@@ -67,8 +67,8 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec, scene),
     repair=_torque_repair,
-    what="The mean starting torque, carried to the slewing axis, exceeds friction, steady wind and slope by the reserve"
-    " asked.",
+    what="The starting torque, the least of a curve, carried to the slewing axis, exceeds friction, steady wind and"
+    " slope by the reserve asked.",
     why="A motor below the resistance does not turn the crane: it stalls and burns.",
     formula="M_m u eta/(M_fr + M_w) >= 1.1",
     source="balance of torques about the slewing axis; handbooks of lifting machines",

@@ -4,7 +4,7 @@ import math
 
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.chain import Phases, Torques
+from ptmcalc.machines.crane.slewing.chain import Phases, Torques, worth
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -33,15 +33,18 @@ def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques
     """Reserves, heat and whatever the drive is asked."""
     gear, motor = spec.gear, spec.motor
     against = spec.friction + model.driving_wind(spec, scene)
+    spread = model.torque_range(spec, scene)
+    least, start = model.least_torque(spec, scene), at.start
+    if least is not None:
+        start = model.at_column(spec, least)
     loads = {
-        "torque_motor_start": at.fast[0],
+        "torque_motor_start": at.fast[0] if spread is None else model.largest_torque(spec),
         "torque_brake_required": required_brake(spec, scene),
-        "starting_reserve": ratio_to(at.start, at.steady),
-        "wind_reserve_motor": ratio_to(at.start, against),
+        "starting_reserve": ratio_to(start, at.steady),
+        "wind_reserve_motor": ratio_to(start, against),
         "rotation_used": (times.start[1] + times.brake[1]) / spec.cycle.rotation,
         "gear_locks": max(-gear.back, 0.0) * model.slew_inertia(spec, scene) / model.rotor_at_axis(spec),
     }
-    least = model.least_torque(spec, scene)
     if least is not None:
         loads["speed_reserve"] = ratio_to(model.at_column(spec, least), at.steady)
     if spec.brake is not None:
@@ -49,7 +52,9 @@ def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques
         loads["wind_reserve_brake"] = ratio_to(held, model.driving_wind(spec, scene))
     if math.isfinite(times.whole):
         pieces = [times.start[0], times.steady[0]]
-        heating = duty.rms_torque([at.fast[0] / motor.count, at.fast[1] / motor.count], pieces)
+        heating = duty.rms_torque(
+            [worth(spec, scene, 2.0) * at.fast[0] / motor.count, at.fast[1] / motor.count], pieces
+        )
         loads["torque_motor_rms"] = heating
         if motor.rated is not None:
             on = sum(pieces) / (times.whole + spec.cycle.pause)

@@ -149,6 +149,9 @@ def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets
     momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
     known = loads["start_time"]
     left = momentum / known.high - gust if known.high > 0 else -1.0
+    spread = model.torque_range(spec, scene)
+    if spread is not None:  # what is left where the motor is weakest
+        left = min(left, model.at_column(spec, spread[0]) - model.steady_torque(spec, scene) - gust)
     wide = Interval(known.low, momentum / left if left > 0 else math.inf)
     if not SWINGING.isdisjoint(loads):
         return bounds.unknown(loads, SWINGING)
@@ -230,7 +233,7 @@ def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> 
         return {}
     lean = pendulum.slewing_lean(spec.speed, load.radius, load.rope_length, spec.gravity)
     pull = model.hanging_mass(spec, scene) * spec.speed**2 * load.rope_length * math.sin(lean)
-    added = {"ring_force_radial": pull, "ring_moment": pull * spec.ring.head_height}
+    added = {"ring_force_radial": pull, "ring_moment": pull * (spec.ring.head_height or 0.0)}
     return {name: Interval(0.0, value) for name, value in added.items() if name in loads}
 
 

@@ -69,5 +69,5 @@ def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) 
 def _equivalent(spec: SlewingCrane, scene: SlewingScene, start: float, torque: float, *, rounded: bool) -> str:
     times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
     at = chain.torques(spec, scene, model.at_column(spec, torque), by_direction=False)
-    found = chain.loads(spec, scene, times, at, rounded=rounded)["torque_equivalent"]
+    found = chain.loads(spec, scene, times, at, rounded=rounded, even=True)["torque_equivalent"]
     return units.show(found, units.TORQUE)

@@ -25,9 +25,9 @@ OF_THE_CHAIN = (
     LoadInfo("power_gearbox", "power of the gearbox by the equivalent torque", units.POWER),
 )
 OF_THE_DRIVE = (
-    LoadInfo("torque_motor_start", "motor torque of the start, all motors", units.TORQUE),
+    LoadInfo("torque_motor_start", "largest motor torque of the start, all motors", units.TORQUE),
     LoadInfo("torque_brake_required", "brake torque on the motor shaft for the allowed angle", units.TORQUE),
-    LoadInfo("starting_reserve", "mean starting torque over that of steady slewing", units.RATIO),
+    LoadInfo("starting_reserve", "least starting torque over that of steady slewing", units.RATIO),
     LoadInfo("speed_reserve", "least starting torque of the curve over that of steady slewing", units.RATIO),
     LoadInfo("wind_reserve_motor", "starting torque over friction and the largest wind", units.RATIO),
     LoadInfo("wind_reserve_brake", "closed brake and friction over the largest wind", units.RATIO),

@@ -15,18 +15,18 @@ def hanging_mass(spec: SlewingCrane, scene: SlewingScene) -> float:
     """Load and hook block on the rope [kg]."""
     if spec.load is None:
         return 0.0
-    return spec.load.hook_block + (spec.load.mass if scene.load == "full" else 0.0)
+    return (spec.load.hook_block or 0.0) + (spec.load.mass if scene.load == "full" else 0.0)
 
 
 def structure_inertia(spec: SlewingCrane) -> float:
     """All that slews without what hangs, about the slewing axis [kg*m^2]."""
     load = spec.load
     if spec.inertia is not None:
-        return spec.inertia - ((load.mass + load.hook_block) * load.radius**2 if load is not None else 0.0)
+        return spec.inertia - ((load.mass + (load.hook_block or 0.0)) * load.radius**2 if load is not None else 0.0)
     total = 0.0
     for body in (spec.slewing_part, spec.counterweight):
         if body is not None:
-            total += bodies.parallel_axis(body.inertia, body.mass, body.radius)
+            total += bodies.parallel_axis(body.inertia or 0.0, body.mass, body.radius)
     if spec.jib is not None:
         total += bodies.rod_radial(spec.jib.mass, spec.jib.length, spec.jib.foot_radius)
     return total
@@ -130,6 +130,13 @@ def least_torque(spec: SlewingCrane, scene: SlewingScene) -> float | None:
         return None
     torques = curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf)
     return spec.motor.count * float(np.min(torques))
+
+
+def largest_torque(spec: SlewingCrane) -> float:
+    """Largest torque of all motors up to the speed of the crane, of a motor's curve [N*m]."""
+    curve = spec.motor.curve
+    assert curve is not None
+    return spec.motor.count * float(np.max(curve.torque(np.linspace(0.0, spec.speed * spec.gear.ratio, 4001), np.inf)))
 
 
 def rotor_at_axis(spec: SlewingCrane) -> float:

@@ -57,8 +57,8 @@ def _use(spec: SlewingCrane, curve: Sequence[RingPoint], hanging: float, outward
 
 def _moment(spec: SlewingCrane, hanging: float, outwards: float, wind: float) -> float:
     assert spec.load is not None
-    standing = moment_above(spec) + hanging * spec.load.radius + outwards * spec.ring.head_height
-    return abs(standing) + wind * spec.ring.wind_height
+    standing = moment_above(spec) + hanging * spec.load.radius + outwards * (spec.ring.head_height or 0.0)
+    return abs(standing) + wind * (spec.ring.wind_height or 0.0)
 
 
 def borne(curve: Sequence[RingPoint], axial: float) -> float:

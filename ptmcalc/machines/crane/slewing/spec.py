@@ -31,7 +31,8 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
+from ptmcalc.spec.scene import TransientScene
 
 Slope = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=0.5)]
 SwayAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=1.2)]
@@ -43,11 +44,13 @@ class Load(Fragment):
 
     mass: PositiveMass
     """rated load with its grab or sling"""
-    hook_block: Mass = 0.0
+    hook_block: Annotated[Mass | None, Assumed()] = None
     """hook block and whatever stays on the hook"""
     radius: PositiveSpan = Field(examples=["8 m"])
     """from the slewing axis to the head of the jib, where the rope hangs"""
-    rope_length: PositiveSpan | None = Field(default=None, examples=["6 m"])
+    rope_length: Annotated[
+        PositiveSpan | None, Absent("checks of the swing need it, and are not checked without it")
+    ] = Field(default=None, examples=["6 m"])
     """from the head of the jib to the middle of the load; needed to see the load swing"""
 
 
@@ -58,8 +61,8 @@ class Body(Fragment):
     """of the part"""
     radius: Span
     """from the slewing axis to its centre of mass"""
-    inertia: Inertia = 0.0
-    """about its own centre of mass; a point when left out"""
+    inertia: Annotated[Inertia | None, Assumed()] = None
+    """about its own centre of mass"""
 
 
 class Jib(Fragment):
@@ -69,32 +72,32 @@ class Jib(Fragment):
     """of the jib"""
     length: PositiveSpan
     """of the jib, as seen from above"""
-    foot_radius: Span = 0.0
+    foot_radius: Annotated[Span, Absent("the jib begins at the axis")] = 0.0
     """from the slewing axis to its near end"""
 
 
 class Wind(Fragment):
     """What the wind does about the slewing axis: torques, or an area on an arm and its pressures."""
 
-    steady: Torque | None = None
+    steady: Annotated[Torque | None, Absent("no wind: the crane stands indoors")] = None
     """torque in the mean of a working day"""
-    maximum: Torque | None = None
+    maximum: Annotated[Torque | None, Assumed()] = None
     """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
-    gust: Torque | None = None
+    gust: Annotated[Torque | None, Absent("gusts are part of the largest wind, which checks of holding read")] = None
     """torque of a gust that comes on top of the steady wind; held like the largest wind"""
-    area: PositiveArea | None = Field(default=None, examples=["12 m^2"])
+    area: Annotated[PositiveArea | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["12 m^2"])
     """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
-    arm: PositiveSpan | None = Field(default=None, examples=["4 m"])
+    arm: Annotated[PositiveSpan | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["4 m"])
     """from the slewing axis to the middle of the area"""
-    steady_pressure: PositivePressure | None = Field(default=None, examples=["50 Pa"])
+    steady_pressure: Annotated[PositivePressure | None, OneOf("steady")] = Field(default=None, examples=["50 Pa"])
     """of the wind of a working day"""
-    maximum_pressure: PositivePressure | None = None
+    maximum_pressure: Annotated[PositivePressure | None, OneOf("maximum")] = None
     """largest in service; 250 Pa by most standards"""
-    gust_pressure: PositivePressure | None = None
+    gust_pressure: Annotated[PositivePressure | None, OneOf("gust")] = None
     """of a gust, on top of the steady one"""
-    gust_rise: PositiveTime = 2.0
+    gust_rise: Annotated[PositiveTime | None, Assumed()] = None
     """time in which a gust comes up"""
-    gust_time: PositiveTime = 5.0
+    gust_time: Annotated[PositiveTime | None, Assumed()] = None
     """how long it lasts"""
 
     @classmethod
@@ -139,17 +142,19 @@ class Wind(Fragment):
 class Cycle(Fragment):
     """What the crane does again and again."""
 
-    rotation: PositiveAngle = 3.141592653589793
+    rotation: Annotated[PositiveAngle, Absent("half a turn is the longest way of a crane that slews both ways")] = (
+        3.141592653589793
+    )
     """from pick-up to put-down; 180 deg when left out"""
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
     """largest allowed angle of a stop: 15 deg in light duty"""
-    start_time: PositiveTime | None = None
+    start_time: Annotated[PositiveTime | None, OneOf("start_angle, motor.mean_starting_torque")] = None
     """in which it comes to speed, where the motor's torque does not say it"""
-    start_angle: PositiveAngle | None = None
+    start_angle: Annotated[PositiveAngle | None, OneOf("start_time, motor.mean_starting_torque")] = None
     """over which it comes to speed, instead of `start_time`"""
-    pause: Time = 0.0
+    pause: Annotated[Time, Absent("without a rest the motor is hottest")] = 0.0
     """rest between two rotations, which cools the motor"""
-    exponent: PositiveRatio = 3.0
+    exponent: Annotated[PositiveRatio, Absent("3: contact of teeth, by which gearboxes are rated")] = 3.0
     """slope of fatigue m of the equivalent torque: 3 contact of teeth, 6 to 9 their bending"""
 
     @classmethod
@@ -164,9 +169,9 @@ class Cycle(Fragment):
 class Handbook(Fragment):
     """What the handbook's chain of formulas is fed with; nothing else uses it."""
 
-    start_time: PositiveTime | None = None
+    start_time: Annotated[PositiveTime | None, OneOf("cycle.start_time")] = None
     """the time that the handbook takes for a start"""
-    start_angle: PositiveAngle | None = None
+    start_angle: Annotated[PositiveAngle | None, OneOf("cycle.start_angle")] = None
     """the angle that the handbook takes for a start, instead of its time"""
     shares: Literal["rounded", "exact"] = "rounded"
     """shares of the cycle rounded to three digits and not renormalised, as printed course projects do, or exact"""
@@ -191,17 +196,19 @@ class RingPoint(Fragment):
 class Ring(Fragment):
     """The slewing ring bearing, or the bearings of a fixed column."""
 
-    mass_above: Mass | None = None
+    mass_above: Annotated[Mass | None, Absent("the sum of the parts that the file gives")] = None
     """all that rests on it without the load; the sum of the parts when left out"""
-    unbalance: Annotated[float, Measure(units.TORQUE)] | None = None
+    unbalance: Annotated[
+        Annotated[float, Measure(units.TORQUE)] | None, Absent("that of the parts that the file gives")
+    ] = None
     """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
-    head_height: Span = 0.0
+    head_height: Annotated[Span | None, Assumed()] = None
     """of the head of the jib over the ring, where the load's swing pulls"""
-    wind_height: Span = 0.0
+    wind_height: Annotated[Span | None, Assumed()] = None
     """of the middle of the wind's area over the ring"""
-    wind_force: PositiveForce | None = None
+    wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: the crane stands indoors")] = None
     """of the largest wind in service along the jib"""
-    load_factor: Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)] = 1.25
+    load_factor: Annotated[Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)], Limit()] = 1.25
     """on the load's weight: hoisting and test loads; catalogues ask 1.25"""
     curve: Annotated[tuple[RingPoint, ...], Field(min_length=1, max_length=50)] | None = None
     """limiting load curve of the catalogue, axial forces rising; needed to check the ring"""
@@ -230,7 +237,9 @@ class Classes(Fragment):
 
     group: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
     """declared group of the crane; compared with that of its use"""
-    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    cycles: Annotated[
+        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
+    ] = None
     """hoisting cycles in the life; with the spectrum they give the group of its use"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""
@@ -249,23 +258,23 @@ class Classes(Fragment):
 class SlewingChecks(CheckSettings):
     """Limits of the checks of a slewing crane."""
 
-    starting_reserve: PositiveRatio = 1.1
+    starting_reserve: Annotated[PositiveRatio, Limit()] = 1.1
     """least mean starting torque over the torque of steady slewing"""
-    start_time: PositiveTime = 10.0
+    start_time: Annotated[PositiveTime, Limit()] = 10.0
     """longest start"""
-    least_start_time: PositiveTime = 1.0
+    least_start_time: Annotated[PositiveTime, Limit()] = 1.0
     """shortest start: shorter ones throw the load about"""
-    brake_time: PositiveTime = 10.0
+    brake_time: Annotated[PositiveTime, Limit()] = 10.0
     """longest stop"""
-    least_brake_time: PositiveTime = 1.0
+    least_brake_time: Annotated[PositiveTime, Limit()] = 1.0
     """shortest stop: shorter ones throw the load about"""
-    holding_reserve: PositiveRatio = 1.0
+    holding_reserve: Annotated[PositiveRatio, Limit()] = 1.0
     """least torque of the started motor, and of the closed brake, over that of the largest wind"""
-    sway: SwayAngle = 0.174532925199433
+    sway: Annotated[SwayAngle, Limit()] = 0.174532925199433
     """largest angle of the load's rope, radial or tangential; 10 deg when left out"""
 
 
-class SlewingScene(Scene):
+class SlewingScene(TransientScene):
     """Base of the scenes of a slewing crane."""
 
     load: Literal["full", "empty"] = "full"
@@ -298,7 +307,9 @@ class SlewingCrane(MachineSpec):
     """the counterweight"""
     jib: Jib | None = None
     """the jib"""
-    inertia: PositiveInertia | None = Field(default=None, examples=["60000 kg*m^2"])
+    inertia: Annotated[PositiveInertia | None, OneOf("slewing_part, counterweight, jib")] = Field(
+        default=None, examples=["60000 kg*m^2"]
+    )
     """of all that slews about the axis, the load at its radius included, instead of the parts"""
     speed: PositiveAngularSpeed = Field(examples=["2 rpm"])
     """of slewing"""
@@ -306,7 +317,7 @@ class SlewingCrane(MachineSpec):
     """torque of all bearings about the slewing axis"""
     wind: Wind = Wind()
     """about the slewing axis; none when left out"""
-    slope: Slope = 0.0
+    slope: Annotated[Slope, Absent("the axis stands upright; `friction` has what a level crane resists with")] = 0.0
     """of the slewing axis from the vertical; needs the masses"""
     motor: SlewMotor
     """the slewing motors"""
@@ -325,7 +336,7 @@ class SlewingCrane(MachineSpec):
     checks: SlewingChecks = SlewingChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a rotation with the rated load when left out"""
+    """what happens to the machine; a rotation with the rated load, and one with the hook block alone, when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -349,7 +360,9 @@ class SlewingCrane(MachineSpec):
 
     @property
     def all_scenes(self) -> Sequence[SlewingScene]:
-        return self.scenes if self.scenes is not None else (Slew(),)
+        if self.scenes is not None:
+            return self.scenes
+        return (Slew(),) if self.load is None else (Slew(), Slew(load="empty"))
 
     @property
     def settings(self) -> SlewingChecks:

@@ -24,6 +24,10 @@ _STATE = ("along", "across", "along_rate", "across_rate")
 _INHERITED = 10.0
 """By how much an error of the state with which a piece begins may have grown by the end of it."""
 _AT_SPEED = 1e-9
+_STILL = 1e-9
+"""Share of the way within which a crane that its load drags stands."""
+_PARTS = 3
+"""Times the usual time after a stop that are looked at more where the load still drags the crane."""
 _MOST_STEPS = 3000
 
 
@@ -58,6 +62,8 @@ class Rotation:
     phases: chain.Phases
     bar: float
     """error of times and angles as a share of them"""
+    creep: float = 0.0
+    """angle by which the load may still drag the crane through its closed brake after the window [rad]"""
 
     def farthest(self, name: str) -> Peak:
         """Largest size of a signal in the whole rotation."""
@@ -136,7 +142,7 @@ def rotation(spec: SlewingCrane, scene: SlewingScene, *, curve: bool, gust: bool
     before, until = march.position, march.time
     stop = _stop(march, rest[0])
     phases = chain.Phases(start, (until - start[0], steady), (stop[0], stop[1] - before))
-    return Rotation(tuple(march.pieces), phases, 1e-9 + march.pieces[-1].inherited)
+    return Rotation(tuple(march.pieces), phases, 1e-9 + march.pieces[-1].inherited, stop[2])
 
 
 # -- start ----------------------------------------------------------------------------------------------------------
@@ -232,7 +238,7 @@ def _against(spec: SlewingCrane, scene: SlewingScene, since: float, *, gust: boo
     steady = -(model.steady_torque(spec, scene) - spec.friction)
     if not gust or spec.wind.gust_torque == 0:
         return Pieces.constant(steady)
-    rise, lasts, most = spec.wind.gust_rise, spec.wind.gust_time, spec.wind.gust_torque
+    rise, lasts, most = (spec.wind.gust_rise or 2.0), (spec.wind.gust_time or 5.0), spec.wind.gust_torque
     times, sizes = (0.0, rise, rise + lasts, 2 * rise + lasts), (0.0, most, most, 0.0)
     points = [(0.0, steady - float(np.interp(since, times, sizes)))]
     points += [(time - since, steady - size) for time, size in zip(times, sizes, strict=True) if time > since]
@@ -242,10 +248,16 @@ def _against(spec: SlewingCrane, scene: SlewingScene, since: float, *, gust: boo
 # -- stop -----------------------------------------------------------------------------------------------------------
 
 
-def _stop(march: _March, rigid: float) -> tuple[float, float]:
-    """The stop: when the crane stands for the first time, and the farthest position it gets to."""
+def _stop(march: _March, rigid: float) -> tuple[float, float, float]:
+    """The stop: when the crane stands for the first time, the farthest position it gets to, and how far a load that
+    swings on may still drag it through its closed brake after the window.
+
+    What is dragged from swing to swing falls at least as the inverse square of their number, since the swing loses
+    energy by it: all that follows is less than the last part times the number of parts that have been.
+    """
     spec, brake = march.spec, march.spec.brake
     after = _PERIODS_AFTER * _period(spec)
+    after += (march.scene.window_factor - 1) * (march.time + rigid + after)
     blown = Pieces.constant(model.driving_wind(spec, march.scene))
     if brake is None or spec.gear.back <= 0:
         ramp = max(rigid, 1e-3 * _period(spec))
@@ -254,7 +266,7 @@ def _stop(march: _March, rigid: float) -> tuple[float, float]:
         drive = Follow(Pieces((0.0, ramp), ((spec.speed, slope), (left,))))
         motion = swing(march.case(drive, blown, Gear()), ramp + after, most_steps=_MOST_STEPS)
         march.keep(motion, ramp + after, 0.0)
-        return ramp, march.position
+        return ramp, march.position, 0.0
     on_motor = brake.shaft == "motor"
     full = brake.torque * (spec.gear.ratio if on_motor else 1.0)
     closes = brake.delay + brake.rise_time
@@ -273,10 +285,24 @@ def _stop(march: _March, rigid: float) -> tuple[float, float]:
         motion = swing(march.case(None, blown, gear, outer), longest + after, most_steps=_MOST_STEPS)
         stands = _stands(motion)
         if stands is not None and stands <= longest:
+            part = _PERIODS_AFTER * _period(spec)
+            dragged = _dragged(motion, part)
+            if dragged > _STILL * march.position:
+                more = _PARTS * part
+                motion = swing(march.case(None, blown, gear, outer), longest + after + more, most_steps=_MOST_STEPS)
+                march.keep(motion, longest + after + more, 0.0)
+                far = _dragged(motion, part)
+                return stands, motion.largest("position").value, far * (motion.end - stands) / part
             march.keep(motion, longest + after, 0.0)
-            return stands, motion.largest("position").value
+            return stands, motion.largest("position").value, 0.0
         longest *= _LONGER
     raise NumericsError("NUM102", f"the crane does not stop within {longest:.3g} s")
+
+
+def _dragged(motion: Swing, lately: float) -> float:
+    """By how much the farthest position has grown in the last part of a motion."""
+    before = motion.largest("position", 0.0, motion.end - lately).value
+    return max(motion.largest("position", 0.0, motion.end).value - before, 0.0)
 
 
 def _stands(motion: Swing) -> float | None:

@@ -184,13 +184,14 @@ def _started(spec: SlewingCrane, scene: SlewingScene, crane: _Crane, carried: fr
         crane.state[1] = spec.speed
         return time, float(crane.state[0])
     steady, wind = model.steady_torque(spec, scene), spec.wind
-    rise, whole = wind.gust_rise, 2 * wind.gust_rise + wind.gust_time
+    rise, lasts = wind.gust_rise or 2.0, wind.gust_time or 5.0
+    whole = 2 * rise + lasts
 
     def against(t: float) -> float:
-        gust = float(np.interp(t, (0.0, rise, rise + wind.gust_time, whole), (0.0, 1.0, 1.0, 0.0)))
+        gust = float(np.interp(t, (0.0, rise, rise + lasts, whole), (0.0, 1.0, 1.0, 0.0)))
         return -steady - (gust * wind.gust_torque if "wind_gust" in carried else 0.0)
 
-    breaks = [rise, rise + wind.gust_time, whole] if "wind_gust" in carried and wind.gust_torque else []
+    breaks = [rise, rise + lasts, whole] if "wind_gust" in carried and wind.gust_torque else []
     for torque, until, speed in _drives(spec, given, "slewing_motor_curve" in carried):
         while True:
             stop = min([until, *(time for time in breaks if time > crane.time)])

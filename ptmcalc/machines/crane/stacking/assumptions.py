@@ -45,9 +45,22 @@ def _of_a_drive(key: str, drive: TravelDrive) -> Iterator[Assumption[Stacker]]:
         "two to three stages of helical or bevel gears",
     )
     yield Assumption(
+        (key, "drive", "gear", "reverse_efficiency"),
+        units.RATIO,
+        lambda spec: _drive_of(spec, key).reverse_range[0],
+        lambda spec: Interval(*_drive_of(spec, key).reverse_range),
+        "2 - 1/efficiency with equal losses both ways; as large as the efficiency at most",
+    )
+    yield Assumption(
         (key, "drive", "motor", "coupling_inertia"),
         units.INERTIA,
         lambda spec: 0.15 * rotor,
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
         "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
     )
+
+
+def _drive_of(spec: Stacker, key: str) -> TravelDrive:
+    drive = getattr(spec, key).drive
+    assert isinstance(drive, TravelDrive)
+    return drive

@@ -6,6 +6,7 @@ from ptmcalc.base import units
 from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
 from ptmcalc.machines.crane.travelling.checks import CHECKS
@@ -15,6 +16,7 @@ from ptmcalc.machines.crane.travelling.effects import EFFECTS_OF_TRAVEL
 from ptmcalc.machines.crane.travelling.factors import CREEPING
 from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.loads import LOADS, parts
+from ptmcalc.machines.crane.travelling.relations import RELATIONS
 from ptmcalc.machines.crane.travelling.solvers import SOLVERS
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -35,6 +37,7 @@ def inspect(spec: Travelling) -> Iterator[Finding]:
                 "correct the speed, the ratio, the wheels or the motor",
             )
 
+    yield from _plays(spec)
     hoists = spec.suspension.hoist_speed is not None and spec.classes.hoisting is not None
     if hoists and spec.classes.drive in CREEPING and spec.suspension.creep_speed is None:
         yield Finding(
@@ -42,6 +45,23 @@ def inspect(spec: Travelling) -> Iterator[Finding]:
             f"a hoist of class {spec.classes.drive} has a creep speed",
             ("class", "drive"),
             "add `creep_speed: 0.02 m/s` to `suspension`, or write `drive: HD1`",
+        )
+
+
+def _plays(spec: Travelling) -> Iterator[Finding]:
+    """A play below the least with which its edition computes."""
+    guide = spec.guide
+    if guide is None:
+        return
+    least = skew.LEAST_PLAY[guide.type]
+    used = skew.skew_play(guide.clearance, least, guide.edition)
+    if used > guide.clearance:
+        yield Finding(
+            "SPC201",
+            f"{units.show(guide.clearance, units.LENGTH)} of play is below the least of EN 1991-3 with {guide.type}:"
+            f" the angle of skewing is computed with {units.show(least, units.LENGTH)}",
+            ("guide", "clearance"),
+            f"write `clearance: {units.show(least / 0.75, units.LENGTH)}` or more, or another `edition`",
         )
 
 
@@ -61,4 +81,5 @@ TRAVELLING = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     parts=parts,
+    relations=RELATIONS,
 )

@@ -1,15 +1,91 @@
 """What is filled in where a design file leaves it out, and how wrong that may be."""
 
+import math
 from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
+from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling.spec import Travelling
+
+_HEAD = 0.05
+"""Of a rail of which the file says nothing, the narrowest usual one of cranes [m]."""
+_WIDE = 1.5
+"""Wear that is reckoned with at most, over that of the standards."""
+_STEEL = 7850.0  # kg/m^3
 
 
 def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
-    """What is assumed of rails, wheels and drive."""
+    """What is assumed of masses, rails, wheels and drive."""
+    yield from _of_the_masses(spec)
+    yield from _of_the_rails(spec)
+    yield from _of_the_drive(spec)
+    if spec.duty is not None and spec.duty.type != "S1":
+        yield Assumption(
+            ("duty", "factor"),
+            units.SHARE,
+            lambda spec: 0.4,
+            lambda spec: Interval(0.25, 0.6),
+            "rated duty factors of crane motors are 25, 40 and 60 %",
+        )
+
+
+def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
+    load = spec.load
+    yield Assumption(
+        ("hook_block",),
+        units.MASS,
+        lambda spec: 0.0,
+        lambda spec: Interval(0.0, 0.03 * load),
+        "in the load, or 1 to 3 % of it beside it",
+    )
+    if spec.bridge is not None:
+        span, legs = spec.bridge.span, spec.travels == "gantry"
+        yield Assumption(
+            ("bridge", "height"),
+            units.SPAN,
+            lambda spec: 0.0,
+            lambda spec: Interval(0.0, (0.5 if legs else 0.05) * span),
+            "girders are a fifteenth of the span high; portals about as high as half their span",
+        )
+    gauge, portal = spec.gauge, spec.travels == "gantry"
+    yield Assumption(
+        ("trolley", "height"),
+        units.SPAN,
+        lambda spec: 0.0,
+        lambda spec: Interval(0.0, (0.6 if portal else 0.1 if spec.bridge is not None else 0.5) * gauge),
+        "trolleys stand on the girders; a trolley's own centre is below half its gauge above its rails",
+    )
+    diameter = spec.wheels.diameter
+    disc = 0.5 * _STEEL * math.pi * (diameter / 2) ** 4 * 0.25 * diameter
+    yield Assumption(
+        ("wheels", "inertia"),
+        units.INERTIA,
+        lambda spec: 0.0,
+        lambda spec: Interval(0.0, 1.2 * disc),
+        "steel discs a quarter of their diameter wide with axle and gear wheel",
+    )
+    if spec.wind is not None:
+        area = 1.2 * (load / 1000) ** (2 / 3)
+        yield Assumption(
+            ("wind", "load_area"),
+            units.FACE,
+            lambda spec: 0.0,
+            lambda spec: Interval(0.0, 1.5 * area),
+            "a cube of water has 1 m^2 for a load of 1 t; crane rules ask 1.2 m^2/t of small loads, less of large ones",
+        )
+        pressure = spec.wind.pressure
+        yield Assumption(
+            ("wind", "pressure_max"),
+            units.PRESSURE,
+            lambda spec: pressure,
+            lambda spec: Interval(pressure, max(1.5 * pressure, 250.0)),
+            "EN 13001-2, ISO 4302: 125 Pa in light, 250 Pa in normal wind in service",
+        )
+
+
+def _of_the_rails(spec: Travelling) -> Iterator[Assumption[Travelling]]:
     yield Assumption(
         ("rail", "adhesion"),
         units.RATIO,
@@ -26,6 +102,20 @@ def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: Interval(0.2 * diameter, 0.3 * diameter),
             "axles of crane wheels: 0.2 to 0.3 of the wheel",
         )
+        yield Assumption(
+            ("rolling", "bearing_friction"),
+            units.RATIO,
+            lambda spec: 0.015,
+            lambda spec: Interval(0.01, 0.02),
+            "wheels on rolling bearings 0.015 to 0.02; plain ones 0.08 to 0.1",
+        )
+        yield Assumption(
+            ("rolling", "flange_factor"),
+            units.RATIO,
+            lambda spec: 1.5,
+            lambda spec: Interval(1.2, 1.8),
+            "flanges of cylindrical wheels on rolling bearings 1.5, of conical ones 1.2; plain bearings up to 2.5",
+        )
     if any(scene.type == "rail_step" for scene in spec.all_scenes):
         yield Assumption(
             ("rail", "frequency"),
@@ -34,6 +124,20 @@ def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
             lambda spec: Interval(5.0, 20.0),
             "cranes on their wheels and rails swing vertically at 5 to 20 Hz; bridges of large span below",
         )
+    if spec.guide is not None:
+        share, head = skew.WEAR_SHARE[spec.guide.type], spec.rail.head
+        wide = Interval(0.9 * share * _HEAD, 2 * share * _HEAD)
+        yield Assumption(
+            ("guide", "wear"),
+            units.LENGTH,
+            lambda spec: share * (head or _HEAD),
+            lambda spec: Interval(share * head, _WIDE * share * head) if head is not None else wide,
+            "EN 13001-2, EN 1991-3: at least 0.1 of the width of the rail's head with flanges, 0.03 with rollers;"
+            " heads are 45 to 100 mm wide",
+        )
+
+
+def _of_the_drive(spec: Travelling) -> Iterator[Assumption[Travelling]]:
     ratio = spec.drive.gear.ratio
     yield Assumption(
         ("drive", "gear", "efficiency"),
@@ -41,6 +145,13 @@ def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         lambda spec: 0.9,
         lambda spec: Interval(1.0, 1.0) if ratio == 1 else Interval(0.85, 0.95),
         "two to three stages of helical or bevel gears, an open one perhaps among them",
+    )
+    yield Assumption(
+        ("drive", "gear", "reverse_efficiency"),
+        units.RATIO,
+        lambda spec: spec.drive.reverse_range[0],
+        lambda spec: Interval(*spec.drive.reverse_range),
+        "2 - 1/efficiency with equal losses both ways; as large as the efficiency at most",
     )
     rotor = spec.drive.motor.inertia
     yield Assumption(
@@ -50,11 +161,3 @@ def assumptions(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
         "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
     )
-    if spec.duty is not None and spec.duty.type != "S1":
-        yield Assumption(
-            ("duty", "factor"),
-            units.SHARE,
-            lambda spec: 0.4,
-            lambda spec: Interval(0.25, 0.6),
-            "rated duty factors of crane motors are 25, 40 and 60 %",
-        )

@@ -14,6 +14,7 @@ from ptmcalc.machines.crane.travelling.scenes import (
     Moving,
     Run,
     Start,
+    Storm,
     TravelScene,
 )
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -336,5 +337,33 @@ LIFTS: OneCheck = Check(
     source="equilibrium of the crane",
 )
 
-CHECKS: tuple[AnyCheck, ...] = (SLOW, LONG_STOP, LONG_WAY, SWAY, RESIDUAL, SKID, RAMP, WHEEL, LIFTS)
+
+def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Moments that keep the crane on its wheels at least those that tip it, both with partial factors.
+
+    **Range** any crane.
+    **Error** none: a balance; the factors are those of the edition.
+    **Source** EN 13001-2, FEM 1.001.
+    """
+    return Estimate.exact(spec.checks.stability)
+
+
+TIPS: OneCheck = Check(
+    code="CRN159",
+    title="a crane that tips",
+    scenes=MOVES | RUNNING | {Storm},
+    loads=("stability_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_stability_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("wheels", "base"),
+    repair=at("wheels", "base"),
+    what="About each edge of its wheels the crane is held by more than what tips it, with the partial factors of the"
+    " edition (`class.stability`): more on loads, drive forces and wind, less on the weight that helps.",
+    why="Equal moments are no proof: weights, loads and wind are not known as well as that.",
+    formula="sum g_h G b / (sum g_o G b' + g_l (m a h + H h_r) + g_w F_w h_w) >= 1",
+    source="equilibrium; EN 13001-2, ISO 8686-1; FEM 1.001",
+)
+
+CHECKS: tuple[AnyCheck, ...] = (SLOW, LONG_STOP, LONG_WAY, SWAY, RESIDUAL, SKID, RAMP, WHEEL, LIFTS, TIPS)
 """The drive is judged in `checks_drive`, buffers, rails, storm and factors in `checks_events`."""

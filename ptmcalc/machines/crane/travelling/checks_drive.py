@@ -25,7 +25,7 @@ def _torque(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
 
 
 def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Least mean starting torque over that of even travel, 1.1 by default.
+    """Least starting torque, the smallest up to full speed, over that of even travel, 1.1 by default.
 
     **Range** any drive that starts against wind and slope.
     **Error** none: an engineering rule.
@@ -44,10 +44,10 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=_torque,
     repair=torque_repair,
-    what="The mean starting torque exceeds the torque of even travel against friction, slope and the wind in which the"
-    " crane works, by the reserve asked.",
+    what="The smallest torque of the motors up to full speed exceeds the torque of even travel against friction, slope"
+    " and the wind in which the crane works, by the reserve asked.",
     why="A motor below the resistance does not move the crane: it stalls and burns.",
-    formula="M_mean/(W r/(u eta)) >= 1.1",
+    formula="min M(n)/(W r/(u eta)) >= 1.1",
     source="power balance of the gear; handbooks of lifting machines",
 )
 

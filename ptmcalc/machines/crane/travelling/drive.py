@@ -17,15 +17,15 @@ def even_torque(spec: Travelling, scene: TravelScene, pressure: float | None) ->
 
 
 def starting_reserve(spec: Travelling, scene: TravelScene) -> float:
-    """Mean starting torque over that of even travel against the wind in which it works [1]."""
+    """Least starting torque up to full speed over that of even travel against the wind in which it works [1]."""
     asked = even_torque(spec, scene, model.working_pressure(spec))
-    return spec.drive.torque / asked if asked > 0 else math.inf
+    return model.least_torque(spec) / asked if asked > 0 else math.inf
 
 
 def wind_reserve(spec: Travelling, scene: TravelScene) -> float:
     """Force of the motors at the rims over the resistance in the largest wind in service [1]."""
     resistance = resisting.even(spec, scene, model.largest_pressure(spec))
-    return model.driving_force(spec, spec.drive.torque) / resistance if resistance > 0 else math.inf
+    return model.driving_force(spec, model.least_torque(spec)) / resistance if resistance > 0 else math.inf
 
 
 # -- duty -----------------------------------------------------------------------------------------------------------

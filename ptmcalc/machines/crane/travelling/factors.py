@@ -1,6 +1,7 @@
 """Dynamic factors of the crane standards that do not need a motion: phi1, phi2, phi3, phi5, phi6."""
 
 from ptmcalc.laws import lift_off, lift_off_standard, standard_factors
+from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 CREEPING = ("HD2", "HD3")
@@ -19,7 +20,7 @@ def of_the_structure(spec: Travelling) -> dict[str, float]:
         phi2 = lift_off_standard.standard_lift_off_factor(given.hoisting, given.drive, at, given.edition)
         found["phi2"] = phi2
         found["phi6"] = standard_factors.load_test_factors(phi2)[0]
-    share = given.released_share * spec.load / (spec.load + spec.hook_block) if given.release != "none" else 0.0
+    share = given.released_share * spec.load / (spec.load + filled(spec.hook_block)) if given.release != "none" else 0.0
     found["phi3"] = float(lift_off.release_factor(share, _QUICKNESS.get(given.release, 0.0)))
     return found
 

@@ -125,6 +125,7 @@ def _travelled(motion: Motion) -> tuple[_Journey, float, float]:
     journey.speed = motion.speed if motion.starts else 0.0
     ends = float(journey.lengths.coefficients[-1][0])
     rest = max(hoisted - reached, 0.0) + 2 * math.pi * math.sqrt(ends / motion.gravity)
+    rest += (motion.looks - 1) * (reached + rest)
     journey.go(standing, Pieces.constant(0.0), 0.0, rest, 0.0, 0.0)
     return journey, reached, max(hoisted - reached, 0.0)
 

@@ -12,6 +12,7 @@ OF_THE_WHEELS = (
     LoadInfo("wheel_load_min", "smallest load of a wheel", units.FORCE, governing=True),
     LoadInfo("corner_load_max", "largest load of a corner", units.FORCE, headline=False),
     LoadInfo("corner_load_min", "smallest load of a corner", units.FORCE, headline=False),
+    LoadInfo("stability_reserve", "moments that hold over those that tip, factored", units.RATIO, governing=True),
     LoadInfo("wheel_load_factored", "largest load of a wheel with phi1 and phi2", units.FORCE),
     LoadInfo("wheel_load_mean", "load for which the wheel is chosen, (min + 2 max)/3", units.FORCE),
     LoadInfo("wheel_spectrum_factor", "spectrum factor of a wheel over the trolley's way", units.RATIO),
@@ -22,7 +23,7 @@ OF_TRAVEL = (
     LoadInfo("motor_speed", "speed of the motors", units.ANGULAR_SPEED),
     LoadInfo("torque_motor_travel", "torque of all motors, even travel", units.TORQUE, governing=True),
     LoadInfo("power_travel", "power of all motors, even travel", units.POWER, governing=True),
-    LoadInfo("starting_reserve", "mean starting torque over that of even travel", units.RATIO, governing=True),
+    LoadInfo("starting_reserve", "least starting torque over that of even travel", units.RATIO, governing=True),
     LoadInfo("wind_reserve", "driving force over the largest resistance in service", units.RATIO, governing=True),
     LoadInfo("torque_motor_rms", "heating torque of all motors (rms)", units.TORQUE),
     LoadInfo("heating_utilisation", "heating torque over what the duty allows", units.SHARE, governing=True),
@@ -94,7 +95,7 @@ LOADS = (
 
 PER_CORNER = frozenset({"corner_load_max", "corner_load_min"})
 PER_DRIVEN_CORNER = frozenset({"skid_reserve"})
-MOVING = frozenset(info.name for info in OF_MOTION) | {"wheel_load_max", "wheel_load_min"}
+MOVING = frozenset(info.name for info in OF_MOTION) | {"wheel_load_max", "wheel_load_min", "stability_reserve"}
 """What a start or a stop gives."""
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.laws import gearing, inertia
 from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -36,23 +37,23 @@ class Body:
 
 def hanging(spec: Travelling, scene: TravelScene) -> float:
     """What hangs on the ropes, the hook block in it [kg]."""
-    return spec.hook_block + (spec.load if scene.load == "full" else 0.0)
+    return filled(spec.hook_block) + (spec.load if scene.load == "full" else 0.0)
 
 
 def bodies(spec: Travelling, hook: float) -> tuple[Body, ...]:
     """What travels besides the load, with the hook so far from rail A."""
     trolley = spec.trolley
     if spec.bridge is None:
-        return (Body(trolley.mass, spec.gauge / 2, trolley.height),)
+        return (Body(trolley.mass, spec.gauge / 2, filled(trolley.height)),)
     bridge = spec.bridge
     centre = bridge.centre if bridge.centre is not None else bridge.span / 2
-    return Body(bridge.mass, centre, bridge.height), Body(trolley.mass, hook, trolley.height)
+    return Body(bridge.mass, centre, filled(bridge.height)), Body(trolley.mass, hook, filled(trolley.height))
 
 
 def travelling_mass(spec: Travelling) -> float:
     """What travels besides the load, the wheels that are not driven with what turns in them [kg]."""
     free = wheel_count(spec) - driven_wheels(spec)
-    return sum(body.mass for body in bodies(spec, 0.0)) + free * spec.wheels.inertia / radius(spec) ** 2
+    return sum(body.mass for body in bodies(spec, 0.0)) + free * filled(spec.wheels.inertia) / radius(spec) ** 2
 
 
 def weight(spec: Travelling, scene: TravelScene) -> float:
@@ -74,7 +75,7 @@ def hook_places(spec: Travelling, scene: TravelScene) -> tuple[float, ...]:
 def rope_height(spec: Travelling) -> float:
     """Of the place where the ropes are held, above the rails of the wheels [m]."""
     held = spec.suspension.height
-    return held if held is not None else spec.trolley.height
+    return held if held is not None else filled(spec.trolley.height)
 
 
 # -- wheels ---------------------------------------------------------------------------------------------------------
@@ -117,7 +118,7 @@ def wind_on_load(spec: Travelling, scene: TravelScene, pressure: float | None) -
     """Of a wind along the rails on the load; nothing hangs there in an empty scene [N]."""
     if spec.wind is None or pressure is None or scene.load == "empty":
         return 0.0
-    return pressure * spec.wind.load_shape * spec.wind.load_area
+    return pressure * spec.wind.load_shape * filled(spec.wind.load_area)
 
 
 def working_pressure(spec: Travelling) -> float | None:
@@ -136,7 +137,7 @@ def wind_height(spec: Travelling) -> float:
     """Of the middle of the area in the wind, above the rails [m]."""
     if spec.wind is not None and spec.wind.height is not None:
         return spec.wind.height
-    return spec.bridge.height if spec.bridge is not None else spec.trolley.height
+    return filled(spec.bridge.height) if spec.bridge is not None else filled(spec.trolley.height)
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,6 +194,27 @@ def motor_speed(spec: Travelling) -> float:
     return spec.speed * rim_ratio(spec)
 
 
+def least_torque(spec: Travelling) -> float:
+    """Smallest torque of all motors on the way to full speed: of their curve, or before a step of a rheostat [N*m].
+
+    Where the stages of a curve are switched by time, the best of them at each speed: which one it is, the run tells.
+    """
+    motor = spec.drive.motor
+    if motor.mean_starting_torque is not None:
+        return spec.drive.torque
+    if motor.smallest_starting_torque is not None:
+        return motor.count * motor.smallest_starting_torque
+    curve = motor.curve
+    assert curve is not None
+    if isinstance(curve, ConverterMotor):
+        return motor.count * curve.limit
+    speeds = np.linspace(0.0, motor_speed(spec), 1025)
+    torques = curve.torque(speeds, np.inf)
+    if any(stage.until_time is not None for stage in curve.stages):
+        torques = np.max([stage.torque(speeds) for stage in curve.stages], axis=0)
+    return motor.count * float(np.min(torques))
+
+
 def driving_force(spec: Travelling, torque: float) -> float:
     """At the rims of the driven wheels from a torque of the motors at even speed [N]."""
     return torque * rim_ratio(spec) * spec.drive.efficiency
@@ -206,14 +228,16 @@ def braking_force(spec: Travelling, torque: float) -> float:
 def rotor_mass(spec: Travelling, braking: bool) -> float:
     """Mass at the rims that stands for what turns before them: rotors, couplings, driven wheels [kg]."""
     loss = 1 / spec.drive.reverse_efficiency if braking else spec.drive.efficiency
-    wheels = driven_wheels(spec) * spec.wheels.inertia
+    wheels = driven_wheels(spec) * filled(spec.wheels.inertia)
     return inertia.reduced_drive_mass(spec.drive.inertia, spec.drive.gear.ratio, loss, wheels, radius(spec))
 
 
 def motor_torque(spec: Travelling, force: ArrayLike, acceleration: ArrayLike) -> FloatArray:
     """Of all motors, for a force of the driven wheels on the rails and an acceleration of travel [N*m]."""
     a = np.asarray(acceleration, float)
-    on_wheels = np.asarray(force, float) * radius(spec) + driven_wheels(spec) * spec.wheels.inertia / radius(spec) * a
+    on_wheels = (
+        np.asarray(force, float) * radius(spec) + driven_wheels(spec) * filled(spec.wheels.inertia) / radius(spec) * a
+    )
     through = gearing.input_torque(
         on_wheels, 1.0, spec.drive.gear.ratio, spec.drive.efficiency, spec.drive.reverse_efficiency
     )

@@ -3,8 +3,6 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.machines.crane.travelling import model, resisting
 from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Moving
@@ -55,6 +53,8 @@ class Motion:
     """of the brake [s]"""
     rising: float
     """time in which a converter's reference rises, where it starts the crane up to a limit of torque [s]"""
+    looks: float
+    """length of the window of time that is looked at, over the usual one [1]"""
     rotor: float
     """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
     rotor_braked: float
@@ -115,6 +115,7 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         delay=brake.delay if brake is not None else 0.0,
         rise=brake.rise_time if brake is not None else 0.0,
         rising=_rising(spec) if starts else 0.0,
+        looks=scene.window_factor,
         rotor=model.rotor_mass(spec, braking=False),
         rotor_braked=model.rotor_mass(spec, braking=True),
     )
@@ -128,11 +129,10 @@ def _rising(spec: Travelling) -> float:
 
 def _least_force(spec: Travelling, force: float) -> float:
     """Of a motor's curve on its way to full speed [N]."""
-    motor = spec.drive.motor
-    if motor.curve is None or isinstance(motor.curve, ConverterMotor):
+    curve = spec.drive.motor.curve
+    if curve is None or isinstance(curve, ConverterMotor):
         return force
-    speeds = np.linspace(0.0, model.motor_speed(spec), 257)
-    return model.driving_force(spec, motor.count * float(np.min(motor.curve.torque(speeds, np.inf))))
+    return model.driving_force(spec, model.least_torque(spec))
 
 
 def stalls(motion: Motion) -> bool:

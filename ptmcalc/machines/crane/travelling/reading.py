@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Finding, Found, of
+from ptmcalc.contract.result import Failure, Finding, Found, of
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling import model, stability
 from ptmcalc.machines.crane.travelling.checks import rate_key
 from ptmcalc.machines.crane.travelling.course import Course, State, extreme
 from ptmcalc.machines.crane.travelling.moving import motion_of
@@ -19,6 +19,7 @@ from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_
 
 STALL = "stall: the motors do not bring the crane to full speed against friction, wind and slope"
 RUNAWAY = "the brakes do not stop the crane against wind and slope"
+GRIP = "accelerate and brake less, drive more wheels, or give `rail.adhesion` its value"
 SLIDES = "driven wheels slide: times, swing and wheel loads are those of wheels that hold, and decide nothing"
 
 
@@ -28,9 +29,22 @@ def findings_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> 
         why, hint = (STALL, "give it more torque") if model.starts(scene) else (RUNAWAY, "give it stronger brakes")
         return (Finding("NUM110", why, rate_key(spec, scene), hint),)
     if loads["skid_reserve_min"].estimate.low < 1:
-        hint = "accelerate and brake less, drive more wheels, or give `rail.adhesion` its value"
-        return (Finding("NUM102", SLIDES, rate_key(spec, scene), hint),)
+        return (Finding("NUM102", SLIDES, rate_key(spec, scene), GRIP),)
     return ()
+
+
+def failures_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> tuple[Failure, ...]:
+    """What a start or a stop fails by, whatever limit the file sets: driven or braked wheels that slide.
+
+    It is asked of starts and stops that come about: what stalls is told by its endless time.
+    """
+    time = loads["start_time" if model.starts(scene) else "brake_time"].estimate.value
+    grip = loads["skid_reserve_min"].estimate
+    if math.isinf(time) or not grip.high < 1:
+        return ()
+    what = "start" if model.starts(scene) else "stop"
+    message = f"driven wheels slide in the {what}: their adhesion is {grip.high:.3g} of what is asked of them"
+    return (Failure("CRN155", message, rate_key(spec, scene), GRIP),)
 
 
 def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found]:
@@ -65,6 +79,8 @@ def loads_of(spec: Travelling, scene: Moving, course: Course) -> dict[str, Found
     for name, largest in (("wheel_load_max", True), ("wheel_load_min", False)):
         worst = course.extreme(partial(_wheel, wheels, largest), largest)
         loads[name] = Found(worst.estimate, note=f"{wheels.where(worst.state, largest)}, {worst.phase}")
+    tips = course.extreme(partial(stability.reserve, spec, scene), largest=False).estimate
+    loads["stability_reserve"] = Found(tips)
     if model.hanging(spec, scene):
         period = 2 * math.pi * math.sqrt(model.rope_length(spec, scene) / spec.gravity)
         loads["sway_period"] = Found(Estimate.exact(period))

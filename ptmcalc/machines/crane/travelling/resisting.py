@@ -15,11 +15,11 @@ def coefficient(spec: Travelling) -> float:
     if given.coefficient is not None:
         return given.coefficient
     return travel.rolling_coefficient(
-        given.bearing_friction,
+        filled(given.bearing_friction),
         filled(given.axle_diameter),
         filled(given.lever_arm),
         spec.wheels.diameter,
-        given.flange_factor,
+        filled(given.flange_factor),
     )
 
 

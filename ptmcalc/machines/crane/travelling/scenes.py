@@ -12,7 +12,8 @@ from ptmcalc.spec.fields import (
     PositiveSpan,
     PositiveTime,
 )
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Absent
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class TravelScene(Scene):
@@ -33,14 +34,14 @@ class Run(TravelScene):
     type: Literal["run"] = "run"
 
 
-class MovingScene(TravelScene):
+class MovingScene(TravelScene, TransientScene):
     """What starts or stops, with a load that swings."""
 
     wind: Literal["against", "with", "none"] | None = None
     """the wind of the file; against a start and with a stop when left out"""
     slope: Literal["against", "with", "none"] | None = None
     """the slope of the file; against a start and with a stop when left out"""
-    length: PositiveSpan | None = None
+    length: Annotated[PositiveSpan | None, Absent("the length of the `suspension`")] = None
     """of the ropes, from where they are held to the middle of the load; that of the `suspension` when left out"""
 
 
@@ -64,7 +65,7 @@ class HoistWhileTravelling(MovingScene):
     type: Literal["hoist_while_travelling"] = "hoist_while_travelling"
     hoist: Literal["up", "down"] = "up"
     """which way"""
-    time: PositiveTime | None = None
+    time: Annotated[PositiveTime | None, Absent("it is hoisted as long as the crane starts")] = None
     """how long from the beginning of the start; as long as the start when left out"""
 
 
@@ -72,15 +73,17 @@ class Collision(TravelScene):
     """It runs onto its buffers."""
 
     type: Literal["collision"] = "collision"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Absent("full speed: the worst case")] = 1.0
     """of full speed at which the buffers are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
     suspension: Literal["swinging", "guided"] = "swinging"
     """whether the load swings on, or is guided and hits with the crane"""
     drive: Literal["off", "on"] = "off"
     """whether the motors still push with their mean starting torque"""
-    other_mass: PositiveMass | None = None
+    other_mass: Annotated[PositiveMass | None, Absent("it runs onto a stop that does not give")] = None
     """of a crane on the same rails, with the same buffers, that it runs into instead of a stop"""
-    other_speed: Annotated[float, Measure(units.SPEED, at_least=0)] = 0.0
+    other_speed: Annotated[
+        Annotated[float, Measure(units.SPEED, at_least=0)], Absent("the other crane stands, as told by this scene")
+    ] = 0.0
     """of that crane, towards this one"""
 
 
@@ -88,7 +91,7 @@ class RailStep(TravelScene):
     """A wheel runs over the largest step and the largest gap of the rail."""
 
     type: Literal["rail_step"] = "rail_step"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Absent("full speed, at which even travel is")] = 1.0
     """of full speed"""
 
 

@@ -15,6 +15,7 @@ from ptmcalc.contract.result import Event, Finding, History
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.course import Course, Reading, State, Worst
 from ptmcalc.machines.crane.travelling.linear import linear_course, stalled
+from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -191,7 +192,7 @@ def turns(spec: Travelling, scene: Moving) -> float:
         return math.inf
     mass = motion.body + motion.rotor
     stiffer = 1.0 if motion.ramp is not None else 1 + motion.load / mass
-    return lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi
+    return motion.looks * (lasts * math.sqrt(motion.gravity / shortest * stiffer) + 4 * math.pi)
 
 
 def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
@@ -210,7 +211,7 @@ def simulate(spec: Travelling, scene: Moving, tolerance: float) -> Run:
     reached, legs = _until_speed(spec, scene, motion, tolerance)
     begins = max(reached, motion.hoist_time)
     length = motion.length - motion.hoisting * motion.hoist_time
-    window = begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity)
+    window = motion.looks * (begins + 1.2 * 2 * math.pi * math.sqrt(length / motion.gravity))
     legs = _lengthened(tolerance, legs, window)
     there = None if motion.ramp is not None else _there(motion, legs[-1].swing)
     if there is not None:  # a longer run comes there at its own time: before it the crane moves, after it it does not
@@ -286,7 +287,7 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
 def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     drive = spec.drive
     ratio = model.rim_ratio(spec)
-    wheels = model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2
+    wheels = model.driven_wheels(spec) * filled(spec.wheels.inertia) / model.radius(spec) ** 2
     free = motion.ramp is not None
     brake = drive.brake
     held = braking(brake.torque * ratio, 0.0, brake.delay, brake.rise_time) if brake is not None else None

@@ -45,6 +45,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 WindArea = Annotated[float, Measure(units.FACE, at_least=0)]
 Count = Annotated[int, Field(ge=1, le=16, strict=True)]
@@ -60,13 +61,17 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail A to rail B"""
-    centre: PositiveSpan | None = None
+    centre: Annotated[PositiveSpan | None, Absent("bridges are alike on both sides")] = None
     """of gravity, from rail A; in the middle when left out"""
-    height: Span = 0.0
+    height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
-    cantilever_a: Span = 0.0
+    cantilever_a: Annotated[
+        Span, Absent("without it the hook stays between the rails, to which its places are held")
+    ] = 0.0
     """of a gantry, beyond rail A"""
-    cantilever_b: Span = 0.0
+    cantilever_b: Annotated[
+        Span, Absent("without it the hook stays between the rails, to which its places are held")
+    ] = 0.0
     """of a gantry, beyond rail B"""
 
 
@@ -75,15 +80,15 @@ class Trolley(Fragment):
 
     mass: PositiveMass
     """with the hoist, without the hook block"""
-    gauge: PositiveLength | None = None
+    gauge: Annotated[PositiveLength | None, OneOf("bridge.span")] = None
     """from its rail A to its rail B; of a trolley that travels"""
-    nearest: SignedSpan | None = None
+    nearest: Annotated[SignedSpan | None, OneOf("hook")] = None
     """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
-    farthest: SignedSpan | None = None
+    farthest: Annotated[SignedSpan | None, Absent("the trolley goes as near to rail B as to rail A")] = None
     """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
-    hook: PositiveLength | None = None
+    hook: Annotated[PositiveLength | None, Absent("the rope is held in the middle, as it is on most trolleys")] = None
     """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
-    height: Span = 0.0
+    height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
 
 
@@ -94,17 +99,19 @@ class Wheels(Fragment):
     """at the tread"""
     base: PositiveSpan
     """from the front to the rear corners, along the rail"""
-    per_corner: Annotated[int, Field(ge=1, le=16, strict=True)] = 1
+    per_corner: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one wheel has the largest load of all")] = 1
     """wheels of a corner, in balanced bogies"""
     driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
     """corners with driven wheels, e.g. `[A1, B1]`"""
-    driven_per_corner: Annotated[int, Field(ge=1, le=16, strict=True)] | None = None
+    driven_per_corner: Annotated[
+        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("a corner that is named is driven as a whole")
+    ] = None
     """driven wheels of such a corner; all when left out"""
     frame: Literal["hinged", "rigid"] = "hinged"
     """how the four corners share the loads: girders hinged to their end carriages, or a frame that does not twist"""
-    inertia: Inertia = 0.0
+    inertia: Annotated[Inertia | None, Assumed()] = None
     """of one wheel"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest load of one wheel, or of the rail under it; needed to check it"""
 
     @classmethod
@@ -125,15 +132,15 @@ class Wheels(Fragment):
 class Rolling(Fragment):
     """What the wheels resist with."""
 
-    coefficient: Fraction | None = None
+    coefficient: Annotated[Fraction | None, OneOf("lever_arm")] = None
     """all resistance over the weight, or give `lever_arm`"""
-    lever_arm: Length | None = None
+    lever_arm: Annotated[Length | None, OneOf("coefficient")] = None
     """of rolling, of steel on steel 0.3 to 1 mm by the diameter"""
-    bearing_friction: Fraction = 0.015
+    bearing_friction: Annotated[Fraction | None, Assumed()] = None
     """of the wheels' bearings; 0.015 rolling, 0.08 to 0.1 plain"""
-    axle_diameter: PositiveLength | None = None
+    axle_diameter: Annotated[PositiveLength | None, Assumed()] = None
     """at the middle of the bearings; a quarter of the wheel when left out"""
-    flange_factor: Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] = 1.5
+    flange_factor: Annotated[Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] | None, Assumed()] = None
     """for flanges that rub, 1.5 to 2.5; 1 with guide rollers"""
 
     @classmethod
@@ -151,15 +158,19 @@ class Rolling(Fragment):
 class Rail(Fragment):
     """What it runs on."""
 
-    slope: Slope = 0.0
+    slope: Annotated[
+        Slope, Assumed(0.0, 0.0, 0.001, "runways are laid to a slope of 0.001 along their length (ISO 12488-1)")
+    ] = 0.0
     """rise over length"""
-    adhesion: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None = None
+    adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
     """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
-    step: Length = 0.0
+    step: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
     """height of the largest step"""
-    gap: Length = 0.0
+    gap: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
     """width of the largest gap"""
-    frequency: Annotated[float, Measure(units.FREQUENCY, above=0)] | None = None
+    head: Annotated[PositiveLength | None, OneOf("guide.wear")] = None
+    """width of its head, by which guides wear; 50 mm is assumed when left out"""
+    frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
     """of the crane that swings vertically on its wheels; 10 Hz is assumed for a `rail_step`"""
 
 
@@ -170,19 +181,27 @@ class Guide(Fragment):
     """flanges of the wheels, or guide rollers"""
     clearance: Length
     """play between guide and rail, both sides together"""
-    wear: Length = 0.0
-    """of guide and rail; of a rail 60 mm wide 6 mm with flanges, 2 mm with rollers"""
-    base: PositiveSpan | None = None
+    wear: Annotated[Length | None, Assumed()] = None
+    """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
+    base: Annotated[PositiveSpan | None, Absent("flanges guide at the wheels; rollers in front of them press less")] = (
+        None
+    )
     """from the foremost to the rearmost guide; the wheel base when left out"""
     rail_two: Literal["fixed", "movable"] = "fixed"
     """whether the wheels or legs of the other rail hold sideways"""
-    adhesion: Annotated[float, Measure(units.RATIO, above=0, at_most=1)] = 0.3
+    adhesion: Annotated[
+        Annotated[float, Measure(units.RATIO, above=0, at_most=1)],
+        Absent("the largest friction of the standards: the rail was cleaned"),
+    ] = 0.3
     """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
-    tolerance: Annotated[float, Measure(units.ANGLE, at_least=0)] = 0.001
+    tolerance: Annotated[
+        Annotated[float, Measure(units.ANGLE, at_least=0)],
+        Assumed(0.001, 0.001, 0.002, "EN 13001-2, EN 1991-3: 0.001 rad for wheels and rails of usual tolerances"),
+    ] = 0.001
     """angle of wheels and rails by tolerances"""
     edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
     """by which the play becomes an angle"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of a guide; needed to check it"""
 
 
@@ -191,19 +210,25 @@ class Wind(Fragment):
 
     area: WindArea
     """of what travels, facing the wind, without the load"""
-    load_area: WindArea = 0.0
+    load_area: Annotated[WindArea | None, Assumed()] = None
     """of the load"""
-    shape: PositiveRatio = 1.6
+    shape: Annotated[
+        PositiveRatio, Assumed(1.6, 1.2, 2.0, "EN 13001-2: 1.2 for tubes, 1.6 to 2 for plate and box girders")
+    ] = 1.6
     """force coefficient of the area"""
-    load_shape: PositiveRatio = 1.2
+    load_shape: Annotated[PositiveRatio, Assumed(1.2, 1.1, 2.4, "EN 13001-2: 1.2 for loads, 2.4 when unknown")] = 1.2
     """force coefficient of the load"""
-    height: Span | None = None
+    height: Annotated[
+        Span | None, Absent("the wind acts at the centre of gravity, which is about the middle of the area")
+    ] = None
     """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
     pressure: PositivePressure
     """in which the crane works: starts, travels, stops"""
-    pressure_max: PositivePressure | None = None
+    pressure_max: Annotated[PositivePressure | None, Assumed()] = None
     """largest in service, against which it still travels; `pressure` when left out"""
-    pressure_storm: PositivePressure | None = None
+    pressure_storm: Annotated[
+        PositivePressure | None, Absent("without it no crane is parked outdoors in a `storm`")
+    ] = None
     """out of service, in which it must stand; needed for a `storm`"""
 
     @classmethod
@@ -237,15 +262,17 @@ class Duty(Fragment):
 
     type: Literal["S1", "S3", "S4", "S5"] = "S3"
     """duty type of IEC 60034-1; S4 and S5 count the starts"""
-    factor: PositiveShare | None = None
+    factor: Annotated[PositiveShare | None, Assumed()] = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 count no starts; S4 and S5 ask for them")] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""
-    cycles: Annotated[float, Measure(units.FACTOR, above=0)] | None = None
+    cycles: Annotated[
+        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
+    ] = None
     """hoisting cycles in the life, which with the spectrum give the group of the crane"""
-    hours: RunningTime | None = None
+    hours: Annotated[RunningTime | None, Absent("the group is computed only where it is given")] = None
     """time in motion in the life, which with the spectrum gives the group of the mechanism"""
 
     @classmethod
@@ -275,16 +302,20 @@ class Classes(Fragment):
     """group of the crane, ISO 4301-1"""
     edition: Literal["by_class", "by_drive", "raised"] = "by_class"
     """smallest phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
-    lifting_share: Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)] = 0.1
+    lifting_share: Annotated[
+        Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)], Absent("the largest of the standard")
+    ] = 0.1
     """the part by which phi1 differs from 1"""
     release: Literal["none", "slow", "quick"] = "none"
     """how a part of the load comes off: by a grab, or by a magnet; for phi3"""
-    released_share: Fraction = 1.0
+    released_share: Annotated[Fraction, Absent("all of the load comes off: the worst case of a `release`")] = 1.0
     """part of the load that comes off"""
     drive_change: Literal["centrifugal", "smooth", "sudden"] | None = None
     """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
     play: Literal["small", "large"] = "small"
     """of the travel drive, for phi5"""
+    stability: Literal["en_13001_2", "fem_1_001"] = "en_13001_2"
+    """by which standard's partial factors it is proved that the crane does not tip"""
     buffer_edition: Literal["line", "two_values"] = "line"
     """phi7 along a line by the shape of the buffer's curve (EN 13001-2, ISO 8686-1), or one of two values"""
 
@@ -292,42 +323,44 @@ class Classes(Fragment):
 class Declared(Fragment):
     """Dynamic factors with which the structure has been calculated: what is found must not be above them."""
 
-    phi1: Phi | None = None
+    phi1: Annotated[Phi | None, Limit()] = None
     """weight of the crane as a load is lifted"""
-    phi2: Phi | None = None
+    phi2: Annotated[Phi | None, Limit()] = None
     """lifting a load off the ground"""
-    phi3: Annotated[float, Measure(units.RATIO, at_least=-1, at_most=1)] | None = None
+    phi3: Annotated[Annotated[float, Measure(units.RATIO, at_least=-1, at_most=1)] | None, Limit()] = None
     """a part of the load comes off; what is found must not be below it"""
-    phi4: Phi | None = None
+    phi4: Annotated[Phi | None, Limit()] = None
     """running over steps and gaps"""
-    phi5: Phi | None = None
+    phi5: Annotated[Phi | None, Limit()] = None
     """changes of the drive forces"""
-    phi6: Phi | None = None
+    phi6: Annotated[Phi | None, Limit()] = None
     """dynamic test load"""
-    phi7: Phi | None = None
+    phi7: Annotated[Phi | None, Limit()] = None
     """buffers"""
 
 
 class TravelChecks(CheckSettings):
     """Limits of the checks of a crane that travels."""
 
-    start_time: PositiveTime = 15.0
+    start_time: Annotated[PositiveTime, Limit()] = 15.0
     """longest start"""
-    brake_time: PositiveTime = 15.0
+    brake_time: Annotated[PositiveTime, Limit()] = 15.0
     """longest stop"""
-    brake_distance: PositiveSpan | None = None
+    brake_distance: Annotated[PositiveSpan | None, Limit()] = None
     """longest way to a stop; needed to check it"""
-    sway_angle: PositiveAngle = 0.174532925199433
+    sway_angle: Annotated[PositiveAngle, Limit()] = 0.174532925199433
     """largest angle of the load, 10 deg when left out"""
-    residual_sway: PositiveAngle | None = None
+    residual_sway: Annotated[PositiveAngle | None, Limit()] = None
     """largest angle that stays after the start or stop; needed to check it"""
-    skid_reserve: PositiveRatio = 1.2
+    skid_reserve: Annotated[PositiveRatio, Limit()] = 1.2
     """least adhesion of a driven or braked wheel over what its drive asks of it"""
-    motor_reserve: PositiveRatio = 1.1
+    motor_reserve: Annotated[PositiveRatio, Limit()] = 1.1
     """least starting torque over the torque of even travel against the wind"""
-    wind_reserve: PositiveRatio = 1.1
+    wind_reserve: Annotated[PositiveRatio, Limit()] = 1.1
     """least force that holds the crane over that of the wind out of service"""
-    collision_speed: PositiveSpeed | None = None
+    stability: Annotated[PositiveRatio, Limit()] = 1.0
+    """least moment that keeps the crane on its wheels over that which tips it, both with their partial factors"""
+    collision_speed: Annotated[PositiveSpeed | None, Limit()] = None
     """largest speed at which a buffer may be hit; that of the buffer when left out"""
 
 
@@ -340,7 +373,7 @@ class Travelling(MachineSpec):
     """what the file describes the travel of"""
     load: PositiveMass
     """rated load on the hook"""
-    hook_block: Mass = 0.0
+    hook_block: Annotated[Mass | None, Assumed()] = None
     """hook block and whatever stays on the hook"""
     bridge: Bridge | None = None
     """what travels besides the trolley; of a bridge or gantry"""
@@ -375,8 +408,9 @@ class Travelling(MachineSpec):
     checks: TravelChecks = TravelChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out: even travel, a start loaded and empty, a stop, and what the file has
-    the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing, a storm"""
+    """what happens to the machine; when left out: even travel, a start and a stop, loaded and empty, and what the
+    file has the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
+    a storm"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -390,7 +424,7 @@ class Travelling(MachineSpec):
     def all_scenes(self) -> Sequence[TravelScene]:
         if self.scenes is not None:
             return self.scenes
-        scenes: list[TravelScene] = [Run(), Start(), Start(load="empty"), Brake()]
+        scenes: list[TravelScene] = [Run(), Start(), Start(load="empty"), Brake(), Brake(load="empty")]
         if self.suspension.hoist_speed is not None:
             scenes.append(HoistWhileTravelling())
         if self.buffers is not None:

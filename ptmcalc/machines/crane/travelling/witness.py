@@ -22,6 +22,7 @@ from ptmcalc.machines.crane.travelling.cartesian import Force, Journey, Mode, Nu
 from ptmcalc.machines.crane.travelling.course import Course, Reading, Worst
 from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.reading import loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
@@ -136,7 +137,7 @@ def _numbers(spec: Travelling, scene: Moving, motion: Motion) -> Numbers:
     brake = drive.brake if not motion.starts and motion.ramp is None else None
     return Numbers(
         body=motion.body,
-        turning=motion.body + model.driven_wheels(spec) * spec.wheels.inertia / model.radius(spec) ** 2,
+        turning=motion.body + model.driven_wheels(spec) * filled(spec.wheels.inertia) / model.radius(spec) ** 2,
         rotor=drive.inertia * ratio**2,
         forward=drive.efficiency,
         reverse=drive.reverse_efficiency,

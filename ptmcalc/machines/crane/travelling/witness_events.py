@@ -20,7 +20,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, skew
-from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling import model, yawing
 from ptmcalc.machines.crane.travelling.effects import RAIL
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm
@@ -35,8 +35,6 @@ _STROKE_LOOKS = 400
 Path = Callable[[FloatArray], FloatArray]
 """Something over times, arrays alike."""
 _MOST_TURNS = 1e4
-_STANDS = 1e-7
-"""Share of the speed that the root of an event may have missed."""
 _SLOW = 0.01
 """Share of the speed at which an orifice has stopped the crane, as the solver has it."""
 
@@ -44,136 +42,162 @@ _SLOW = 0.01
 # -- buffers ---------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Hit:
-    """Two masses and what is between them; one against a stop has no second mass."""
-
-    given: Buffer
-    mass: float
-    push: float
-    other: float | None
-    speed: float
-    """of both towards each other"""
-
-    @property
-    def row(self) -> float:
-        """Buffers one behind the other."""
-        return 1.0 if self.other is None else 2.0
-
-    def force(self, stroke: float, speed: float) -> float:
-        """Of all buffers beside each other, by the stroke and its rate of one of them."""
-        given, hard = self.given, self.given.hardness
-        if given.type == "linear":
-            return hard * stroke
-        if given.type == "progressive":
-            return float(hard * (max(stroke, 0.0) / given.stroke) ** given.power)
-        return float(hard * speed * speed) if given.type == "hydraulic" else hard
-
-    def nears(self, force: float) -> float:
-        """Acceleration with which they near each other."""
-        nears = (self.push - force) / self.mass
-        return nears if self.other is None else nears + (self.push - force) / self.other
-
-
 def collide(spec: Travelling, scene: Collision, carried: frozenset[str], level: int) -> Result:
-    """Both masses and the force of the buffers between them followed over time until they near each other no more.
+    """The crane on the buffers of both rails, turning, and the load on its ropes, followed over time.
 
-        x_1'' = (P - F)/m_1,   x_2'' = (P - F)/m_2,   F = c u, F_e (u/s)^p, F_0 or k u'^2,   u = x_1 + x_2 (half of it)
+        M y'' + F(y) = P + H,   F = c u, F_e (u/s)^p, F_0 or k u'^2;   of two cranes u is half of what they near
 
-    **Range** as the closed forms: a load that hangs does not count, a guided one is part of the crane.
+    **Range** as `buffer_collision`.
     **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
     **Source** Newton's law; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     given = spec.buffers
     assert given is not None
     drive, ratio = spec.drive, model.rim_ratio(spec)
-    wheels = model.wheel_count(spec) * spec.wheels.inertia / model.radius(spec) ** 2
+    wheels = model.wheel_count(spec) * filled(spec.wheels.inertia) / model.radius(spec) ** 2
     mass = sum(body.mass for body in model.bodies(spec, 0.0)) + wheels + drive.efficiency * drive.inertia * ratio**2
     mass += model.hanging(spec, scene) if scene.suspension == "guided" else 0.0
     push = drive.torque * ratio * drive.efficiency if scene.drive == "on" else 0.0
-    other = scene.other_speed if scene.other_mass is not None else 0.0
-    hit = _Hit(given, mass, push, scene.other_mass, scene.speed_share * spec.speed + other)
-    found = [_stopped(hit, tolerance) for tolerance in lumped.TOLERANCES[-2:]]
-    loads = lumped.compared(*({name: one[name] for name in one if name != "left"} for one in found))
-    left = found[-1]["left"]
-    for name in ("buffer_force", "buffer_deceleration"):
+    start, struck = scene.speed_share * spec.speed, mass
+    if scene.other_mass is not None:
+        start = (start + scene.other_speed) / 2
+        struck = 2 * mass * scene.other_mass / (mass + scene.other_mass)
+    ever = _ever(given, push, start)
+    loads = {
+        "collision_speed": Found(Estimate.exact(start)),
+        "collision_energy": Found(Estimate.within(struck * start**2 / 2, 1e-9 * struck * start**2)),
+    }
+    if not ever:
+        loads |= _pushed_on(given, struck, push, start, mass)
+    else:
+        runs = [_pressed(yawing.places(spec, scene, struck / mass, start), one) for one in lumped.TOLERANCES[-2:]]
+        for run in runs:
+            run["buffer_deceleration"] *= struck / mass
+        left = runs[-1].pop("left")
+        before = runs[0].pop("left")
+        loads |= lumped.compared(*runs)
+        for name in ("buffer_force", "buffer_stroke", "buffer_deceleration"):
+            loads[name] = _loosened(loads[name].estimate, given.type == "constant" and name != "buffer_force")
         if left > 0:  # whatever stands behind the buffers has the rest
-            one = loads[name].estimate
-            loads[name] = Found(Estimate(one.value, one.low, math.inf, one.numerical, math.inf))
-    loads["buffer_speed_left"] = Found(lumped.estimate(found[0]["left"], left))
-    share = given.shape if given.shape is not None else _share(hit)
+            for name in ("buffer_force", "buffer_deceleration"):
+                one = loads[name].estimate
+                loads[name] = Found(Estimate(one.value, one.low, math.inf, one.numerical, math.inf))
+        loads["buffer_speed_left"] = Found(_wide(lumped.estimate(before, left), 1e-4 * start))
+    share = given.shape if given.shape is not None else _share(given, struck)
     factor = buffer.buffer_factor(min(share, 1.0), spec.classes.buffer_edition)
     loads["phi7"] = Found(Estimate.within(factor, 1e-8))
     return Result(loads, work=2)
 
 
-def _stopped(hit: _Hit, tolerance: float) -> dict[str, float]:
-    """What the buffers come to, their curve continued beyond the end of their stroke."""
-    given, start = hit.given, hit.speed / hit.row
+def _loosened(one: Estimate, much: bool) -> Found:
+    """With the error of looks at a course that has corners."""
+    return Found(_wide(one, (1e-2 if much else 1e-5) * abs(one.value)))
+
+
+def _wide(one: Estimate, more: float) -> Estimate:
+    bar = one.bar + more
+    return Estimate.within(one.value, bar)
+
+
+def _ever(given: Buffer, push: float, start: float) -> bool:
+    """Whether the buffers ever stop what is pushed onto them."""
+    if given.type == "constant":
+        return push < given.hardness
+    return given.type != "hydraulic" or push == 0 or push / given.hardness < (_SLOW * start) ** 2
+
+
+def _pushed_on(given: Buffer, struck: float, push: float, start: float, mass: float) -> dict[str, Found]:
+    """A straight stop that never ends, at the end of the stroke: by quadrature of its energy."""
+    from scipy.integrate import solve_ivp
+
+    hard = given.hardness
+    force = (lambda square: hard) if given.type == "constant" else (lambda square: hard * square)
+    run: Any = solve_ivp(
+        lambda u, square: [2 * (push - force(square[0])) / struck], (0.0, given.stroke), [start**2], rtol=1e-11,
+        atol=1e-12 * start**2, method="DOP853",
+    )  # fmt: skip
+    left = math.sqrt(max(float(run.y[0, -1]), 0.0))
+    most = max(force(start**2), force(left**2))
+    numbers = {"buffer_force": most / given.count, "buffer_deceleration": (most - push) / mass}
+    found = {name: Found(Estimate(value, value, math.inf, 0.0, math.inf)) for name, value in numbers.items()}
+    found["buffer_stroke"] = Found(Estimate.exact(math.inf))
+    found["buffer_speed_left"] = Found(Estimate.within(left, 1e-7 * start))
+    return found
+
+
+def _pressed(several: list[yawing.Yawing], tolerance: float) -> dict[str, float]:
+    """The hardest pressed buffer over all places of the hook."""
+    found = [_followed(one, tolerance) for one in several]
+    return {name: max(one[name] for one in found) for name in found[0]}
+
+
+def _followed(one: yawing.Yawing, tolerance: float) -> dict[str, float]:
+    """Force, stroke and deceleration until the buffers of both rails are pressed no more."""
+    from scipy.integrate import solve_ivp
+
+    given, start = one.given, one.speed
     slow = _SLOW * start if given.type == "hydraulic" else 0.0
-    full = given.hardness if given.type == "constant" else math.inf
-    steady = hit.push / given.hardness if given.type == "hydraulic" else 0.0
-    ever = hit.push < full and (steady < slow**2 or not steady)
-    ends = _followed(hit, tolerance, given.stroke, slow)
-    stroke, speed, _ = ends[-1]
-    needed, left = stroke, speed > slow + _STANDS * start
-    if left:  # the end of the stroke comes first
-        needed = _followed(hit, tolerance, math.inf, slow)[-1][0] if ever else math.inf
-    elif given.type == "hydraulic" and not ever:
-        needed = math.inf
-    most = max(force for _, _, force in ends)
-    energy = hit.mass * hit.speed**2 / 2
-    if hit.other is not None:
-        energy = hit.mass * hit.other / (hit.mass + hit.other) * hit.speed**2 / 4
+    slow = 1e-3 * start if given.type == "constant" else slow
+
+    def slows(t: float, y: Any) -> float:
+        return max(float(y[3]), float(y[4])) - slow
+
+    slows.terminal = True  # type: ignore[attr-defined]
+    slows.direction = -1  # type: ignore[attr-defined]
+    length = given.stroke
+    run: Any = solve_ivp(
+        lambda t, y: one.rates(tuple(y)), (0.0, 1e9), [0.0, 0.0, 0.0, start, start, start], events=(slows,),
+        rtol=tolerance, atol=[1e-3 * tolerance * length] * 3 + [1e-3 * tolerance * start] * 3, dense_output=True,
+        method="DOP853" if given.type != "constant" else "Radau",
+    )  # fmt: skip
+    times = np.linspace(0.0, float(run.t[-1]), _STROKE_LOOKS)
+    looks = run.sol(times)
+    tops = [_deepest(looks[side], looks[side + 3], times) for side in (0, 1)]
+    side = int(tops[1] > tops[0])
+    forces = [one.force(min(float(u), given.stroke), float(v)) for u, v in looks[[side, side + 3]].T]
+    most = max(forces) if given.type == "hydraulic" else one.force(min(tops[side], given.stroke), start)
+    left, past = 0.0, np.flatnonzero(looks[side] > given.stroke)
+    if len(past):
+        left = _speed_at(run, side, given.stroke, float(times[past[0] - 1]), float(times[past[0]]))
+        left = left if left > slow or given.type != "hydraulic" else 0.0
+    rates = np.array([one.rates(tuple(look))[3:5] for look in looks.T])
+    single = 1.0 if given.count > 1 else 2.0
     return {
-        "collision_speed": start,
-        "collision_energy": energy,
-        "buffer_force": most / given.count,
-        "buffer_stroke": needed,
-        "buffer_deceleration": (most - hit.push) / hit.mass,
-        "left": speed if left else 0.0,
+        "buffer_force": single * most / max(given.count / 2, 1.0),
+        "buffer_stroke": tops[side],
+        "buffer_deceleration": float(-rates.min()),
+        "left": left,
     }
 
 
-def _followed(hit: _Hit, tolerance: float, until: float, slow: float) -> list[tuple[float, float, float]]:
-    """Stroke, its rate and force of a buffer from first contact until its rate is slow, or its stroke is used up."""
-    from scipy.integrate import solve_ivp
-
-    start = hit.speed / hit.row
-
-    def rates(t: float, y: Any) -> list[float]:
-        return [y[1], hit.nears(hit.force(y[0], y[1])) / hit.row]
-
-    def slows(t: float, y: Any) -> float:
-        return float(y[1]) - slow
-
-    def solid(t: float, y: Any) -> float:
-        return min(until, 1e9) - float(y[0])
-
-    for event in (slows, solid):
-        event.terminal = True  # type: ignore[attr-defined]
-        event.direction = -1  # type: ignore[attr-defined]
-    run: Any = solve_ivp(
-        rates, (0.0, 1e9), [0.0, start], method="DOP853", rtol=tolerance, atol=[1e-3 * tolerance * hit.given.stroke,
-        1e-3 * tolerance * start], events=(slows, solid), dense_output=True,
-    )  # fmt: skip
-    times = np.linspace(0.0, float(run.t[-1]), _STROKE_LOOKS)
-    strokes, speeds = run.sol(times)
-    strokes[-1], speeds[-1] = run.y[:, -1]
-    return [(float(u), float(v), hit.force(float(u), float(v))) for u, v in zip(strokes, speeds, strict=True)]
+def _deepest(strokes: Any, rates: Any, times: Any) -> float:
+    """Largest stroke, where its rate vanishes between two looks too."""
+    best = int(strokes.argmax())
+    top = float(strokes[best])
+    for one in (best - 1, best):
+        if 0 <= one < len(times) - 1 and rates[one] > 0 >= rates[one + 1]:
+            step, share = times[one + 1] - times[one], rates[one] / (rates[one] - rates[one + 1])
+            top = max(top, float(strokes[one] + rates[one] * step * share / 2))
+    return top
 
 
-def _share(hit: _Hit) -> float:
+def _speed_at(run: Any, side: int, stroke: float, low: float, high: float) -> float:
+    """Rate with which a stroke is passed between two times."""
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if run.sol(middle)[side] < stroke else (low, middle)
+    return float(run.sol(high)[side + 3])
+
+
+def _share(given: Buffer, struck: float) -> float:
     """Energy of the buffers over largest force times stroke, by quadrature of the force of a crane on its way."""
     from scipy.integrate import quad
 
-    given = hit.given
-    if given.type != "hydraulic":
-        whole = quad(lambda u: hit.force(u, 0.0), 0.0, given.stroke)[0]
-        return float(whole / (hit.force(given.stroke, 0.0) * given.stroke))
-    struck = hit.mass if hit.other is None else 2 * hit.mass * hit.other / (hit.mass + hit.other)
-    whole = quad(lambda u: math.exp(-2 * given.hardness * u / struck), 0.0, given.stroke, epsabs=0.0)[0]
-    return float(whole / given.stroke)
+    if given.type == "hydraulic":
+        whole = quad(lambda u: math.exp(-2 * given.hardness * u / struck), 0.0, given.stroke, epsabs=0.0)[0]
+        return float(whole / given.stroke)
+    power = {"linear": 1.0, "progressive": given.power, "constant": 0.0}[given.type]
+    return float(quad(lambda u: (u / given.stroke) ** power, 0.0, given.stroke)[0] / given.stroke)
 
 
 # -- rail ------------------------------------------------------------------------------------------------------------
@@ -296,7 +320,7 @@ def lean(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> 
     assert given is not None
     base = given.base if given.base is not None else spec.wheels.base
     whole = skew.skew_angle(
-        given.clearance, given.wear, base, skew.LEAST_PLAY[given.type], given.tolerance, given.edition
+        given.clearance, filled(given.wear), base, skew.LEAST_PLAY[given.type], given.tolerance, given.edition
     )
     angle = min(whole, skew.LARGEST_ANGLE)
     full = given.adhesion * (1 - math.exp(-250 * angle))

@@ -3,12 +3,16 @@
 import math
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification
-from ptmcalc.machines.crane.slewing import chain, drive, model, ring
+from ptmcalc.machines.crane.slewing import chain, drive, model, ring, rising
 from ptmcalc.machines.crane.slewing.loads import OF_THE_DRIVE, OF_THE_RING, OF_THE_USE
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+
+_QUADRATURE = 1e-9
+"""Error of a number that hangs on the time of a start along a curve, over it."""
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
@@ -38,18 +42,52 @@ def run_geared(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str],
     return found_by(spec, scene, by_direction=True)
 
 
-def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool) -> Result:
-    """All of it, rotor and losses of the stop by the handbook or `by_direction` of the power."""
+def run_curve(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
+    """The chain of `geared` with the start along the motor's curve instead of its mean torque.
+
+        t_s = integral of J dw/(M(u w) u eta - M_steady),   beta_s = integral of w dt
+
+    **Range** a rigid crane, motors with a curve over the speed.
+    **Error** that of the quadrature, some 1e-9.
+    **Source** change of angular momentum along the curve; otherwise as `geared`.
+    """
+    return found_by(spec, scene, by_direction=True, by_curve=True)
+
+
+def has_curve(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
+    """Whether the motors have a curve over the speed.
+
+    **Range** any crane.
+    **Error** none.
+    **Source** the file.
+    """
+    return Criterion("curve", 0.0 if rising.follows(spec) else 1.0, 0.5, "the motor has no curve", "the file")
+
+
+def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool, by_curve: bool = False) -> Result:
+    """All of it, rotor and losses of the stop by the handbook or `by_direction` of the power; the start by the mean of
+    the motor's torque or `by_curve`."""
     start, at_column, derived = start_of(spec, scene)
+    turned = spec.speed * start / 2
+    rise = rising.rise_of(spec, scene) if by_curve else None
+    if rise is not None:
+        start, turned = rise.time, rise.angle
     stop = model.stop(spec, scene)
-    times = chain.phases(spec, (start, spec.speed * start / 2), stop or chain.allowed_stop(spec))
+    times = chain.phases(spec, (start, turned), stop or chain.allowed_stop(spec))
     at = chain.torques(spec, scene, at_column, by_direction=by_direction)
     loads = found_of(spec, scene, times, at)
     loads |= drive.of_drive(spec, scene, times, at) | ring.of_ring(spec, scene) | of_use(spec)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    if rise is not None:
+        found = {name: Found(_by_quadrature(value)) for name, value in loads.items()}
     known = "the start time" if derived == "torque_start" else "the motor's torque"
-    found[derived] = Found(Estimate.exact(loads[derived]), note=f"derived from {known}")
+    found[derived] = Found(found[derived].estimate, note=f"derived from {known}")
     return Result(found, work=1)
+
+
+def _by_quadrature(value: float) -> Estimate:
+    """A number with the error of Gauss's rule over a motor's curve."""
+    return Estimate.within(value, _QUADRATURE * abs(value)) if math.isfinite(value) else Estimate.exact(value)
 
 
 def start_of(spec: SlewingCrane, scene: SlewingScene) -> tuple[float, float, str]:
@@ -119,4 +157,17 @@ GEARED: Solver[SlewingCrane, SlewingScene] = Solver(
     run=run_geared,
     cost=lambda spec, scene, carried, level: 2e-4,
     source="power balance of the mesh",
+)
+CURVED: Solver[SlewingCrane, SlewingScene] = Solver(
+    name="curved",
+    title="the chain of a rotation, the start along the motor's curve",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Slew}),
+    represents=frozenset({"efficiency_direction", "slewing_motor_curve"}),
+    gives=_GIVEN,
+    run=run_curve,
+    cost=lambda spec, scene, carried, level: 5e-3,
+    source="change of angular momentum along the motor's curve",
+    valid=has_curve,
+    always=frozenset({"efficiency_direction", "slewing_motor_curve"}),
 )

@@ -38,7 +38,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
         at_column = chain.start_torque(spec, scene, start, given.rotor_eta_rule)
     times = chain.phases(spec, (start, spec.speed * start / 2), chain.allowed_stop(spec))
     at = chain.torques(spec, scene, at_column, given.rotor_eta_rule, by_direction=False)
-    loads = chain.loads(spec, scene, times, at, rounded=given.shares == "rounded")
+    loads = chain.loads(spec, scene, times, at, rounded=given.shares == "rounded", even=True)
     return Result({name: Found(Estimate.unknown(value)) for name, value in loads.items()}, work=1)
 
 

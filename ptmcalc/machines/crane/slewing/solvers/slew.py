@@ -1,6 +1,7 @@
 """The rotation simulated: a load that swings under a jib that motor, brake, friction and wind turn."""
 
 import math
+from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
@@ -25,7 +26,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     From rest the motor turns the crane against friction, the steady wind and a gust; at its speed the crane is kept
     there until the angle is left that the rigid crane takes to stop; then the motor is off, the largest wind drives and
     the brake closes with its delay. A start given by its time, or a self-locking gear, imposes the motion instead.
-    Looked at until three periods of the load after the stop.
+    Looked at until three periods of the load after the stop; what turns slowly afterwards is in the error.
 
     **Range** a rigid jib, a load without size on a taut rope.
     **Error** numerical: the difference of two runs, handed on with the state from piece to piece. Two effects can be
@@ -45,7 +46,12 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
         found[name] = Found(Estimate.within(peak.value, peak.bar), at={"time": peak.time})
     last = moved.pieces[-1]
     rest = last.motion.known("amplitude", last.lasts)
-    found["sway_residual"] = Found(Estimate.within(rest.value, rest.bar + last.inherited))
+    for name, share in (("brake_angle", 1.0), ("rotation_used", 1 / spec.cycle.rotation)):
+        found[name] = Found(_dragged(found[name].estimate, share * moved.creep))
+    residual = Estimate.within(rest.value, rest.bar + last.inherited)
+    found["sway_residual"] = Found(replace(residual, low=0.0, model=residual.value) if moved.creep else residual)
+    for name in _SIGNALS:
+        found[name] = replace(found[name], estimate=_turning(found[name].estimate, residual.high))
     found |= _ring(spec, scene, moved)
     return Result(
         found,
@@ -56,6 +62,17 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
         events=tuple(event for piece in moved.pieces for event in piece.events()),
         histories=lambda: _histories(moved),
     )
+
+
+def _dragged(seen: Estimate, creep: float) -> Estimate:
+    """A way that can still grow."""
+    return replace(seen, high=seen.high + creep, model=creep) if creep else seen
+
+
+def _turning(seen: Estimate, residual: float) -> Estimate:
+    """A swing that was looked at for a while: its plane goes on turning slowly, so that in the end all of it may be
+    on either axis; where it is damped, less."""
+    return seen if residual <= seen.high else replace(seen, high=residual, model=max(residual - seen.value, 0.0))
 
 
 def _told(value: float, share: float) -> Estimate:
@@ -83,14 +100,14 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     hanging = model.hanging_mass(spec, scene) * spec.gravity
     tension, across, along = (moved.farthest(name) for name in ("tension", "pull_across", "pull_along"))
     sideways = math.hypot(across.value + across.bar, along.value + along.bar)
-    wind, head = spec.ring.wind_force or 0.0, spec.ring.head_height
+    wind, head = spec.ring.wind_force or 0.0, (spec.ring.head_height or 0.0)
     own = ring.moment_above(spec)
     behind = abs(own) / spec.gravity * spec.speed**2
     jerk = moved.farthest("acceleration")
     dragged = abs(own) / spec.gravity * math.hypot(spec.speed**2, jerk.value + jerk.bar)
     upright = tension.value + tension.bar
     down = math.sqrt(max(tension.value**2 - sideways**2, 0.0))
-    blown = wind * spec.ring.wind_height
+    blown = wind * (spec.ring.wind_height or 0.0)
     tilting = (own + load.radius * down, own + load.radius * upright)
     still = own + load.radius * hanging
     found = {
@@ -128,6 +145,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     omega = math.sqrt((spec.gravity + spec.speed**2 * load.radius) / load.rope_length)
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     whole = 3 * start_of(spec, scene)[0] + spec.cycle.rotation / spec.speed + 2 * stop[0]
+    whole *= scene.window_factor
     if not math.isfinite(whole):
         return 0.01
     return (0.08 + 8e-3 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)

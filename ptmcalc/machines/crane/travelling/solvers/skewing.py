@@ -7,6 +7,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Skew
 from ptmcalc.machines.crane.travelling.spec import Guide, Travelling
 
@@ -27,7 +28,7 @@ def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> R
     assert given is not None
     base = given.base if given.base is not None else spec.wheels.base
     least = skew.LEAST_PLAY[given.type]
-    angle = skew.skew_angle(given.clearance, given.wear, base, least, given.tolerance, given.edition)
+    angle = skew.skew_angle(given.clearance, filled(given.wear), base, least, given.tolerance, given.edition)
     friction = float(skew.skew_friction(min(angle, skew.LARGEST_ANGLE), given.adhesion))
     found = [
         _guide_force(spec, scene, given, angle, hook, guiding)

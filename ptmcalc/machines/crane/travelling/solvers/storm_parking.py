@@ -4,7 +4,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import travel
-from ptmcalc.machines.crane.travelling import model, resisting, wheels
+from ptmcalc.machines.crane.travelling import model, resisting, stability, wheels
 from ptmcalc.machines.crane.travelling.course import State
 from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM, names
 from ptmcalc.machines.crane.travelling.model import filled
@@ -35,6 +35,7 @@ def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> 
     held = by_wheels + (spec.parking.force if spec.parking is not None else 0.0)
     loads = {"storm_force": force, "holding_force": held, "storm_reserve": held / force}
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    found["stability_reserve"] = Found(Estimate.exact(stability.of_rest(spec, scene, pressure)))
     rolling = wheels.Wheels.of(spec, scene)
     for name, largest in (("wheel_load_max", True), ("wheel_load_min", False)):
         value = float(rolling.extreme(state, largest)[0])
@@ -61,7 +62,7 @@ STORM_PARKING: Solver[Travelling, Storm] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Storm}),
     represents=frozenset(),
-    gives=names(OF_THE_STORM) | {"wheel_load_max", "wheel_load_min"},
+    gives=names(OF_THE_STORM) | {"wheel_load_max", "wheel_load_min", "stability_reserve"},
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="balance along the rails; EN 13001-2, ISO 4302",

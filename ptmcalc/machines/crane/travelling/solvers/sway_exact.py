@@ -9,7 +9,7 @@ from ptmcalc.machines.crane.travelling.effects import IN_PLANE, LARGE, MOVING_SC
 from ptmcalc.machines.crane.travelling.finite import exact_course, regular
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.moving import motion_of
-from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
+from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -27,7 +27,7 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     """
     motion = motion_of(spec, scene)
     loads = loads_of(spec, scene, exact_course(motion))
-    return Result(loads, work=1, findings=findings_of(spec, scene, loads))
+    return Result(loads, work=1, findings=findings_of(spec, scene, loads), failures=failures_of(spec, scene, loads))
 
 
 def valid(spec: Travelling, scene: Moving) -> Criterion:

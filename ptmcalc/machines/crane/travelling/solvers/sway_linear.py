@@ -7,7 +7,7 @@ from ptmcalc.machines.crane.travelling.effects import IN_PLANE, MOVING_SCENES, S
 from ptmcalc.machines.crane.travelling.linear import linear_course, over_time
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
-from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
+from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
@@ -29,7 +29,13 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     course = linear_course(motion)
     loads = loads_of(spec, scene, course)
     findings = findings_of(spec, scene, loads)
-    return Result(loads, work=course.work, findings=findings, histories=lambda: _histories(motion))
+    return Result(
+        loads,
+        work=course.work,
+        findings=findings,
+        histories=lambda: _histories(motion),
+        failures=failures_of(spec, scene, loads),
+    )
 
 
 def _histories(motion: Motion) -> dict[str, History]:

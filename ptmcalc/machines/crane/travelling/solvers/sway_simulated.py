@@ -4,7 +4,7 @@ from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.reading import findings_of, loads_of
+from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.simulated import simulate, turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -34,6 +34,7 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
         findings=(*done.findings, *findings_of(spec, scene, loads)),
         events=done.events,
         histories=done.histories,
+        failures=failures_of(spec, scene, loads),
     )
 
 

@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, wheel_loads
-from ptmcalc.machines.crane.travelling import drive, factors, model, resisting, wheels
+from ptmcalc.machines.crane.travelling import drive, factors, model, resisting, stability, wheels
 from ptmcalc.machines.crane.travelling.loads import EVEN, OF_THE_WHEELS, names
 from ptmcalc.machines.crane.travelling.model import CORNERS
 from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
@@ -29,7 +29,9 @@ def run(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: in
     """
     loads = _of_travel(spec, scene) | _of_the_duty(spec) | factors.of_the_structure(spec)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
-    return Result(found | _of_the_wheels(spec, scene), work=1)
+    found |= _of_the_wheels(spec, scene)
+    tips = stability.of_rest(spec, scene, model.largest_pressure(spec))
+    return Result(found | {"stability_reserve": Found(Estimate.exact(tips))}, work=1)
 
 
 def _of_travel(spec: Travelling, scene: TravelScene) -> Numbers:
@@ -107,7 +109,7 @@ TRAVEL_STATICS: Solver[Travelling, TravelScene] = Solver(
 def reserve(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: int) -> Result:
     """What the motors have over the resistance in a scene that begins with them.
 
-        reserve = M_mean/(W r/(u eta))
+        reserve = min M(n)/(W r/(u eta))
 
     **Range** as `travel_statics`.
     **Error** exact for that model.

@@ -1,0 +1,37 @@
+"""Relations between the loads of a slewing crane that hold for every crane at every moment."""
+
+from collections.abc import Mapping
+
+from ptmcalc.contract.relation import Relation, computed, ordered
+from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.spec.scene import Scene
+
+_SLEWS: frozenset[type[Scene]] = frozenset({Slew})
+Numbers = Mapping[str, float]
+
+
+def _whole(spec: SlewingCrane, scene: SlewingScene, loads: Numbers) -> float:
+    return loads["start_time"] + loads["steady_time"] + loads["brake_time"]
+
+
+def _used(spec: SlewingCrane, scene: SlewingScene, loads: Numbers) -> float:
+    return (loads["start_angle"] + loads["brake_angle"]) / spec.cycle.rotation
+
+
+def _steady(spec: SlewingCrane, scene: SlewingScene, loads: Numbers) -> float:
+    return loads["steady_angle"] / spec.speed
+
+
+RELATIONS: tuple[Relation, ...] = (
+    ordered("sway_max", "sway_radial_max", _SLEWS, "the angle of the rope is at least that outwards"),
+    ordered("sway_max", "sway_tangential_max", _SLEWS, "the angle of the rope is at least that along the way"),
+    ordered("sway_max", "sway_residual", _SLEWS, "the swing that stays is within the largest angle of the rope"),
+    computed(
+        "cycle_time", ("start_time", "steady_time", "brake_time"), _whole, _SLEWS,
+        "a rotation takes the time of its start, of steady slewing and of its stop",
+    ),
+    computed(
+        "rotation_used", ("start_angle", "brake_angle"), _used, _SLEWS, "start and stop take their angles of the whole"
+    ),
+    computed("steady_time", ("steady_angle",), _steady, _SLEWS, "steady slewing is at the speed of the crane"),
+)  # fmt: skip

@@ -1,0 +1,49 @@
+"""Relations between the loads of a travelling crane that hold for every crane at every moment."""
+
+from collections.abc import Mapping
+
+from ptmcalc.contract.relation import Relation, computed, ordered
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.scenes import (
+    MOVING,
+    Run,
+    Storm,
+    TravelScene,
+)
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.spec.scene import Scene
+
+_MOVES: frozenset[type[Scene]] = frozenset(MOVING)
+_ON_WHEELS: frozenset[type[Scene]] = _MOVES | {Run, Storm}
+Numbers = Mapping[str, float]
+
+
+def _utilisation(spec: Travelling, scene: TravelScene, loads: Numbers) -> float:
+    return loads["torque_motor_max"] / spec.drive.torque
+
+
+def _power(spec: Travelling, scene: TravelScene, loads: Numbers) -> float:
+    return loads["torque_motor_travel"] * model.motor_speed(spec)
+
+
+def _storm(spec: Travelling, scene: TravelScene, loads: Numbers) -> float:
+    return loads["holding_force"] / loads["storm_force"]
+
+
+RELATIONS: tuple[Relation, ...] = (
+    ordered("wheel_load_max", "wheel_load_min", _ON_WHEELS, "the largest load of a wheel is at least the smallest one"),
+    ordered("corner_load_max", "corner_load_min", frozenset({Run}), "largest load of a corner >= smallest load"),
+    ordered("skid_reserve", "skid_reserve_min", _MOVES, "the least adhesion of all wheels is at most that of a corner"),
+    ordered("sway_angle_max", "sway_residual", _MOVES, "the swing that stays is within the largest angle"),
+    computed(
+        "drive_utilisation", ("torque_motor_max",), _utilisation, _MOVES,
+        "the drive is used by the torque of its ramp over its mean starting torque",
+    ),
+    computed(
+        "power_travel", ("torque_motor_travel",), _power, frozenset({Run}), "power is torque times speed of the motors"
+    ),
+    computed(
+        "storm_reserve", ("holding_force", "storm_force"), _storm, frozenset({Storm}),
+        "the reserve in a storm is the force that holds over the one that drives",
+    ),
+)  # fmt: skip
