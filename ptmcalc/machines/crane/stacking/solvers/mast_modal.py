@@ -23,6 +23,7 @@ from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, Stacker
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
+from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.numerics.record import MOST_KEPT, most_work, too_much_memory
 from ptmcalc.spec.scene import Scene, TransientScene
@@ -164,13 +165,9 @@ def _play(
 
 
 def _of_the_column(built: Built, base: float) -> dict[str, Found]:
-    """Stiffness at the far end, without weights and guide, and the lowest frequencies, over a base that is held or
-    rolls."""
-    light = replace(built.column, pull=0.0, props=())
-    fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
-    stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
-    bar = abs(stiffness - other) + 1e-9 * stiffness
-    found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
+    """Stiffness at the far end, with the weights of the run and without a guide, and the lowest frequencies, over a
+    base that is held or rolls."""
+    found = _stiffness(replace(built.column, props=()))
     lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
     for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
         found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
@@ -178,6 +175,17 @@ def _of_the_column(built: Built, base: float) -> dict[str, Found]:
             swing = 2 * math.pi / value
             found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
     return found
+
+
+def _stiffness(free: Column) -> dict[str, Found]:
+    """Of a column whose head is free; nothing where only its guide keeps it from buckling."""
+    try:
+        fine, coarse = (Mast.of(free, count, (free.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    except NumericsError:
+        return {}
+    stiffness, other = (1 / mast.gives(free.length, free.length) for mast in (fine, coarse))
+    bar = abs(stiffness - other) + 1e-9 * stiffness
+    return {"column_stiffness": Found(Estimate.within(stiffness, bar))}
 
 
 def _bar(fine: float, coarse: float, more: float = 0.0) -> Estimate:
@@ -276,7 +284,7 @@ def _beats(fine: Played) -> tuple[float, float]:
     if moves.obstacle is not None:
         return 0.0, 0.0
     mast, kept = course.case.mast, course.system.count
-    exact = Mast.of(moves.column.column, 2 * mast.elements.count, (fine.place,))
+    exact = Mast.of(moves.column.column, 2 * (len(mast.elements.places) - 1), (fine.place,))
     built, base = exact.elements, moves.rolling
     held = mast.frequencies[:kept]
     if math.isinf(base):
@@ -288,7 +296,8 @@ def _beats(fine: Played) -> tuple[float, float]:
         inverse = (np.eye(kept) - np.outer(pull, pull) / total) / np.outer(held, held)
         own = 1 / np.sqrt(np.linalg.eigvalsh(inverse)[::-1])
         per = 1 / total
-    values, shapes = values[:kept], shapes[:, :kept]
+    count = min(kept, len(values))
+    values, shapes, own = values[:count], shapes[:, :count], own[:count]
     pushed = built.carried @ shapes * per
     inertia = built.turned @ shapes
     if math.isfinite(base):
@@ -420,7 +429,8 @@ def _seconds(scene: StackerScene, moves: Happening, modes: int, level: int) -> f
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
-    return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
+    runs = 1 if moves.follows or moves.obstacle is not None else 2  # two more of a base that is as fast, but for a little
+    return runs * 0.04 * (1 + level) + runs * 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
 def _solver(
