@@ -35,7 +35,7 @@ def most_work(seconds: float) -> float:
 
 def too_much_memory(time: float) -> NumericsError:
     """A run that would keep more panels than its memory budget has room for, by a time [s]."""
-    return NumericsError("NUM103", f"a run to {time:.3g} s needs more memory than the 0.5 GB this program takes for one")
+    return NumericsError("NUM103", f"a run to {time:.3g} s needs more memory than the 0.5 GB it may take")
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,7 +248,7 @@ class Record:
     def _forget(self) -> None:
         """Leave out kept panels that promise nothing any more; given up where the others are still too many."""
         low, high = (np.concatenate([getattr(one.bands, side) for one in self._kept]) for side in ("low", "high"))
-        promising = self._promising(self._kept, low, high).any(axis=1)
+        promising: NDArray[np.bool_] = np.any(self._promising(self._kept, low, high), axis=1)
         self._kept = [one for one, promises in zip(self._kept, promising.tolist(), strict=True) if promises]
         if len(self._kept) > MOST_KEPT / 2:
             raise too_much_memory(self.time)

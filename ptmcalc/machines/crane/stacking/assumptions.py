@@ -9,6 +9,7 @@ from ptmcalc.contract.machine import Assumption
 from ptmcalc.machines.crane.stacking.drives import ROPE_MODULUS, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
@@ -32,6 +33,7 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
         )
     yield from _of_the_hoist(spec)
     yield from _of_the_column(spec)
+    yield from _foot(spec)
     if isinstance(spec, RackStacker):
         yield from _of_the_base(spec)
     for key in ("bridge_travel", "trolley_travel", "travel"):
@@ -135,16 +137,20 @@ def _of_the_base(spec: RackStacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: Interval(0.45 * long, 0.55 * long),
             "bases carry column and drives in the middle, to a twentieth of their wheel base",
         )
-    places = [scene.height for scene in spec.scenes or () if scene.height is not None]
-    places += [place for place in (spec.carriage.lowest, spec.carriage.highest) if place is not None]
-    highest = min([0.5, *places])
+
+
+def _foot(spec: Stacker) -> Iterator[Assumption[Stacker]]:
+    """How high the lower end of the column is, below all places that the file names."""
+    heights = [one.height for one in spec.all_scenes if isinstance(one, StackerScene) and one.height is not None]
+    heights += [place for place in (spec.carriage.lowest, spec.carriage.highest) if place is not None]
+    highest = min([0.5, *heights])
     if highest > 0:
         yield Assumption(
             ("column", "foot"),
             units.SPAN,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, highest),
-            "bases carry their column up to half a metre above the rail",
+            "bases carry a column, or it ends, up to half a metre above the rail or floor",
         )
 
 

@@ -60,6 +60,11 @@ def direction(spec: Stacker, scene: StackerScene) -> Direction:
     return "across" if mechanism(spec, scene) == "trolley" else "along"
 
 
+def window_factor(scene: StackerScene) -> float:
+    """Length of the window of a scene, over the usual one."""
+    return float(getattr(scene, "window_factor", 1.0))
+
+
 # -- masses and places ----------------------------------------------------------------------------------------------
 
 

@@ -69,7 +69,9 @@ def course_of(spec: Stacker, scene: DrivenScene, gravity: bool, heavier: float =
 
 
 @remembered(64)
-def _course(given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None, factor: float) -> Course:
+def _course(
+    given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None, factor: float
+) -> Course:
     """Every bound asks for the same few; another limit in the file makes no other machine."""
     return _until_held(_case(given, moves, gravity, heavier, decrement), moves, factor, keep=False)
 

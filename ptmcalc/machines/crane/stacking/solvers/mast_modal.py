@@ -12,7 +12,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import march
+from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Built, Happening
@@ -26,7 +26,7 @@ from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left
 from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
 from ptmcalc.numerics.record import MOST_KEPT, most_work, too_much_memory
-from ptmcalc.spec.scene import Scene, TransientScene
+from ptmcalc.spec.scene import Scene
 
 ALWAYS = frozenset({FLEXIBLE, MASS})
 MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
@@ -145,11 +145,11 @@ def _play(
     case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
     if end:
         return play(case, end, refined, keep=keep, most_work=most)
-    factor = scene.window_factor if isinstance(scene, TransientScene) else 1.0
+    factor = model.window_factor(scene)
     after = factor * _SWINGS * 2 * math.pi / float(case.mast.frequencies[0])
     if isinstance(scene, ObstacleScene):
-        stiffness = moves.column.stiffness
-        return play(case, factor * _BLOW * 2 * math.pi * math.sqrt(moves.column.total / stiffness), refined, most_work=most)
+        swing = 2 * math.pi * math.sqrt(moves.column.total / moves.column.stiffness)
+        return play(case, factor * _BLOW * swing, refined, most_work=most)
     end = moves.lasts + after
     course = play(case, end, refined, most_work=most)
     for _ in range(_DOUBLINGS):
@@ -305,7 +305,10 @@ def _beats(fine: Played) -> tuple[float, float]:
     meets = np.minimum(2.0, np.abs(values - own) * course.record.time) * abs(moves.jump)
     if moves.rise > 0:
         meets = meets * np.minimum(1.0, 2 / (values * moves.rise))
-    gains = built.row(fine.place) @ shapes * pushed / values**2, inertia * pushed - built.righted @ shapes * pushed / values**2
+    gains = (
+        built.row(fine.place) @ shapes * pushed / values**2,
+        inertia * pushed - built.righted @ shapes * pushed / values**2,
+    )
     shift, turn = (float(np.abs(one) @ meets) for one in gains)
     return shift, turn
 
@@ -419,7 +422,7 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
 
 def _panels(moves: Happening, modes: int, scene: StackerScene) -> float:
     """Panels in which some mode that rings on could still have its summit: about eight to a radian of the slowest."""
-    factor = scene.window_factor if isinstance(scene, TransientScene) else 1.0
+    factor = model.window_factor(scene)
     return 8 * modes * factor * moves.lasts * math.sqrt(moves.column.stiffness / moves.column.total)
 
 
@@ -429,7 +432,9 @@ def _seconds(scene: StackerScene, moves: Happening, modes: int, level: int) -> f
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
-    runs = 1 if moves.follows or moves.obstacle is not None else 2  # two more of a base that is as fast, but for a little
+    runs = (
+        1 if moves.follows or moves.obstacle is not None else 2
+    )  # two more of a base that is as fast, but for a little
     return runs * 0.04 * (1 + level) + runs * 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
