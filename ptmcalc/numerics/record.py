@@ -19,6 +19,8 @@ _BATCH = 256
 """Panels that are worked off at once."""
 _PARTS = 4
 """A long panel that tells too little is looked at in so many."""
+MOST_KEPT = 1_000_000
+"""Long panels that may wait for a second look; about 400 bytes each, so that a run stays within 0.5 GB."""
 _LOOKS_ONE_BY_ONE, _MOST_LOOKS, _ROUND = 4_000, 1_000_000, 40
 PANEL, LONG, CROSSING = 4e-6, 15.0, 60.0
 """Seconds of a panel; how many of them a long panel and a crossing take."""
@@ -29,6 +31,11 @@ _LEAST_WORK, _MOST_TIMES = 2e4, 5.0
 def most_work(seconds: float) -> float:
     """Panels after which a run is given up: many times what was predicted, so that no run takes far longer."""
     return _LEAST_WORK + _MOST_TIMES * seconds / PANEL
+
+
+def too_much_memory(time: float) -> NumericsError:
+    """A run that would keep more panels than its memory budget has room for, by a time [s]."""
+    return NumericsError("NUM103", f"a run to {time:.3g} s needs more memory than the 0.5 GB it may take")
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,12 +236,22 @@ class Record:
         self.bottom.see(starts, lengths, nodes, smooth, reach)
         low[smooth], high[smooth] = np.inf, -np.inf
         low[:, self.unsought], high[:, self.unsought] = np.inf, -np.inf
-        read = type(passed[0].bands)(nodes, low, high, envelope)
+        read = type(passed[0].bands)(nodes[:, :0], low, high, envelope)  # nodes are seen, and would fill the memory
         owners = [(one, k) for one in passed for k in range(len(one.starts))]
         for place in np.flatnonzero(self._promising(passed, low, high).any(axis=1)).tolist():
             one, k = owners[place]
             bands = read.part(slice(place, place + 1))
             self._kept.append(_Long(one.glide, one.panel, one.starts[k : k + 1], one.states[k : k + 1], bands))
+        if len(self._kept) > MOST_KEPT:
+            self._forget()
+
+    def _forget(self) -> None:
+        """Leave out kept panels that promise nothing any more; given up where the others are still too many."""
+        low, high = (np.concatenate([getattr(one.bands, side) for one in self._kept]) for side in ("low", "high"))
+        promising: NDArray[np.bool_] = np.any(self._promising(self._kept, low, high), axis=1)
+        self._kept = [one for one, promises in zip(self._kept, promising.tolist(), strict=True) if promises]
+        if len(self._kept) > MOST_KEPT / 2:
+            raise too_much_memory(self.time)
 
     def _least(self, panels: list["_Long"]) -> FloatArray:
         """What an extreme in panels may be missed by: what may be left out of a signal anyway."""

@@ -6,8 +6,10 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.travel_drive import TravelDrive
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.crane.stacking.drives import Travel
+from ptmcalc.machines.crane.stacking.drives import ROPE_MODULUS, Travel
+from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
+from ptmcalc.machines.crane.stacking.scenes import StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
@@ -29,10 +31,127 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: Interval(5.0, 20.0),
             "cranes on their wheels and rails swing vertically at 5 to 20 Hz",
         )
+    yield from _of_the_hoist(spec)
+    yield from _of_the_column(spec)
+    yield from _foot(spec)
+    if isinstance(spec, RackStacker):
+        yield from _of_the_base(spec)
     for key in ("bridge_travel", "trolley_travel", "travel"):
         block = getattr(spec, key, None)
-        if isinstance(block, Travel) and block.drive is not None:
-            yield from _of_a_drive(key, block.drive)
+        if isinstance(block, Travel):
+            if block.drive is not None:
+                yield from _of_a_drive(key, block.drive)
+            if block.drive is not None or block.driving_force is not None:
+                yield _resistance(spec, key)
+    if isinstance(spec, OverheadStacker) and spec.rotation is not None:
+        tenth = 0.1 * spec.rotation.driving_torque
+        yield Assumption(
+            ("rotation", "resistance"),
+            units.TORQUE,
+            lambda spec: 0.0,
+            lambda spec: Interval(0.0, tenth),
+            "bearings of a column that turns take up to a tenth of the driving torque",
+        )
+
+
+def _resistance(spec: Stacker, key: str) -> Assumption[Stacker]:
+    """None is the worst case of a stop, the upper end that of a start."""
+    mass = spec.column.mass + spec.carriage.mass + (spec.cab.mass if spec.cab is not None else 0.0) + spec.load
+    if isinstance(spec, RackStacker):
+        mass += spec.base.mass
+    elif isinstance(spec, OverheadStacker):
+        mass += spec.trolley.mass + (spec.bridge.mass if key == "bridge_travel" else 0.0)
+    weight = mass * spec.gravity
+    return Assumption(
+        (key, "resistance"),
+        units.FORCE,
+        lambda spec: 0.0,
+        lambda spec: Interval(0.0, 0.01 * weight),
+        "steel wheels with rolling bearings on rails take 0.5 to 1 % of the weight",
+    )
+
+
+def _of_the_hoist(spec: Stacker) -> Iterator[Assumption[Stacker]]:
+    """The ropes give, and the motor goes on pulling, where a fork is caught."""
+    rope, drive = spec.hoisting.rope, spec.hoisting.drive
+    if rope.area is not None:
+        yield Assumption(
+            ("hoisting", "rope", "modulus"),
+            units.STRESS,
+            lambda spec: ROPE_MODULUS,
+            lambda spec: Interval(90e9, 120e9),
+            "six-strand ropes on their metallic area: 90 GPa new, 120 GPa after some time (EN 12385)",
+        )
+    if drive is not None and drive.slope is None and spec.hoisting.catches:
+        cab = spec.cab.mass if spec.cab is not None else 0.0
+        weight = (spec.load + spec.carriage.mass + cab) * spec.gravity
+        yield Assumption(
+            ("hoisting", "drive", "largest_force"),
+            units.FORCE,
+            lambda spec: weight,
+            lambda spec: Interval(weight, 2.5 * weight),
+            "motors of hoists pull 1 to 2.5 times what the rated load takes before they stall",
+        )
+
+
+def _of_the_column(spec: Stacker) -> Iterator[Assumption[Stacker]]:
+    """What is no number of the file but of its section."""
+    column = spec.column
+    second, modulus = column.second_moment, column.section_modulus
+    bends_across = isinstance(spec, OverheadStacker) and spec.trolley_travel is not None
+    if second is not None and (bends_across or spec.fork is not None):
+        yield Assumption(
+            ("column", "second_moment_across"),
+            units.SECOND_MOMENT,
+            lambda spec: second,
+            lambda spec: Interval(second / 2, second),
+            "boxes and frames of columns are as stiff across as along, or down to half of that",
+        )
+    if modulus is not None:
+        yield Assumption(
+            ("column", "section_modulus_across"),
+            units.SECTION_MODULUS,
+            lambda spec: modulus,
+            lambda spec: Interval(modulus / 2, modulus),
+            "boxes and frames of columns are as strong across as along, or down to half of that",
+        )
+    if modulus is not None and second is not None:
+        least = modulus**2 / second  # of two flanges, all of their area at the outer edges
+        yield Assumption(
+            ("column", "area"),
+            units.AREA,
+            lambda spec: 1.6 * least,
+            lambda spec: Interval(least, 3 * least),
+            "W^2/J is the least area of any section with both; 1.6 of it is that of a box, 3 of it that of a plate",
+        )
+
+
+def _of_the_base(spec: RackStacker) -> Iterator[Assumption[Stacker]]:
+    """Where things stand on it."""
+    long = spec.base.wheel_base
+    for key in ("column", "centre"):
+        yield Assumption(
+            ("base", key),
+            units.SPAN,
+            lambda spec: long / 2,
+            lambda spec: Interval(0.45 * long, 0.55 * long),
+            "bases carry column and drives in the middle, to a twentieth of their wheel base",
+        )
+
+
+def _foot(spec: Stacker) -> Iterator[Assumption[Stacker]]:
+    """How high the lower end of the column is, below all places that the file names."""
+    heights = [one.height for one in spec.all_scenes if isinstance(one, StackerScene) and one.height is not None]
+    heights += [place for place in (spec.carriage.lowest, spec.carriage.highest) if place is not None]
+    highest = min([0.5, *heights])
+    if highest > 0:
+        yield Assumption(
+            ("column", "foot"),
+            units.SPAN,
+            lambda spec: 0.0,
+            lambda spec: Interval(0.0, highest),
+            "bases carry a column, or it ends, up to half a metre above the rail or floor",
+        )
 
 
 def _of_a_drive(key: str, drive: TravelDrive) -> Iterator[Assumption[Stacker]]:

@@ -249,8 +249,9 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
 
 
 def weighted_frequencies(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str, Interval]:
-    """What weights may do to frequencies, the first line of `gravity_bound`; a guide at the head only adds to the
-    strain energy that they are compared with.
+    """What weights may do to frequencies, the first line of `gravity_bound`, and to the stiffness at the far end, which
+    is that of the shape with the least energy, so that c (1 - r) <= c' <= c (1 + r); a guide at the head only adds to
+    the strain energy that they are compared with.
 
     **Range** columns that their weights do not buckle; of others nothing is known.
     **Error** a bound.
@@ -259,10 +260,12 @@ def weighted_frequencies(spec: Stacker, scene: StackerScene, loads: Loads) -> di
     share, told = buckling_share(spec, scene), {}
     low, high = (0.0, share) if model.hangs(spec) else (-share, 0.0)
     for name, one in loads.items():
-        if not name.startswith(("natural_frequency", "period")):
+        if not name.startswith(("natural_frequency", "period", "column_stiffness")):
             continue
         if share >= 1:
             told[name] = ANYTHING
+        elif name == "column_stiffness":
+            told[name] = Interval(one.value * low, one.value * high)
         elif name == "period":
             told[name] = Interval(one.value * (1 / math.sqrt(1 + high) - 1), one.value * (1 / math.sqrt(1 + low) - 1))
         else:

@@ -1,7 +1,7 @@
 """Checks of buffers, fork, rail and safety gear."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
@@ -168,22 +168,30 @@ def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
     )
 
 
+def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate]) -> Estimate:
+    """Force of the ropes over the weight with the rated load, whatever is on the fork: the hoist is built for that."""
+    one = loads["rope_force_caught"]
+    rated = model.weight(spec, scene.model_copy(update={"load": "full"}))
+    return Estimate(one.value / rated, one.low / rated, one.high / rated, one.numerical / rated, one.model / rated)
+
+
 FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is not None)(
     Check(
         code="CRN284",
         title="a caught fork that pulls harder than the hoist is built for",
         scenes=CAUGHT,
-        loads=("fork_caught_factor",),
+        loads=("rope_force_caught",),
+        value=_of_rated,
         sense=Sense.AT_MOST,
         limit=_factor_limit,
         needs=no_needs,
         blame=lambda spec, scene, loads: _hoist_key(spec, scene),
         repair=_hoist_key,
-        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the weight with"
+        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the rated weight with"
         " which the elements of the hoist have been calculated, until the limiter has switched it off.",
         why="Combination 5 of overhead, 4 of rack stackers is this event; it is several times the weight at any speed"
         " where the motor is strong.",
-        formula="F/Q,   m_1 x'' = P(x') - F,   F = Q + K (x - y)",
+        formula="F/Q_0,   m_1 x'' = P(x') - F,   F = Q + K (x - y)",
         source="energy and motion of drive and carriage; lecture notes Kramatorsk 2007, tables 11.1 and 11.2",
     ),
 )

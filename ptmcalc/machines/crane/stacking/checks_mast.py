@@ -2,7 +2,7 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.contract.check import AnyCheck, Check, Sense, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, block, given, of_the_mechanism
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
@@ -122,6 +122,19 @@ def _asks_wait(spec: Stacker, scene: StackerScene) -> bool:
     return spec.settling.wait is not None and not turns(spec, scene)
 
 
+def _settling_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What lets the column swing less after a stop: a ramp whose deceleration comes up and goes down slowly, or a
+    softer brake."""
+    key = _rate_key(spec, scene)
+    if key[-1] == "deceleration" and len(key) == 2:
+        return (key[0], "ramp_rise")
+    return _rate_repair(spec, scene)
+
+
+def _settling_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
+    return _settling_key(spec, scene) or _rate_key(spec, scene)
+
+
 SETTLES: OneCheck = only(_asks_wait)(
     Check(
         code="CRN253",
@@ -131,8 +144,8 @@ SETTLES: OneCheck = only(_asks_wait)(
         sense=Sense.AT_MOST,
         limit=_wait_limit,
         needs=lambda spec, scene: (("column", "log_decrement"),),
-        blame=blames("settling", "window"),
-        repair=at("settling", "wait"),
+        blame=_settling_blame,
+        repair=_settling_key,
         what="From the standstill on the far end of the column stays inside the window of the fork within the wait.",
         why="A fork that goes out before meets the rack or the pallet beside the one it is for.",
         formula="|x(t)| <= window for all t >= t_s,   t_s <= wait",
@@ -165,7 +178,7 @@ LEANS: OneCheck = only(_asks_window)(
         limit=_window_limit,
         needs=no_needs,
         blame=blames("settling", "window"),
-        repair=at("settling", "window"),
+        repair=no_repair,
         what="Under weights beside its axis the column leans at rest by less than the window of the fork is wide.",
         why="A column that leans by more than the window is never inside it, however long the fork waits: the window is"
         " narrower than the static deflection.",

@@ -4,7 +4,7 @@ A dynamic load is never a weight times a stored factor: it is the load of an eve
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ptmcalc.contract.effect import EffectState
@@ -147,7 +147,7 @@ _COLUMNS = (
 
 
 def _forces(given: Combinations, scenes: Sequence[SceneReport]) -> TableReport:
-    rows = tuple(tuple(_row(given, number, scenes)) for number in range(1, given.count + 1))
+    rows = tuple(row for number in range(1, given.count + 1) for row in _rows(given, number, scenes))
     shown = tuple(
         index
         for index, column in enumerate(_COLUMNS)
@@ -162,24 +162,36 @@ def _forces(given: Combinations, scenes: Sequence[SceneReport]) -> TableReport:
     )
 
 
-def _row(given: Combinations, number: int, scenes: Sequence[SceneReport]) -> Iterator[Cell]:
+def _rows(given: Combinations, number: int, scenes: Sequence[SceneReport]) -> Iterator[tuple[Cell, ...]]:
+    """A row for the run with the largest force, and one more where another run stresses column or bridge more: force
+    and stresses of a row are of one run."""
     dynamic = next((load for load in given.loads(number) if load in _DYNAMIC), "")
+    first: tuple[Cell, ...] = (f"{given.name},{number}", dynamic or "none: weights alone")
     name = of("combination_force", f"{given.name},{number}")
     marked = [(scene, load) for scene in scenes for load in scene.loads if load.info.name == name]
-    yield f"{given.name},{number}"
-    yield dynamic or "none: weights alone"
     if not marked:
         event = EVENTS.get(dynamic, "stand")
-        yield from ("", f"no scene `{event}` was run", "", ())
-    else:
-        scene, force = max(marked, key=lambda one: _size(one[1]))
-        yield Amount(force.estimate, force.info.quantity)
-        yield scene.name
-        yield force.solver
-        yield tuple(_ledger(scene, force.solver))
-    for stress in ("column_stress", "bridge_stress"):
-        yield _largest(stress, (scene for scene, _ in marked))
-    yield given.uses[number - 1]
+        yield (*first, "", f"no scene `{event}` was run", "", (), "", "", given.uses[number - 1])
+        return
+    largest = max(marked, key=lambda one: (_size(one[1]), *(_stress(name, one[0])[0] for name in _STRESSES)))
+    chosen = [largest]
+    for stress in _STRESSES:
+        worst = max(marked, key=lambda one: _stress(stress, one[0])[0])
+        if _stress(stress, worst[0])[0] > max(_stress(stress, scene)[0] for scene, _ in chosen):
+            chosen.append(worst)
+    for scene, force in chosen:
+        yield (
+            *first,
+            Amount(force.estimate, force.info.quantity),
+            scene.name,
+            force.solver,
+            tuple(_ledger(scene, force.solver)),
+            *(_stress(stress, scene)[1] for stress in _STRESSES),
+            given.uses[number - 1],
+        )
+
+
+_STRESSES = ("column_stress", "bridge_stress")
 
 
 def _size(load: LoadReport) -> float:
@@ -197,9 +209,9 @@ def _ledger(scene: SceneReport, solver: str) -> Iterator[str]:
             yield f"{effect.name} (bounded)"
 
 
-def _largest(name: str, scenes: Iterable[SceneReport]) -> Cell:
-    found = [load for scene in scenes for load in scene.loads if load.info.name == name]
-    if not found:
-        return ""
-    largest = max(found, key=_size)
-    return Amount(largest.estimate, largest.info.quantity)
+def _stress(name: str, scene: SceneReport) -> tuple[float, Cell]:
+    """Size of a stress in a scene, and how the table shows it; nothing where the scene has none."""
+    found = next((load for load in scene.loads if load.info.name == name), None)
+    if found is None:
+        return -math.inf, ""
+    return _size(found), Amount(found.estimate, found.info.quantity)

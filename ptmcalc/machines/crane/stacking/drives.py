@@ -31,8 +31,13 @@ from ptmcalc.spec.fields import (
     Torque,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 Slope = Annotated[float, Measure(units.DAMPING, above=0)]
+_BRAKE_DELAY = Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")
+_GEAR_EFFICIENCY = Assumed(0.94, 0.85, 0.97, "two to three stages of helical or bevel gears")
+ROPE_MODULUS = 105e9
+"""Of six-strand ropes on their metallic area [Pa]."""
 Falls = Annotated[int, Field(ge=1, le=64, strict=True)]
 Group = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 
@@ -46,31 +51,31 @@ class Travel(Fragment):
 
     speed: PositiveSpeed
     """at full"""
-    acceleration: PositiveAcceleration | None = None
+    acceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
     """of a start along a ramp of speed"""
-    deceleration: PositiveAcceleration | None = None
+    deceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
     """of a stop along a ramp of speed"""
-    ramp_rise: Time = 0.0
+    ramp_rise: Annotated[Time, Absent("an acceleration at once swings the column farthest")] = 0.0
     """in which the acceleration of a ramp comes up and goes down, in a straight line"""
-    driving_force: PositiveForce | None = None
+    driving_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the rims, of a start by force"""
-    driving_rise: Time = 0.0
+    driving_rise: Annotated[Time, Absent("a force at once swings the column farthest")] = 0.0
     """in which it comes up, in a straight line"""
-    braking_force: PositiveForce | None = None
+    braking_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the rims, of a stop by force, without the resistance"""
-    braking_delay: Time = 0.0
+    braking_delay: Annotated[Time, _BRAKE_DELAY] = 0.0
     """from switching off until it begins"""
-    braking_rise: Time = 0.0
+    braking_rise: Annotated[Time, Absent("the interval of the assumed `braking_delay` includes the rise")] = 0.0
     """in which it comes up, in a straight line"""
-    resistance: Force = 0.0
+    resistance: Annotated[Force | None, Assumed()] = None
     """to travel, at the rims"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
-    wheel_diameter: PositiveLength | None = None
+    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the rims")] = None
     """of the driven wheels; with a `drive`"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what the mechanism does all day; needed to check its starts"""
-    permitted_starts_per_hour: HourlyRate | None = None
+    permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; that of the drive's motor when left out"""
     buffers: Buffer | None = None
     """at the ends of its way; needed for a `buffer`"""
@@ -110,11 +115,11 @@ class Rotation(Fragment):
     """at the column"""
     braking_torque: PositiveTorque
     """at the column"""
-    resistance: Torque = 0.0
+    resistance: Annotated[Torque | None, Assumed()] = None
     """of its bearings, at the column"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what the mechanism does all day; needed to check its starts"""
-    permitted_starts_per_hour: HourlyRate | None = None
+    permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; needed to check the starts"""
 
 
@@ -125,21 +130,27 @@ class HoistRope(Fragment):
     """parts of rope the carriage hangs on, all together"""
     ropes: Literal[1, 2] = 1
     """parts of rope that run onto the drum"""
-    sheave_efficiency: Efficiency | None = None
+    sheave_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a sheave; 0.98 is assumed when neither it nor `efficiency` is given"""
-    efficiency: Efficiency | None = None
+    efficiency: Annotated[Efficiency | None, OneOf("sheave_efficiency")] = None
     """of the whole tackle while it hauls, instead of that of a sheave"""
-    diameter: PositiveLength | None = None
+    diameter: Annotated[PositiveLength | None, Limit()] = None
     """nominal"""
-    breaking_force: PositiveForce | None = None
+    breaking_force: Annotated[PositiveForce | None, Limit()] = None
     """of one part of rope; needed to check its safety"""
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[
+        PositiveStiffness | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
+    ] = None
     """of all falls at the carriage; or give `area` and `length`"""
-    area: PositiveArea | None = None
+    area: Annotated[
+        PositiveArea | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
+    ] = None
     """metallic, of one part of rope"""
-    modulus: PositiveStress = 105e9
+    modulus: Annotated[PositiveStress | None, Assumed()] = None
     """of the rope on its metallic area, not of its wire; 105 GPa when left out"""
-    length: PositiveSpan | None = None
+    length: Annotated[
+        PositiveSpan | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
+    ] = None
     """of one rope between the drum and its end"""
 
     @classmethod
@@ -163,26 +174,32 @@ class Limiter(Fragment):
     """at the carriage, at which it trips"""
     reaction: Time
     """from then until the motor is off and the brake acts"""
-    braking_force: PositiveForce | None = None
+    braking_force: Annotated[
+        PositiveForce | None, Absent("a brake that holds the carriage brakes with its weight at least")
+    ] = None
     """of the brake, at the carriage; that of the motor in even hoisting when left out"""
 
 
 class HoistDrive(Fragment):
     """Motor, gear and drum of the hoist, as the carriage feels them."""
 
-    reduced_mass: PositiveMass | None = None
+    reduced_mass: Annotated[PositiveMass | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = (
+        None
+    )
     """of all that turns, at the carriage, while the motor drives; or give `inertia`, `ratio` and `drum_diameter`"""
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = None
     """of rotor, coupling and brake, on the motor shaft"""
-    ratio: PositiveRatio | None = None
+    ratio: Annotated[PositiveRatio | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = None
     """of the gear"""
-    gear_efficiency: Efficiency = 0.94
+    gear_efficiency: Annotated[Efficiency, _GEAR_EFFICIENCY] = 0.94
     """from motor to drum"""
-    drum_diameter: PositiveLength | None = None
+    drum_diameter: Annotated[
+        PositiveLength | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")
+    ] = None
     """to the middle of the rope"""
-    largest_force: PositiveForce | None = None
+    largest_force: Annotated[PositiveForce | None, Assumed()] = None
     """of the motor that goes on pulling, at the carriage; the weight when left out"""
-    slope: Slope | None = None
+    slope: Annotated[Slope | None, Absent("a motor whose force does not fall with its speed pulls hardest")] = None
     """by which the motor's force falls with the speed, at the carriage; a constant force when left out"""
 
     @classmethod
@@ -215,9 +232,9 @@ class Hoisting(Fragment):
     """what switches it off at too large a force"""
     group: Group | None = None
     """of the mechanism (ISO 4301-1); with it the rope has to keep the safety of ISO 4308-1"""
-    starts_per_hour: HourlyRate | None = None
+    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what the hoist does all day; needed to check its starts"""
-    permitted_starts_per_hour: HourlyRate | None = None
+    permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; needed to check the starts"""
 
     @property

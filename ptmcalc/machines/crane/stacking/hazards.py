@@ -21,8 +21,14 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 TripRatio = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
+_TRIP_RATIO = Assumed(
+    1.4, 1.2, 1.5, "overspeed governors trip at 1.2 to 1.5 times the hoisting speed (EN 528, EN 81-20)"
+)
+_REACTION = Assumed(0.05, 0.02, 0.15, "linkages of safety gears grip within 20 to 150 ms of tripping")
+_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "gears grip a guide within 0.2 m of the axis of the column")
 
 
 class Obstacle(Fragment):
@@ -30,9 +36,9 @@ class Obstacle(Fragment):
 
     contact: Literal["elastic", "plastic"] = "elastic"
     """whether the far end springs back, or stays where it hits"""
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[PositiveStiffness | None, OneOf("`contact: plastic`")] = None
     """of the place that is hit; of an `elastic` contact"""
-    restitution: Fraction = 1.0
+    restitution: Annotated[Fraction, Absent("a blow that loses nothing bends the column farthest")] = 1.0
     """speed after an `elastic` contact over that before"""
 
     @classmethod
@@ -55,27 +61,32 @@ class Fork(Fragment):
     """of the fork"""
     motor_force: PositiveForce
     """largest of its drive that goes on pushing, at the fork"""
-    clutch_force: PositiveForce | None = None
+    clutch_force: Annotated[
+        PositiveForce | None, Absent("without a slip clutch the whole force of the motor and the whole mass push")
+    ] = None
     """at which its slip clutch slips, at the fork; one as strong as the motor is not reckoned with: the whole mass
     bounds the force then"""
-    torsion_stiffness: Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None = None
+    torsion_stiffness: Annotated[
+        Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
+        Absent("a column that does not twist stops the fork hardest"),
+    ] = None
     """of the column against twisting, where the carriage is; rigid when left out"""
-    arm: SignedSpan = 0.0
+    arm: Annotated[SignedSpan, Absent("a column that does not twist stops the fork hardest")] = 0.0
     """of the pushing fork from the axis of the column, along the aisle"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the telescope; needed to check it"""
 
 
 class Rack(Fragment):
     """The rack at the fork."""
 
-    stiffness_push: PositiveStiffness | None = None
+    stiffness_push: Annotated[PositiveStiffness | None, OneOf("no `fork`: with one it is required")] = None
     """against the fork that pushes; with a `fork` it is needed"""
-    stiffness_vertical: PositiveStiffness | None = None
+    stiffness_vertical: Annotated[PositiveStiffness | None, Absent("a rigid rack takes the largest force")] = None
     """against the fork that lifts; rigid when left out"""
-    rating_push: PositiveForce | None = None
+    rating_push: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the pushing fork on the rack; needed to check it"""
-    rating_vertical: PositiveForce | None = None
+    rating_vertical: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the lifting fork on the rack; needed to check it"""
 
 
@@ -91,15 +102,18 @@ class Waviness(Fragment):
 class Rail(Fragment):
     """The rail a rack stacker runs on."""
 
-    step: Length = 0.0
+    step: Annotated[Length, Absent("no step is there")] = 0.0
     """height of the largest step"""
-    gap: Length = 0.0
+    gap: Annotated[Length, Absent("no gap is there")] = 0.0
     """width of the largest gap"""
     waviness: Waviness | None = None
     """even waves"""
-    frequency: Annotated[float, Measure(units.FREQUENCY, above=0)] | None = None
+    frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
     """of the machine that swings vertically on its wheels; 10 Hz is assumed for a `rail`"""
-    damping: Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.5)] = 0.0
+    damping: Annotated[
+        Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.5)],
+        Absent("without damping the machine swings farthest"),
+    ] = 0.0
     """damping ratio of that swing; none when left out, which is on the safe side"""
 
     @property
@@ -114,17 +128,17 @@ class SafetyGear(Fragment):
     type: Literal["progressive", "instantaneous"]
     """`progressive`: it brakes with an even force; `instantaneous`: it locks, and only its mounting and the column
     give way"""
-    force: PositiveForce | None = None
+    force: Annotated[PositiveForce | None, OneOf("stiffness")] = None
     """braking force of a `progressive` gear"""
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[PositiveStiffness | None, OneOf("force")] = None
     """of an `instantaneous` gear with its mounting and the column"""
     stroke: PositiveLength = Field(examples=["300 mm"])
     """way it has: of a `progressive` gear to brake in, of an `instantaneous` one what it may give way"""
-    trip_ratio: TripRatio = 1.4
+    trip_ratio: Annotated[TripRatio, _TRIP_RATIO] = 1.4
     """speed at which it trips over the hoisting speed; 1.2 to 1.5"""
-    reaction_time: Time = 0.05
+    reaction_time: Annotated[Time, _REACTION] = 0.05
     """from tripping until it grips"""
-    arm: SignedSpan = 0.0
+    arm: Annotated[SignedSpan, _GEAR_ARM] = 0.0
     """of the gear's force from the axis of the column, along the travel of bridge or base"""
 
     @classmethod
@@ -141,9 +155,9 @@ class SafetyGear(Fragment):
 class Settling(Fragment):
     """How still the column must be before the fork may go out."""
 
-    window: PositiveLength | None = None
+    window: Annotated[PositiveLength | None, Limit()] = None
     """distance to each side of the place of a column without lean within which its far end has to stay; no default"""
-    wait: Annotated[float, Measure(units.TIME, above=0)] | None = None
+    wait: Annotated[Annotated[float, Measure(units.TIME, above=0)] | None, Limit()] = None
     """longest time from the standstill until then; needed to check it"""
 
     @classmethod

@@ -133,7 +133,7 @@ def collision_force(spec: Stacker, scene: ObstacleScene) -> tuple[float, float]:
     """The force that pushes on or brakes in a collision [N], and the mass of the rotors at the rims [kg]; that of a
     ramp of speed is what the ramp takes of all that travels."""
     if scene.drive == "off" and scene.brake == "off":
-        return model.travel(spec, scene).resistance, 0.0
+        return model.travel(spec, scene).resistance or 0.0, 0.0
     push = model.driving(spec, scene) if scene.drive == "on" else model.stopping(spec, scene)
     if push.kind == "force":
         return max(push.size, 0.0), push.rotors

@@ -60,6 +60,11 @@ def direction(spec: Stacker, scene: StackerScene) -> Direction:
     return "across" if mechanism(spec, scene) == "trolley" else "along"
 
 
+def window_factor(scene: StackerScene) -> float:
+    """Length of the window of a scene, over the usual one."""
+    return float(getattr(scene, "window_factor", 1.0))
+
+
 # -- masses and places ----------------------------------------------------------------------------------------------
 
 
@@ -95,7 +100,8 @@ def total_mass(spec: Stacker, scene: StackerScene) -> float:
 
 def ends(spec: Stacker) -> tuple[float, float]:
     """Heights of the lower and upper end of the column above the floor [m]."""
-    return spec.column.foot, spec.column.foot + spec.column.length
+    foot = spec.column.foot or 0.0
+    return foot, foot + spec.column.length
 
 
 def way(spec: Stacker) -> tuple[float, float]:
@@ -178,10 +184,14 @@ def stopping(spec: Stacker, scene: StackerScene) -> Push:
         assert brake is not None, "something stops the machine"
         rim = block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
         force = brake.torque * rim / block.drive.reverse_efficiency
-        return Push("force", force + block.resistance, brake.rise_time, brake.delay, rotors(block, braking=True))
+        return Push(
+            "force", force + (block.resistance or 0.0), brake.rise_time, brake.delay, rotors(block, braking=True)
+        )
     if block.deceleration is not None:
         return Push("ramp", block.deceleration, block.ramp_rise)
-    return Push("force", filled(block.braking_force) + block.resistance, block.braking_rise, block.braking_delay)
+    return Push(
+        "force", filled(block.braking_force) + (block.resistance or 0.0), block.braking_rise, block.braking_delay
+    )
 
 
 def driving(spec: Stacker, scene: StackerScene) -> Push:
@@ -193,10 +203,10 @@ def driving(spec: Stacker, scene: StackerScene) -> Push:
             return Push("ramp", slope, block.ramp_rise)
         rim = block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
         force = block.drive.torque * rim * block.drive.efficiency
-        return Push("force", force - block.resistance, 0.0, 0.0, rotors(block, braking=False))
+        return Push("force", force - (block.resistance or 0.0), 0.0, 0.0, rotors(block, braking=False))
     if block.acceleration is not None:
         return Push("ramp", block.acceleration, block.ramp_rise)
-    return Push("force", filled(block.driving_force) - block.resistance, block.driving_rise)
+    return Push("force", filled(block.driving_force) - (block.resistance or 0.0), block.driving_rise)
 
 
 def rotors(block: Travel, *, braking: bool) -> float:
@@ -222,7 +232,7 @@ def rope_stiffness(spec: Stacker) -> float:
     if rope.stiffness is not None:
         return rope.stiffness
     per_rope = rope.falls / rope.ropes
-    return rope.ropes * per_rope**2 * rope.modulus * filled(rope.area) / filled(rope.length)
+    return rope.ropes * per_rope**2 * filled(rope.modulus) * filled(rope.area) / filled(rope.length)
 
 
 def tackle_efficiency(spec: Stacker) -> float:

@@ -10,6 +10,7 @@ from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.hazards import Obstacle
 from ptmcalc.machines.crane.stacking.parts import Bridge, Trolley
 from ptmcalc.machines.crane.stacking.scenes import (
+    BOTH,
     Brake,
     BufferScene,
     ForkCaught,
@@ -50,7 +51,8 @@ class OverheadStacker(Stacker):
     """what the column may run into; needed for an `obstacle`"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
     """what happens to the machine; when left out: hoisting up and down, standing, a start and a stop of every
-    mechanism, and what the file has the data of: an obstacle, buffers, a caught fork"""
+    mechanism, and what the file has the data of: an obstacle, buffers, a caught fork; each with its
+    load and empty where either may be worse"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -79,8 +81,13 @@ class OverheadStacker(Stacker):
                 scenes.append(ObstacleScene(mechanism=word))
             if travel.buffers is not None:
                 scenes.append(BufferScene(mechanism=word))
+        scenes += [HoistScene(direction="down", load="empty"), Stand(load="empty")]
+        for word, travel in self.travels:
+            if travel.starts:
+                scenes.append(Start(mechanism=word, load="empty"))
+            scenes.append(Brake(mechanism=word, load="empty"))
         if self.hoisting.catches:
-            scenes.append(ForkCaught())
+            scenes += [ForkCaught(load=load) for load in BOTH]
         return scenes
 
     @property

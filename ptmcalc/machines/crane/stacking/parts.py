@@ -21,12 +21,25 @@ from ptmcalc.spec.fields import (
     Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 SecondMoment = Annotated[float, Measure(units.SECOND_MOMENT, above=0)]
 SectionModulus = Annotated[float, Measure(units.SECTION_MODULUS, above=0)]
 RootStiffness = Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)]
 Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
+_STEEL = Assumed(
+    STEEL, 200e9, 212e9, "EN 1993-1-1: 210 GPa of structural steel; rolled sections measure 200 to 212 GPa"
+)
+_BASE_HEIGHT = Assumed(
+    0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"
+)
+_GUIDE_PLAY = Assumed(0.0, 0.0, 0.002, "guide rollers are set with a play of up to 2 mm to each side")
+_PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain ones 0.08 to 0.1")
+_LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm of steel rollers on steel")
+_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "a load lies beside the middle of its pallet by up to a tenth of its length")
+_OWN_ARM = Assumed(0.0, -0.05, 0.05, "carriages hang level within some centimetres of their ropes")
+_CAB_ARM = Assumed(0.0, -1.0, 1.0, "a cab hangs beside the column: up to 1 m from the ropes")
 
 
 class Bridge(Fragment):
@@ -36,17 +49,21 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail to rail"""
-    girder_vertical: SecondMoment | None = None
+    girder_vertical: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
     """second moment of area of ONE girder, for bending in the vertical plane"""
-    girder_horizontal: SecondMoment | None = None
+    girder_horizontal: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
     """second moment of area of ONE girder, for bending in the horizontal plane"""
     ends: Literal["supported", "clamped"] = "supported"
     """how the end carriages hold the girders: they let them turn, or clamp them wholly"""
-    elasticity: PositiveStress = STEEL
+    elasticity: Annotated[PositiveStress, _STEEL] = STEEL
     """modulus of elasticity; 210 GPa when left out"""
-    section_modulus_vertical: SectionModulus | None = None
+    section_modulus_vertical: Annotated[
+        SectionModulus | None, Absent("without it the check of the girders' stress is told as not made")
+    ] = None
     """of ONE girder, for bending in the vertical plane; needed for its stress"""
-    section_modulus_horizontal: SectionModulus | None = None
+    section_modulus_horizontal: Annotated[
+        SectionModulus | None, Absent("without it the check of the girders' stress is told as not made")
+    ] = None
     """of ONE girder, for bending in the horizontal plane; needed for its stress"""
 
 
@@ -57,7 +74,7 @@ class Trolley(Fragment):
     """with hoist and slewing gear of the column, without column, carriage and cab"""
     gauge: PositiveLength
     """from girder to girder"""
-    position: Span | None = None
+    position: Annotated[Span | None, Absent("in the middle the girders give most and bear most")] = None
     """of the column, from the nearer end of the bridge; in the middle when left out"""
     wheels: Literal["free", "braked"] = "free"
     """whether the wheels roll along the girders as these bend; a braked trolley is a little stiffer"""
@@ -72,24 +89,26 @@ class Base(Fragment):
     """from the front to the rear wheel"""
     wheel_diameter: PositiveLength
     """at the tread"""
-    column: Span | None = None
+    column: Annotated[Span | None, Assumed()] = None
     """of the column from the rear wheel; in the middle when left out"""
-    centre: Span | None = None
+    centre: Annotated[Span | None, Assumed()] = None
     """of its centre of mass from the rear wheel; in the middle when left out"""
-    height: Span = 0.0
+    height: Annotated[Span, _BASE_HEIGHT] = 0.0
     """of its centre of mass above the rail"""
-    gauge: PositiveLength | None = None
+    gauge: Annotated[
+        PositiveLength | None, Absent("one rail keeps nothing upright: only the guide at the head does")
+    ] = None
     """between its two rails, of a machine that stands across the aisle by itself; one rail when left out"""
 
 
 class TopGuide(Fragment):
     """What holds the head of the column of a rack stacker along the aisle or across it."""
 
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[PositiveStiffness | None, Absent("a free head swings farther than one that is held")] = None
     """along the aisle, of the guide at the head; the head is free when left out"""
-    gap: Length = 0.0
+    gap: Annotated[Length, _GUIDE_PLAY] = 0.0
     """play to each side before it holds"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the guide across the aisle; needed to see whether it keeps the machine upright"""
 
 
@@ -98,31 +117,38 @@ class Column(Fragment):
 
     length: PositiveSpan
     """from where it is held to its far end; of an overhead stacker from the neutral axis of the girders"""
-    foot: Span = 0.0
+    foot: Annotated[Span | None, Assumed()] = None
     """of its lower end, above the floor"""
     mass: PositiveMass
     """of all masts, with the head"""
-    count: Annotated[int, Field(ge=1, le=2, strict=True)] = 1
+    count: Annotated[Annotated[int, Field(ge=1, le=2, strict=True)], Absent("one mast bears all by itself")] = 1
     """masts"""
-    elasticity: PositiveStress = STEEL
+    elasticity: Annotated[PositiveStress, _STEEL] = STEEL
     """modulus of elasticity; 210 GPa when left out"""
-    second_moment: SecondMoment | None = None
+    second_moment: Annotated[SecondMoment | None, OneOf("stiffness")] = None
     """of area, for bending along the travel of bridge or base; or give `stiffness`"""
-    second_moment_across: SecondMoment | None = None
+    second_moment_across: Annotated[SecondMoment | None, Assumed()] = None
     """of area, for bending across it: along the girders, across the aisle; as along when left out"""
-    stiffness: PositiveStiffness | None = None
+    stiffness: Annotated[PositiveStiffness | None, OneOf("second_moment")] = None
     """at the far end, along every travel, of column and what holds it; instead of the sections of column and girders"""
-    root_stiffness: RootStiffness | None = None
+    root_stiffness: Annotated[
+        RootStiffness | None,
+        Absent("the column is welded or bolted to a stiff frame; a joint that turns is a part of its own"),
+    ] = None
     """of the joint that holds the column, against turning; rigid when left out"""
-    log_decrement: Decrement | None = None
+    log_decrement: Annotated[
+        Decrement | None, Absent("without damping a column swings farthest; its time to settle is then not checked")
+    ] = None
     """of its free swing, from a measurement; needed for the time in which it settles"""
     top_guide: TopGuide | None = None
     """at the head of a rack stacker"""
-    section_modulus: SectionModulus | None = None
+    section_modulus: Annotated[
+        SectionModulus | None, Absent("without it the check of the column's stress is told as not made")
+    ] = None
     """for bending along the travel of bridge or base; needed for the stress of the column"""
-    section_modulus_across: SectionModulus | None = None
+    section_modulus_across: Annotated[SectionModulus | None, Assumed()] = None
     """for bending across it; as along when left out"""
-    area: Annotated[float, Measure(units.AREA, above=0)] | None = None
+    area: Annotated[Annotated[float, Measure(units.AREA, above=0)] | None, Assumed()] = None
     """of the section of one mast; the stress of pull or push is left out without it"""
 
     @classmethod
@@ -146,15 +172,17 @@ class Rollers(Fragment):
     """of a roller"""
     axle_diameter: PositiveLength
     """of its axle"""
-    pin_friction: Fraction = 0.015
+    pin_friction: Annotated[Fraction, _PIN_FRICTION] = 0.015
     """of its bearing; 0.015 rolling, 0.08 to 0.1 plain"""
-    lever_arm: Length = 0.0005
+    lever_arm: Annotated[Length, _LEVER_ARM] = 0.0005
     """of rolling, a length; 0.3 to 0.6 mm on steel"""
-    per_set: Annotated[int, Field(ge=1, le=8, strict=True)] = 1
+    per_set: Annotated[
+        Annotated[int, Field(ge=1, le=8, strict=True)], Absent("one roller bears the whole reaction of its set")
+    ] = 1
     """rollers that share the reaction of a set"""
     planes: Literal["separate", "joint"] | None = None
     """whether each plane has rollers of its own, or one set bears both: between the two when left out"""
-    rating: PositiveForce | None = None
+    rating: Annotated[PositiveForce | None, Limit()] = None
     """largest load of one roller; needed to check it"""
 
 
@@ -163,17 +191,17 @@ class Carriage(Fragment):
 
     mass: PositiveMass
     """without load and cab, with its fork"""
-    load_arm: SignedSpan = 0.0
+    load_arm: Annotated[SignedSpan, _LOAD_ARM] = 0.0
     """of the load, from the line of the ropes, along the travel of bridge or base"""
-    own_arm: SignedSpan = 0.0
+    own_arm: Annotated[SignedSpan, _OWN_ARM] = 0.0
     """of the carriage's own centre of mass"""
-    load_arm_across: SignedSpan = 0.0
+    load_arm_across: Annotated[SignedSpan, _LOAD_ARM] = 0.0
     """of the load, from the line of the ropes across it: with the fork out"""
-    own_arm_across: SignedSpan = 0.0
+    own_arm_across: Annotated[SignedSpan, _OWN_ARM] = 0.0
     """of the carriage's own centre of mass"""
-    lowest: Span | None = None
+    lowest: Annotated[Span | None, Absent("its way is the whole column, with the worst place of any way")] = None
     """place of the carriage above the floor, at least; at the lower end of the column when left out"""
-    highest: Span | None = None
+    highest: Annotated[Span | None, Absent("its way is the whole column, with the worst place of any way")] = None
     """place of the carriage above the floor, at most; at the upper end of the column when left out"""
     rollers: Rollers
     """its guide rollers"""
@@ -191,7 +219,7 @@ class Cab(Fragment):
 
     mass: Mass
     """with the driver"""
-    arm: SignedSpan = 0.0
+    arm: Annotated[SignedSpan, _CAB_ARM] = 0.0
     """of its centre of mass, from the line of the ropes, along the travel of bridge or base"""
-    arm_across: SignedSpan = 0.0
+    arm_across: Annotated[SignedSpan, _CAB_ARM] = 0.0
     """of its centre of mass across it"""

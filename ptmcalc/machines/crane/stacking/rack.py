@@ -10,6 +10,7 @@ from ptmcalc.machines.crane.stacking.drives import Travel
 from ptmcalc.machines.crane.stacking.hazards import Rail
 from ptmcalc.machines.crane.stacking.parts import Base
 from ptmcalc.machines.crane.stacking.scenes import (
+    BOTH,
     Brake,
     BufferScene,
     ForkCaught,
@@ -48,7 +49,8 @@ class RackStacker(Stacker):
     """on which it runs"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
     """what happens to the machine; when left out: hoisting up and down, standing, a start and a stop, and what the file
-    has the data of: buffers, a fork that pushes or is caught, an uneven rail, a safety gear"""
+    has the data of: buffers, a fork that pushes or is caught, an uneven rail, a safety gear; each with its load and
+    empty where either may be worse"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -81,12 +83,17 @@ class RackStacker(Stacker):
         scenes.append(Brake())
         if self.travel.buffers is not None:
             scenes.append(BufferScene())
-        if self.fork is not None:
-            scenes.append(ForkPush())
-        if self.hoisting.catches:
-            scenes.append(ForkCaught())
-        if self.rail.uneven:
-            scenes.append(RailScene())
-        if self.safety_gear is not None:
-            scenes.append(SafetyGearScene())
+        scenes += [HoistScene(direction="down", load="empty"), Stand(load="empty")]
+        if self.travel.starts:
+            scenes.append(Start(load="empty"))
+        scenes.append(Brake(load="empty"))
+        for load in BOTH:
+            if self.fork is not None:
+                scenes.append(ForkPush(load=load))
+            if self.hoisting.catches:
+                scenes.append(ForkCaught(load=load))
+            if self.rail.uneven:
+                scenes.append(RailScene(load=load))
+            if self.safety_gear is not None:
+                scenes.append(SafetyGearScene(load=load))
         return scenes

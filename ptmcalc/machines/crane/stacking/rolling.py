@@ -49,14 +49,15 @@ def _ends(played: Played) -> tuple[float, float]:
 # -- the machine on its wheel ---------------------------------------------------------------------------------------
 
 
-def machine_stages(roll: Roll, pulse: Pulse, law: str = NO_PULL) -> Stages:
+def machine_stages(roll: Roll, pulse: Pulse, law: str = NO_PULL, longer: float = 1.0) -> Stages:
     """The machine on a wheel that cannot pull, seen from the wheel's path, over a step or gap and for three periods
-    behind it. Its mass is 1 kg: forces are accelerations. With a linear law the wheel is held to the rail."""
+    behind it, or `longer` times that. Its mass is 1 kg: forces are accelerations. With a linear law the wheel is held
+    to the rail."""
     spring, damper = roll.frequency**2, 2 * roll.damping * roll.frequency
     side = -1 if law == NO_PULL else 0
     weight = Drive.of("weight", 0, Signal.constant(-roll.gravity))
     wheel = Spring(WHEEL, 0, None, spring, damper, law=law, side=side, rest=roll.gravity / spring)
-    window = _PERIODS * 2 * math.pi / roll.frequency
+    window = longer * _PERIODS * 2 * math.pi / roll.frequency
     # a machine thrown up comes down as late as its speed has it
     window += 4 * roll.acceleration / roll.gravity * min(pulse.lasts, 1 / roll.frequency)
 

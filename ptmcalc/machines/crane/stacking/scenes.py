@@ -1,15 +1,19 @@
 """What happens to a stacker crane."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from ptmcalc.spec.fields import (
     PositiveFraction,
     Span,
 )
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Setting
+from ptmcalc.spec.scene import Scene, TransientScene
 
 Mechanism = Literal["bridge", "trolley", "travel"]
 """What travels: the bridge or the trolley of an overhead stacker, the base of a rack stacker."""
+
+BOTH: tuple[Literal["full"], Literal["empty"]] = ("full", "empty")
+"""Load states, of events in which either may be worse."""
 
 
 class StackerScene(Scene):
@@ -17,7 +21,9 @@ class StackerScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the fork, or nothing"""
-    height: Span | None = None
+    height: Annotated[Span | None, Setting("as far from where the column is held as it comes, where it bends most")] = (
+        None
+    )
     """of the carriage above the floor; as far from where the column is held as it comes when left out"""
 
     def default_name(self) -> str:
@@ -58,7 +64,7 @@ class MechanismScene(StackerScene):
         return (self.type, self.mechanism) if self.mechanism else (self.type,)
 
 
-class DrivenScene(StackerScene):
+class DrivenScene(StackerScene, TransientScene):
     """Base of starts and stops, of any mechanism."""
 
     mechanism: Literal["bridge", "trolley", "rotation", "travel"] | None = None
@@ -79,15 +85,15 @@ class Brake(DrivenScene):
     """A mechanism is brought to rest from its speed, and held."""
 
     type: Literal["brake"] = "brake"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full speed before the stop: 0.1 for one from creep speed"""
 
 
-class ObstacleScene(MechanismScene):
+class ObstacleScene(MechanismScene, TransientScene):
     """The free end of the column of an overhead stacker runs into an obstacle."""
 
     type: Literal["obstacle"] = "obstacle"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full speed"""
     drive: Literal["off", "on"] = "off"
     """whether the drive still pushes"""
@@ -99,31 +105,31 @@ class BufferScene(MechanismScene):
     """It runs onto its buffers."""
 
     type: Literal["buffer"] = "buffer"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full speed at which they are hit; 0.7 (EN 13001-2) or 0.5 with limit switches that have been passed"""
     drive: Literal["off", "on"] = "off"
     """whether the drive still pushes"""
 
 
-class ForkPush(StackerScene):
+class ForkPush(StackerScene, TransientScene):
     """The fork pushes against the rack."""
 
     type: Literal["fork_push"] = "fork_push"
 
 
-class ForkCaught(StackerScene):
+class ForkCaught(StackerScene, TransientScene):
     """The fork is caught by the rack while the carriage is hoisted."""
 
     type: Literal["fork_caught"] = "fork_caught"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full hoisting speed"""
 
 
-class RailScene(StackerScene):
+class RailScene(StackerScene, TransientScene):
     """A rack stacker runs over what is uneven in its rail."""
 
     type: Literal["rail"] = "rail"
-    speed_share: PositiveFraction = 1.0
+    speed_share: Annotated[PositiveFraction, Setting("full speed, the worst case")] = 1.0
     """of full speed"""
 
 

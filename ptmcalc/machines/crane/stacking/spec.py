@@ -66,7 +66,7 @@ def ends_of_column(given: Given) -> tuple[float, float] | None:
     column = given.block("column")
     if column is None or "column" not in given:
         return None
-    foot, length = column.number("foot"), column.number("length")
+    foot, length = column.number("foot") if "foot" in column else 0.0, column.number("length")
     return None if foot is None or length is None else (foot, foot + length)
 
 

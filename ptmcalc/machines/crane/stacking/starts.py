@@ -99,8 +99,8 @@ def force_time(mass: float, speed: float, force: float, rise: float) -> float:
 def _of_a_rotation(block: Rotation, scene: Braked) -> float:
     """Of the column about its own axis, rigid [s]."""
     if isinstance(scene, Brake):
-        return block.inertia * scene.speed_share * block.speed / (block.braking_torque + block.resistance)
-    left = block.driving_torque - block.resistance
+        return block.inertia * scene.speed_share * block.speed / (block.braking_torque + (block.resistance or 0.0))
+    left = block.driving_torque - (block.resistance or 0.0)
     return block.inertia * block.speed / left if left > 0 else math.inf
 
 

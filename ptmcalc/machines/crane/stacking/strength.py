@@ -217,7 +217,7 @@ def _along(spec: RackStacker, scene: StackerScene, happens: Event) -> float:
         overturning.tipping_moment(
             happens.along,
             happens.force if happens.along else 0.0,
-            spec.column.foot,
+            spec.column.foot or 0.0,
             base.mass * happens.deceleration,
             base.height,
         )
@@ -241,5 +241,5 @@ def _across(spec: RackStacker, scene: StackerScene, happens: Event) -> float | N
     if held == 0:
         return None
     tips = abs(model.eccentric_moment(spec, scene, "across"))
-    tips += happens.across + (happens.force * spec.column.foot if happens.across else 0.0)
+    tips += happens.across + (happens.force * model.ends(spec)[0] if happens.across else 0.0)
     return float(overturning.stability_reserve(held, tips))

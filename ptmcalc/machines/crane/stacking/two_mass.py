@@ -9,7 +9,7 @@ from ptmcalc.laws import mast as law
 from ptmcalc.machines.crane.stacking import march
 from ptmcalc.machines.crane.stacking.march import Happening
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
-from ptmcalc.machines.crane.stacking.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.scenes import DrivenScene, StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of
 from ptmcalc.numerics.mast.assumed import one_shape
@@ -58,19 +58,22 @@ def _lumped(given: Swinging, column: Column, gravity: bool, heavier: float) -> M
     )
 
 
-def course_of(spec: Stacker, scene: StackerScene, gravity: bool, heavier: float = 1.0, *, keep: bool = False) -> Course:
+def course_of(spec: Stacker, scene: DrivenScene, gravity: bool, heavier: float = 1.0, *, keep: bool = False) -> Course:
     """A start or a stop of two masses, until the base is held for good and some swings beyond."""
     moves = march.happening(spec, scene, gravity=gravity)
     given = swinging(spec, scene, push_of(spec, scene).rotors)
     if keep:
-        return _until_held(_case(given, moves, gravity, heavier, spec.column.log_decrement), moves, keep)
-    return _course(given, moves, gravity, heavier, spec.column.log_decrement)
+        case = _case(given, moves, gravity, heavier, spec.column.log_decrement)
+        return _until_held(case, moves, scene.window_factor, keep)
+    return _course(given, moves, gravity, heavier, spec.column.log_decrement, scene.window_factor)
 
 
 @remembered(64)
-def _course(given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None) -> Course:
+def _course(
+    given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None, factor: float
+) -> Course:
     """Every bound asks for the same few; another limit in the file makes no other machine."""
-    return _until_held(_case(given, moves, gravity, heavier, decrement), moves, keep=False)
+    return _until_held(_case(given, moves, gravity, heavier, decrement), moves, factor, keep=False)
 
 
 def _case(given: Swinging, moves: Happening, gravity: bool, heavier: float, decrement: float | None) -> Case:
@@ -79,15 +82,15 @@ def _case(given: Swinging, moves: Happening, gravity: bool, heavier: float, decr
     return Case(two, ratios, moves.base, (given.exact.length,))
 
 
-def _until_held(case: Case, moves: Happening, keep: bool) -> Course:
-    swing = 2 * math.pi / float(case.mast.frequencies[0])
-    end = moves.lasts + SWINGS * swing
+def _until_held(case: Case, moves: Happening, factor: float, keep: bool) -> Course:
+    after = factor * SWINGS * 2 * math.pi / float(case.mast.frequencies[0])
+    end = moves.lasts + after
     most = math.inf if keep else _MOST_WORK
     course = play(case, end, keep=keep, most_work=most)
     for _ in range(_DOUBLINGS):
         since = course.held_since
-        if since + SWINGS * swing <= course.record.time * (1 + 1e-9):
+        if since + after <= course.record.time * (1 + 1e-9):
             break
-        end = since + SWINGS * swing if math.isfinite(since) else 2 * end
+        end = since + after if math.isfinite(since) else 2 * end
         course = play(case, end, keep=keep, most_work=most)
     return course

@@ -32,14 +32,14 @@ def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int
         slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK_GIVES not in carried
     )
     names = {"rope_force_caught": ROPE} | ({} if case.rigid else {"rack_force": RACK})
-    found = _largest(case.train(), case.window(), level, names)
+    found = _largest(case.train(), scene.window_factor * case.window(), level, names)
     return Result(with_derived(spec, scene, with_factor(found.loads, case)), work=found.work, window=found.window)
 
 
 def pushed(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> Result:
     """Largest force of the fork on the rack it is pushed against, with errors as `caught`."""
     case = push_of(spec, scene)
-    found = _largest(case.train(), case.window(), level, {"fork_push_force": RACK})
+    found = _largest(case.train(), scene.window_factor * case.window(), level, {"fork_push_force": RACK})
     return Result(with_derived(spec, scene, found.loads), work=found.work, window=found.window)
 
 
@@ -53,12 +53,12 @@ def _largest(train: Train, window: float, level: int, names: dict[str, str]) -> 
 
 def _caught_cost(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> float:
     case = catch_of(spec, scene)
-    return lumped.seconds(case.train(), case.window(), lumped.TOLERANCES[level : level + 2])
+    return lumped.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
 
 
 def _pushed_cost(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> float:
     case = push_of(spec, scene)
-    return lumped.seconds(case.train(), case.window(), lumped.TOLERANCES[level : level + 2])
+    return lumped.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
 
 
 def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:

@@ -76,7 +76,7 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     """
     whole = catch_of(spec, scene)
     case = whole.without(slope=SLOPE not in carried, limit=LIMITER not in carried, rack=RACK not in carried)
-    one = course(scene.label, case.train(), case.window(), case.readings)
+    one = course(scene.label, case.train(), scene.window_factor * case.window(), case.readings)
     found = dict(one.found)
     tripped = one.played.first(MOTOR, "started")
     if tripped < one.played.record.time:

@@ -60,7 +60,7 @@ def run(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> 
     case = push_of(spec, scene)
     if math.isinf(case.support):
         return rigid(spec, scene, carried, level)
-    one = course(scene.label, case.train(), case.window(), case.readings)
+    one = course(scene.label, case.train(), scene.window_factor * case.window(), case.readings)
     return one.result(with_derived(spec, scene, one.found))
 
 

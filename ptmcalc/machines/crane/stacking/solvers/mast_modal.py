@@ -9,9 +9,10 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import march
+from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
 from ptmcalc.machines.crane.stacking.loads import MODES
 from ptmcalc.machines.crane.stacking.march import Built, Happening
@@ -22,8 +23,9 @@ from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, Stacker
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
+from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
-from ptmcalc.numerics.record import most_work
+from ptmcalc.numerics.record import MOST_KEPT, most_work, too_much_memory
 from ptmcalc.spec.scene import Scene
 
 ALWAYS = frozenset({FLEXIBLE, MASS})
@@ -43,8 +45,6 @@ _BLOW = 1.5
 """Periods of everything against the column in which a collision is looked at."""
 _COMPARED = 0.7
 """Panels of the run that a bar is found with, over the usual ones."""
-_SOON = 1.1
-"""Times that of a base by which one that has a little more speed to win will have it too."""
 _DOUBLINGS = 5
 _FREQUENCIES = 16
 
@@ -55,6 +55,9 @@ class Played:
 
     moves: Happening
     course: Course
+    nudged: tuple[Course | None, Course | None] = (None, None)
+    """runs of a base that has a little less speed to win or to lose, and a little more: by what the modes left out may
+    add to it; None for one that has none to lose, and of a base that keeps to its path"""
 
     @property
     def place(self) -> float:
@@ -80,10 +83,12 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
         return Result(_of_the_column(march.built(spec, scene, gravity=gravity), math.inf), work=_FREQUENCIES)
     moves = march.happening(spec, scene, gravity=gravity)
     modes = followed(moves, level)
+    if _panels(moves, modes, scene) > MOST_KEPT:
+        raise too_much_memory(moves.lasts)
     most = most_work(_seconds(scene, moves, modes, level))
     course = _play(spec, scene, moves, modes, most=most)
     other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED, most=most)
-    fine, coarse = Played(moves, course), Played(moves, other)
+    fine, coarse = Played(moves, course, _nudged(moves, course, most)), Played(moves, other)
     found = _of_the_column(moves.column, moves.rolling)
     if isinstance(scene, ObstacleScene):
         found |= _of_the_blow(fine, coarse)
@@ -140,17 +145,18 @@ def _play(
     case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
     if end:
         return play(case, end, refined, keep=keep, most_work=most)
-    swing = 2 * math.pi / float(case.mast.frequencies[0])
+    factor = model.window_factor(scene)
+    after = factor * _SWINGS * 2 * math.pi / float(case.mast.frequencies[0])
     if isinstance(scene, ObstacleScene):
-        stiffness = moves.column.stiffness
-        return play(case, _BLOW * 2 * math.pi * math.sqrt(moves.column.total / stiffness), refined, most_work=most)
-    end = moves.lasts + _SWINGS * swing
+        swing = 2 * math.pi * math.sqrt(moves.column.total / moves.column.stiffness)
+        return play(case, factor * _BLOW * swing, refined, most_work=most)
+    end = moves.lasts + after
     course = play(case, end, refined, most_work=most)
     for _ in range(_DOUBLINGS):
         since = course.held_since
-        if since + _SWINGS * swing <= course.record.time * (1 + 1e-9):
+        if since + after <= course.record.time * (1 + 1e-9):
             break
-        end = since + _SWINGS * swing if math.isfinite(since) else 2 * end
+        end = since + after if math.isfinite(since) else 2 * end
         course = play(case, end, refined, most_work=most)
     return course
 
@@ -159,13 +165,9 @@ def _play(
 
 
 def _of_the_column(built: Built, base: float) -> dict[str, Found]:
-    """Stiffness at the far end, without weights and guide, and the lowest frequencies, over a base that is held or
-    rolls."""
-    light = replace(built.column, pull=0.0, props=())
-    fine, coarse = (Mast.of(light, count, (light.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
-    stiffness, other = (1 / mast.gives(built.column.length, built.column.length) for mast in (fine, coarse))
-    bar = abs(stiffness - other) + 1e-9 * stiffness
-    found = {"column_stiffness": Found(Estimate.within(stiffness, bar))}
+    """Stiffness at the far end, with the weights of the run and without a guide, and the lowest frequencies, over a
+    base that is held or rolls."""
+    found = _stiffness(replace(built.column, props=()))
     lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
     for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
         found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
@@ -173,6 +175,17 @@ def _of_the_column(built: Built, base: float) -> dict[str, Found]:
             swing = 2 * math.pi / value
             found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
     return found
+
+
+def _stiffness(free: Column) -> dict[str, Found]:
+    """Of a column whose head is free; nothing where only its guide keeps it from buckling."""
+    try:
+        fine, coarse = (Mast.of(free, count, (free.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    except NumericsError:
+        return {}
+    stiffness, other = (1 / mast.gives(free.length, free.length) for mast in (fine, coarse))
+    bar = abs(stiffness - other) + 1e-9 * stiffness
+    return {"column_stiffness": Found(Estimate.within(stiffness, bar))}
 
 
 def _bar(fine: float, coarse: float, more: float = 0.0) -> Estimate:
@@ -186,7 +199,7 @@ def _deflection(fine: Played, coarse: Played) -> Found:
     other = coarse.course.largest("deflection")[0]
     mast, kept = course.case.mast, course.system.count
     rest = left_out(mast, moves.rolling, fine.place, kept, moves.rise, moves.jump)
-    return Found(_bar(value, other, rest), {"time": time})
+    return Found(_bar(value, other, rest + _nudge(fine, "deflection", value) + _beats(fine)[0]), {"time": time})
 
 
 def _times(one: Found, factor: float) -> Found:
@@ -198,6 +211,7 @@ def _moment(fine: Played, coarse: Played) -> Found:
     moves, course = fine.moves, fine.course
     value, time = course.largest("moment")
     rest = moment_left_out(course.case.mast, moves.rolling, course.system.count, moves.rise, moves.jump)
+    rest += _nudge(fine, "moment", value) + _beats(fine)[1]
     return Found(_bar(value, coarse.course.largest("moment")[0], rest), {"time": time})
 
 
@@ -230,30 +244,78 @@ def _first_time(fine: Played, word: str, time: float, other: float) -> Estimate:
     has V less to go, and no later than one that has V more. Two runs more tell when those are; they count beside the
     difference to half as many modes, which by chance may be nothing.
     """
-    moves, course = fine.moves, fine.course
     known = _bar(time, other)
-    jolt = speed_left_out(course.case.mast, moves.base.mass, course.system.count, moves.rise, moves.jump)
-    low, high = (_time_of(fine, word, time, more) for more in (-jolt, jolt))
+    low, high = (0.0 if one is None else one.first("base", word) for one in fine.nudged)
     low, high = known.low - max(time - low, 0.0), known.high + max(high - time, 0.0)
     return Estimate(time, max(low, 0.0), high, numerical=max(time - low, high - time))
 
 
-def _time_of(fine: Played, word: str, time: float, more: float) -> float:
-    """When a base first has its speed, or first stands, that has so much more speed to win or to lose [s]."""
+def _nudged(moves: Happening, course: Course, most: float) -> tuple[Course | None, Course | None]:
+    """The same run of a base that has a little less speed to win or to lose, and a little more.
+
+    When it stands, or has its speed, decides in which swing of the column it is held, and whether it slips again: what
+    the modes left out may add to its speed is then in all that comes after.
+    """
+    if moves.follows or moves.obstacle is not None or not moves.base.grips:
+        return None, None
+    jolt = speed_left_out(course.case.mast, moves.base.mass, course.system.count, moves.rise, moves.jump)
+    found = []
+    for more in (-jolt, jolt):
+        base, (grip,) = moves.base, moves.base.grips
+        speed = (base.speed or grip.speed) + more
+        if base.speed:
+            base = replace(base, speed=speed)
+        else:
+            base = replace(base, grips=(replace(grip, speed=speed),))
+        found.append(play(replace(course.case, base=base), course.record.time, most_work=most) if speed > 0 else None)
+    return found[0], found[1]
+
+
+@kept_for(16)
+def _beats(fine: Played) -> tuple[float, float]:
+    """What deflection and moment may be off by as modes that ring on meet in other phases than they would.
+
+        sum_k |g_k| s_k min(2, |w_k - w_k'| T)
+
+    with g_k what a mode takes of the load that comes up, s_k = min(1, 2/(w_k t_r)), w_k its frequency of twice as many
+    elements and w_k' that of the modes kept, in a run of the time T. Two runs may agree on a largest value by chance.
+    """
     moves, course = fine.moves, fine.course
-    base, (grip,) = moves.base, moves.base.grips
-    if base.speed:
-        speed = base.speed + more
-        base = replace(base, speed=max(speed, 0.0))
+    if moves.obstacle is not None:
+        return 0.0, 0.0
+    mast, kept = course.case.mast, course.system.count
+    exact = Mast.of(moves.column.column, 2 * (len(mast.elements.places) - 1), (fine.place,))
+    built, base = exact.elements, moves.rolling
+    held = mast.frequencies[:kept]
+    if math.isinf(base):
+        values, shapes, own, per = exact.frequencies, exact.shapes, held, 1.0
     else:
-        speed = grip.speed + more
-        base = replace(base, grips=(replace(grip, speed=max(speed, 0.0)),))
-    if speed <= 0:
-        return 0.0
-    case = replace(course.case, base=base)
-    soon = min(time * _SOON + _SOON * abs(more) * course.system.total / moves.jump, course.record.time)
-    found = play(case, soon).first("base", word)
-    return found if math.isfinite(found) else play(case, course.record.time).first("base", word)
+        values, shapes = exact.rolling(base)
+        total = base + mast.elements.total
+        pull = mast.participation[:kept]
+        inverse = (np.eye(kept) - np.outer(pull, pull) / total) / np.outer(held, held)
+        own = 1 / np.sqrt(np.linalg.eigvalsh(inverse)[::-1])
+        per = 1 / total
+    count = min(kept, len(values))
+    values, shapes, own = values[:count], shapes[:, :count], own[:count]
+    pushed = built.carried @ shapes * per
+    inertia = built.turned @ shapes
+    if math.isfinite(base):
+        inertia = inertia - built.moment * pushed
+    meets = np.minimum(2.0, np.abs(values - own) * course.record.time) * abs(moves.jump)
+    if moves.rise > 0:
+        meets = meets * np.minimum(1.0, 2 / (values * moves.rise))
+    gains = (
+        built.row(fine.place) @ shapes * pushed / values**2,
+        inertia * pushed - built.righted @ shapes * pushed / values**2,
+    )
+    shift, turn = (float(np.abs(one) @ meets) for one in gains)
+    return shift, turn
+
+
+def _nudge(fine: Played, what: str, value: float) -> float:
+    """What a little more or less speed of the base makes of a largest value."""
+    return max((abs(one.largest(what)[0] - value) for one in fine.nudged if one is not None), default=0.0)
 
 
 def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
@@ -358,13 +420,22 @@ def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: in
     return _seconds(scene, moves, modes, level)
 
 
+def _panels(moves: Happening, modes: int, scene: StackerScene) -> float:
+    """Panels in which some mode that rings on could still have its summit: about eight to a radian of the slowest."""
+    factor = model.window_factor(scene)
+    return 8 * modes * factor * moves.lasts * math.sqrt(moves.column.stiffness / moves.column.total)
+
+
 def _seconds(scene: StackerScene, moves: Happening, modes: int, level: int) -> float:
     """By the swings of the modes in the time that is looked at: fast ones are passed over by long panels; a point that
     stops dead is struck again by every mode."""
     slowest = math.sqrt(moves.column.stiffness / moves.column.total)
     if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
         return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
-    return 0.04 * (1 + level) + 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
+    runs = (
+        1 if moves.follows or moves.obstacle is not None else 2
+    )  # two more of a base that is as fast, but for a little
+    return runs * 0.04 * (1 + level) + runs * 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
 
 
 def _solver(

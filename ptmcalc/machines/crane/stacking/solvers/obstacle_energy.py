@@ -27,7 +27,7 @@ def pushed(spec: Stacker, scene: ObstacleScene) -> float:
     if scene.brake == "on":
         brake = model.stopping(spec, scene)
         return -brake.size if brake.kind == "force" else -math.inf
-    return -model.travel(spec, scene).resistance
+    return -(model.travel(spec, scene).resistance or 0.0)
 
 
 def striking(spec: Stacker, scene: ObstacleScene) -> Swinging:

@@ -96,7 +96,8 @@ def jump(spec: RackStacker, scene: RailScene, carried: frozenset[str], level: in
     roll = roll_of(spec, scene)
     waves, _ = _waves(roll)
     free, held = (
-        [compared(scene.label, machine_stages(roll, pulse, law)) for pulse in pulses(roll)] for law in (NO_PULL, LINEAR)
+        [compared(scene.label, machine_stages(roll, pulse, law, scene.window_factor)) for pulse in pulses(roll)]
+        for law in (NO_PULL, LINEAR)
     )
     runs = [*free, *held]
     tops = [one.found["phi4"] for one in free] + [Found(Estimate.exact(1 + waves))]
