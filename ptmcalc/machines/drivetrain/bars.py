@@ -20,6 +20,10 @@ _POLYNOMIALS = 3e-12
 _UNSEEN = FADED + _POLYNOMIALS
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 
+_FACTS = frozenset({"start_share", "stop_speed_share"})
+"""Loads that say whether a start or stop is over, which all runs agree on; what is left of the speed where it is not is
+read from runs that are no closer than their bars."""
+
 
 def played(case: Case, end: float, tolerance: float) -> tuple[Course, ...]:
     """The run that counts, and those it is compared with: one, or two with a nonlinear torque."""
@@ -51,8 +55,8 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
     found = {}
     for name, (value, time) in own.items():
         at = {"time": time} if time is not None else {}
-        if name not in apart:
-            same = all(other[name][0] == value for other in compared)
+        if name not in apart or name in _FACTS:
+            same = all(_as_good(name, value, other[name][0]) for other in compared)
             found[name] = Found(Estimate.exact(value) if same else Estimate.unknown(value), at)
             continue
         size = sizes[part_of(name)]
@@ -64,6 +68,14 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
         found[name] = Found(Estimate.within(value, bar), at)
     found["energy_residual"] = Found(Estimate.exact(course.ledger.residual))
     return found
+
+
+def _as_good(name: str, value: float, other: float) -> bool:
+    """Whether two runs say the same; of shares of a speed, whether both or neither are at their limit."""
+    if name not in _FACTS:
+        return value == other
+    over = 1.0 if name == "start_share" else 0.0
+    return (value == over) == (other == over)
 
 
 def at_end(spec: Drivetrain, name: str, course: Course, *others: Course) -> Estimate:

@@ -1,4 +1,4 @@
-"""The checks of a drive train: DRV101 to DRV108."""
+"""The checks of a drive train: DRV101 to DRV110."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
-from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import case_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
 from ptmcalc.spec.scene import Scene
@@ -74,24 +73,26 @@ TORQUE: AnyCheck = Check(
 
 
 def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
-    """The longest start: the file's, else the time the scene is looked at.
+    """The longest start of the file.
 
     **Range** any start with a speed that ends it.
     **Error** none.
     **Source** a choice of the designer.
     """
-    return Estimate.exact(spec.checks.start_time or motion.window(scene, case_of(spec, scene)))
+    return Estimate.exact(spec.checks.start_time or math.inf)
 
 
-def _start_needs(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
+def _end_of_start(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
     if case_of(spec, scene).until is not None:
         return ()
     return (("scenes", list(spec.all_scenes).index(scene), "until"),)
 
 
-def _start_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
-    if spec.checks.start_time is not None:
-        return ("checks", "start_time")
+def _start_needs(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
+    return (*_end_of_start(spec, scene), ("checks", "start_time"))
+
+
+def _motor_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
     return ("motors", next(iter(spec.motors))) if spec.motors else ("inertias",)
 
 
@@ -103,23 +104,23 @@ START: Check[Drivetrain, Start] = Check(
     sense=Sense.AT_MOST,
     limit=start_limit,
     needs=_start_needs,
-    blame=_start_blame,
-    repair=lambda spec, scene: ("checks", "start_time") if spec.checks.start_time is not None else (),
+    blame=lambda spec, scene, loads: ("checks", "start_time"),
+    repair=no_repair,
     what="The inertia the scene is about reaches its speed in time.",
-    why="A long start heats the motor; one that never ends is a drive too weak for its load.",
+    why="A long start heats the motor.",
     formula="t(w = w_end) <= t_limit",
-    source="a choice of the designer; without one, the window of the scene",
+    source="a choice of the designer",
 )
 
 
 def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """The longest stop: the file's, else the time the scene is looked at.
+    """The longest stop of the file.
 
     **Range** any stop.
     **Error** none.
     **Source** a choice of the designer or of a rule for the machine.
     """
-    return Estimate.exact(spec.checks.stop_time or motion.window(scene, case_of(spec, scene)))
+    return Estimate.exact(spec.checks.stop_time or math.inf)
 
 
 def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
@@ -139,13 +140,70 @@ STOP: Check[Drivetrain, Stop] = Check(
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=stop_limit,
-    needs=no_needs,
+    needs=lambda spec, scene: (("checks", "stop_time"),),
     blame=_stop_blame,
     repair=_brake_torque,
     what="The inertia the scene is about comes to rest in time, and stays there.",
+    why="What is behind the stop is in the way of a train that moves on.",
+    formula="t(w = 0 from then on) <= t_limit",
+    source="a choice of the designer or of a rule for the machine",
+)
+
+
+# -- what must end at all -------------------------------------------------------------------------------------------
+
+
+def _whole(spec: Drivetrain, scene: Start) -> Estimate:
+    """All of the speed that ends the start.
+
+    **Range** any start with a speed that ends it.
+    **Error** none.
+    **Source** definition of a start.
+    """
+    return Estimate.exact(1.0)
+
+
+REACHES: AnyCheck = Check(
+    code="DRV109",
+    title="share of the target speed reached",
+    scenes=frozenset({Start}),
+    loads=("start_share",),
+    sense=Sense.AT_LEAST,
+    limit=_whole,
+    needs=_end_of_start,
+    blame=_motor_blame,
+    repair=no_repair,
+    what="The inertia the scene is about reaches the speed that ends the start, at any time.",
+    why="A motor that stalls or stays below its speed overheats; the machine never works.",
+    formula="max w/w_end >= 1",
+    source="definition of a start; surplus of the motor's torque over its speed range",
+)
+
+
+def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
+    """No speed at all.
+
+    **Range** any stop.
+    **Error** none.
+    **Source** definition of a stop.
+    """
+    return Estimate.exact(0.0)
+
+
+RESTS: AnyCheck = Check(
+    code="DRV110",
+    title="speed left after the stop",
+    scenes=frozenset({Stop}),
+    loads=("stop_speed_share",),
+    sense=Sense.AT_MOST,
+    limit=_nothing,
+    needs=no_needs,
+    blame=_stop_blame,
+    repair=_brake_torque,
+    what="The inertia the scene is about comes to rest, at any time, and stays there.",
     why="A brake that does not hold lets the load run away.",
-    formula="t(w = 0 for good) <= t_limit",
-    source="a choice of the designer; without one, the window of the scene",
+    formula="|w(end)|/|w(0)| = 0",
+    source="definition of a stop; static balance of brake and load",
 )
 
 
@@ -334,4 +392,4 @@ WEAR: AnyCheck = Check(
     source="lecture notes Kramatorsk 2007",
 )
 
-CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR)
+CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR, REACHES, RESTS)

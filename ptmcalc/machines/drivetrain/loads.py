@@ -17,6 +17,8 @@ ANGLE_END = LoadInfo("angle_end", "angle at the end", units.ANGLE, headline=Fals
 START_TIME = LoadInfo("start_time", "start time", units.TIME, governing=True)
 STOP_TIME = LoadInfo("stop_time", "stop time", units.TIME, governing=True)
 STOP_ANGLE = LoadInfo("stop_angle", "way of the stop", units.ANGLE, governing=True)
+START_SHARE = LoadInfo("start_share", "share of the target speed reached", units.SHARE, governing=True)
+STOP_SHARE = LoadInfo("stop_speed_share", "speed left, relative to the initial speed", units.SHARE, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "start time, efficiency term by term", units.TIME)
 STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stop time, efficiency term by term", units.TIME)
 MOTOR_PEAK = LoadInfo("motor_torque_peak", "largest motor torque", units.TORQUE, governing=True)
@@ -32,8 +34,10 @@ LOADS = (
     DYNAMIC_FACTOR,
     START_TIME,
     START_BY_TERMS,
+    START_SHARE,
     STOP_TIME,
     STOP_BY_TERMS,
+    STOP_SHARE,
     STOP_ANGLE,
     MOTOR_PEAK,
     MOTOR_RMS,

@@ -205,10 +205,35 @@ def readings(spec: Drivetrain, course: Course) -> Readings:
         place = course.index("position", case.bodies[case.main])
         assert place is not None
         moved = abs(float(record.last[place] - record.first[place]))
-        found["stop_angle"] = moved if math.isfinite(found["stop_time"][0]) else math.inf, None
+        rests = math.isfinite(found["stop_time"][0])
+        found["stop_angle"] = moved if rests else math.inf, None
+        found["stop_speed_share"] = 0.0 if rests else share(*speeds(course, case.main)), None
     elif case.until is not None:
         found["start_time"] = reached(course), None
+        found["start_share"] = reached_share(course, case.until), None
     return {name: _without_dust(name, found) for name in found}
+
+
+def speeds(course: Course, body: int) -> tuple[float, float]:
+    """Speed of a body at the end and at the beginning of a run [rad/s or m/s]."""
+    index = course.index("speed", course.case.bodies[body])
+    assert index is not None
+    return float(course.record.last[index]), float(course.record.first[index])
+
+
+def share(speed: float, of: float) -> float:
+    """A speed relative to another one; infinite where that is 0."""
+    return abs(speed / of) if of else math.inf
+
+
+def reached_share(course: Course, until: float) -> float:
+    """Largest speed of the main inertia towards the one that ends a start, relative to it; 1 where it is reached."""
+    if math.isfinite(reached(course)):
+        return 1.0
+    index = course.index("speed", course.case.bodies[course.case.main])
+    assert index is not None
+    extreme = course.record.top if until > 0 else course.record.bottom
+    return min(max(float(extreme.values[index]) / until, 0.0), 1.0)
 
 
 def _without_dust(name: str, found: Readings) -> tuple[float, float | None]:

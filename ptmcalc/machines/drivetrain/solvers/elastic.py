@@ -3,7 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import bars, motion
+from ptmcalc.machines.drivetrain import bars, ending, motion
 from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
@@ -36,7 +36,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         findings.append(broken)
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
     loads |= _against_rigid(spec, scene, loads, end)
-    return Result(
+    result = Result(
         loads,
         work=sum(course.record.steps for course in runs),
         window=(0.0, fine.record.time),
@@ -45,6 +45,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         events=motion.events(fine),
         histories=lambda: motion.histories(spec, case, end, tolerance),
     )
+    return ending.completed(result, spec, scene, fine)
 
 
 def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found], end: float) -> dict[str, Found]:

@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import bars, motion
+from ptmcalc.machines.drivetrain import bars, ending, motion
 from ptmcalc.machines.drivetrain.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import case_of, rigid
@@ -40,7 +40,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     broken = motion.untrusted(spec, scene, fine, TOLERANCES[1])
     if broken is not None:
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
-    return Result(
+    result = Result(
         loads,
         work=sum(course.record.steps for course in runs),
         window=(0.0, fine.record.time),
@@ -49,6 +49,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         events=motion.events(fine),
         histories=lambda: motion.histories(spec, case, end, TOLERANCES[1]),
     )
+    return ending.completed(result, spec, scene, fine)
 
 
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
