@@ -13,6 +13,7 @@ from ptmcalc.machines.conveyor.checks import CHECKS
 from ptmcalc.machines.conveyor.effects import EFFECTS, jumps
 from ptmcalc.machines.conveyor.figures import FIGURES
 from ptmcalc.machines.conveyor.loads import LOADS, parts
+from ptmcalc.machines.conveyor.plausible import implausible
 from ptmcalc.machines.conveyor.relations import RELATIONS
 from ptmcalc.machines.conveyor.solvers import SOLVERS
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
@@ -57,6 +58,7 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             ("takeup", "mass"),
             f"write `mass: {units.show(2 * spec.takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
         )
+    yield from implausible(spec)
     yield from _of_scenes(spec)
     yield from _of_curves(spec)
     if spec.route.inclination == "small_angle" and abs(spec.route.climb) > _STEEP * spec.route.span:

@@ -23,6 +23,7 @@ from ptmcalc.spec.fields import (
     PositiveSpan,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
@@ -33,23 +34,23 @@ class Belt(Fragment):
 
     mass: PositiveLineMass
     """mass per length of the bare belt"""
-    width: PositiveLength | None = None
+    width: Annotated[PositiveLength | None, OneOf("stiffness, breaking_force")] = None
     """belt width; needed with `modulus` or `strength`"""
-    stiffness: PositiveForce | None = None
+    stiffness: Annotated[PositiveForce | None, OneOf("modulus")] = None
     """tensile stiffness EA of the whole belt, or give `modulus` and `width`"""
-    modulus: PositiveLineStiffness | None = None
+    modulus: Annotated[PositiveLineStiffness | None, OneOf("stiffness")] = None
     """tensile modulus per width, e.g. `72000 N/mm`"""
-    breaking_force: PositiveForce | None = None
+    breaking_force: Annotated[PositiveForce | None, Limit()] = None
     """breaking force of the whole belt, or give `strength` and `width`"""
-    strength: PositiveLineForce | None = None
+    strength: Annotated[PositiveLineForce | None, Limit()] = None
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
     """what carries the tension; chooses the default safety factors"""
     damping: Damping | None = None
     """internal damping; an elastic belt when left out, which swings longest"""
-    minimum_drum_diameter: PositiveLength | None = None
+    minimum_drum_diameter: Annotated[PositiveLength | None, Limit()] = None
     """smallest drive drum the maker of the belt allows; or give `carcass_thickness` and `warp`"""
-    carcass_thickness: PositiveLength | None = None
+    carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the plies without the covers, or of the cords of a steel-cord belt"""
     warp: Literal["cotton", "polyamide", "polyester", "aramid", "steel_cord"] | None = None
     """material that carries the tension; with `carcass_thickness` it says how small a drive drum may be"""
@@ -73,11 +74,13 @@ class Belt(Fragment):
 class IdlerRow(Fragment):
     """The idlers of one strand."""
 
-    pitch: PositiveLength | None = None
+    pitch: Annotated[
+        PositiveLength | None, Absent("sag is `not checked`, and waves are those of a taut belt, the stiffest")
+    ] = None
     """distance of the idler sets; needed for sag and with `set_mass`"""
-    set_mass: Mass | None = None
+    set_mass: Annotated[Mass | None, OneOf("line_mass")] = None
     """rotating mass of one idler set, reduced to the rim"""
-    line_mass: LineMass | None = None
+    line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
     """rotating mass per length, or give `set_mass` and `pitch`"""
 
     @classmethod
@@ -128,13 +131,15 @@ class Idlers(Fragment):
 class Load(Fragment):
     """What is conveyed."""
 
-    mass: PositiveLineMass | None = None
+    mass: Annotated[PositiveLineMass | None, OneOf("capacity")] = None
     """load per length of the carry strand, or give `capacity`"""
-    capacity: MassFlow | None = None
+    capacity: Annotated[MassFlow | None, OneOf("mass")] = None
     """mass flow; the load per length is capacity over belt speed"""
-    density: PositiveDensity | None = None
+    density: Annotated[PositiveDensity | None, Absent("the check of the cross-section needs it and does not apply")] = (
+        None
+    )
     """bulk density; with it the cross-section of the load is checked"""
-    surcharge_angle: SurchargeAngle | None = None
+    surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
     """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
 
     @classmethod
@@ -151,7 +156,7 @@ class Transition(Fragment):
 
     length: PositiveSpan
     """from the drum's axis to the first full trough"""
-    pulley_lift: Length = 0.0
+    pulley_lift: Annotated[Length, Absent("a pulley at the height of the middle roll strains the edges most")] = 0.0
     """height of the drum's face over the middle roll; a third of the trough's depth is usual"""
 
 

@@ -17,7 +17,16 @@ from ptmcalc.base.memory import kept_for, remembered
 from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan, loop_bounds, sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, GRIP, LOWEST, OF_STOP, SLIPS, TENSIONS
+from ptmcalc.machines.conveyor.loads import (
+    CHANGED_BY_MOTION,
+    DRIVE,
+    GRIP,
+    LOWEST,
+    OF_STOP,
+    SLIPS,
+    TENSIONS,
+    WAYS_OF_STOP,
+)
 from ptmcalc.machines.conveyor.model import BeltLine, StartCase, lowest_frequency, start_duration
 from ptmcalc.machines.conveyor.moved_grip import moved_grip
 from ptmcalc.numerics.lanes import value
@@ -534,7 +543,7 @@ def moved(
             found[name] = moved_sag(line, loads, change.smallest)
         elif kind in DRIVE and asked:
             found[name] = moved_drive(loads, 2 * asked * most)[kind]
-        elif kind in ("stop_distance", "coast_distance", "takeup_movement"):
+        elif kind in WAYS_OF_STOP or kind == "takeup_movement":
             found[name] = Interval(-stretch, stretch)
         elif kind == "stop_time":
             found[name] = Interval(-delay, delay)

@@ -93,6 +93,7 @@ def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
         values["takeup_movement"] = float(way.max() - way.min()), {}
     if case.brings_to_rest:
         values |= _rest(case, belt, drawn.times)
+        values |= _longest_way(case, drawn, values)
     if case.imposed is not None and isinstance(case.scene, Start):
         _asked(found, case, drawn, ready)
     return found
@@ -179,6 +180,22 @@ def _rest(case: Moving, belt: FloatArray, times: FloatArray) -> Values:
     slope = (float(belt[last - 2]) - before) / step if last > 1 else 0.0
     part = min(before / slope, step) if slope > 0 else step
     return {"stop_time": (float(times[last - 1]) + part, {}), name: (way + before * part / 2, {})}
+
+
+def _longest_way(case: Moving, drawn: Drawn, values: Values) -> Values:
+    """The longest way of any point of the belt to its rest: at the head, at the tail or between them."""
+    if case.scene.type == "coast":
+        return {}
+    head = values["stop_distance"][0]
+    if not math.isfinite(head):
+        return {"stop_distance_max": (head, {})}
+    step = float(drawn.times[1])
+    speeds = np.array([seen.belt for seen in drawn.tail])
+    tail = np.concatenate([[0.0], np.cumsum((speeds[1:] + speeds[:-1]) / 2)]) * step
+    inside, length = drawn.longest_way, case.line.back.length
+    ways = (head, 0.0), (float(tail.max()), length), (inside.value, inside.place)
+    way, place = max(ways, key=lambda one: one[0])
+    return {"stop_distance_max": (way, {"position": place})}
 
 
 def _of_drives(found: OneGrid, case: Moving, station: Station, history: tuple[Seen, ...], step: float) -> None:

@@ -333,16 +333,18 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV106",
     title="too long a way to stop",
     scenes=frozenset({Stop, EmergencyStop}),
-    loads=("stop_distance",),
+    loads=("stop_distance_max",),
     sense=Sense.AT_MOST,
     limit=_stop_limit,
     needs=no_needs,
     blame=lambda spec, scene, loads: _stop_key(spec, scene),
     repair=_stop_repair,
     each=_only_with("CNV106", Conveyor.stop_distance_limit),
-    what="The belt at the head comes to rest within the distance the file allows.",
-    why="A belt that runs on overfills the chute below and drags along whoever it has caught.",
-    formula="s = integral of v dt until v = 0 <= limit",
+    what="Every point of the belt comes to rest within the distance the file allows: at the head, at the tail and"
+    " between them.",
+    why="A belt that runs on overfills the chute below and drags along a person it has caught. The tail of a long belt"
+    " runs on at full speed until the wave of the brake arrives.",
+    formula="max over the belt of the integral of v dt until v = 0 <= limit",
     source="the plant's safety rules",
 )
 

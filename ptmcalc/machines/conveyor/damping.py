@@ -1,11 +1,12 @@
 """Internal damping of the belt, as a design file gives it."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from ptmcalc.laws import belt_damping
 from ptmcalc.spec.fields import PositiveRatio, PositiveTime
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.optional import Absent
 
 
 class Damping(Fragment):
@@ -15,7 +16,9 @@ class Damping(Fragment):
     """`kelvin_voigt` damps the more the faster the change, `zener` only changes about as fast as its relaxation"""
     time: PositiveTime
     """retardation time of a Kelvin-Voigt belt (10 to 50 ms), relaxation time of a Zener belt"""
-    stiffening: PositiveRatio | None = None
+    stiffening: Annotated[
+        PositiveRatio | None, Absent("a Kelvin-Voigt belt has one stiffness; a Zener belt requires it")
+    ] = None
     """Zener: stiffness for sudden changes over that for slow ones, less 1"""
 
     @classmethod

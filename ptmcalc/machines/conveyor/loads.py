@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
 
 LOADS = (
     LoadInfo("tension_run_on_max", "run-on tension, largest", units.FORCE, governing=True),
@@ -22,6 +22,7 @@ LOADS = (
     LoadInfo("slip_heat", "heat of slip", units.ENERGY),
     LoadInfo("stop_time", "time to come to rest", units.TIME, governing=True),
     LoadInfo("stop_distance", "way to come to rest", units.SPAN, governing=True),
+    LoadInfo("stop_distance_max", "way to come to rest, longest of any point of the belt", units.SPAN, governing=True),
     LoadInfo("coast_distance", "way without brakes", units.SPAN, governing=True),
     LoadInfo("brake_torque_required", "brake torque for the allowed way, drum shaft", units.TORQUE, governing=True),
     LoadInfo("tension_overload_braking", "tension that braking in the allowed way adds", units.FORCE),
@@ -97,8 +98,17 @@ PER_DRIVE = frozenset(
 SLIPS = frozenset({"slip_distance", "slip_heat"})
 """Families of slip, which are never negative."""
 
-OF_STOP = frozenset({"stop_time", "stop_distance", "coast_distance"})
+OF_STOP = frozenset({"stop_time", "stop_distance", "stop_distance_max", "coast_distance"})
 """Loads of a belt that comes to rest."""
+
+WAYS_OF_STOP = frozenset({"stop_distance", "stop_distance_max", "coast_distance"})
+"""Distances of a belt that comes to rest."""
+
+
+def ways_of(scene: ConveyorScene) -> tuple[str, ...]:
+    """The distances that a stop of this type reports: at the head, and the longest of any point of the belt."""
+    return ("coast_distance",) if scene.type == "coast" else ("stop_distance", "stop_distance_max")
+
 
 OF_START = frozenset(
     {

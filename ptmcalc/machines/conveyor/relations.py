@@ -5,9 +5,10 @@ from collections.abc import Mapping
 
 from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.machines.conveyor.model import breaking_force
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Run
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, EmergencyStop, Run, Stop
 
 _ANY = IN_MOTION | {Run}
+_STOPS = frozenset({Stop, EmergencyStop})
 
 
 def _safety(spec: Conveyor, scene: ConveyorScene, loads: Mapping[str, float]) -> float:
@@ -18,5 +19,6 @@ def _safety(spec: Conveyor, scene: ConveyorScene, loads: Mapping[str, float]) ->
 RELATIONS: tuple[Relation, ...] = (
     ordered("tension_max", "tension_run_on_max", _ANY, "the largest tension anywhere is at least that at the pulley"),
     ordered("tension_run_off_min", "tension_min", _ANY, "the smallest tension anywhere is at most that at the pulley"),
+    ordered("stop_distance_max", "stop_distance", _STOPS, "the longest way of any point is at least that at the head"),
     computed("belt_safety_min", ("tension_max",), _safety, _ANY, "belt safety is breaking force over largest tension"),
 )

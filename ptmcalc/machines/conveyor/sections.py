@@ -11,6 +11,7 @@ from ptmcalc.base.memory import kept_for
 from ptmcalc.numerics import lanes
 from ptmcalc.spec.fields import PositiveLength, PositiveSpan, SignedSpan
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
+from ptmcalc.spec.optional import Absent, OneOf
 
 
 class Section(Fragment):
@@ -18,11 +19,13 @@ class Section(Fragment):
 
     length: PositiveSpan
     """along the belt"""
-    lift: SignedSpan = 0.0
+    lift: Annotated[SignedSpan, Absent("a section without a lift is level")] = 0.0
     """height the load is raised by; negative when it is lowered"""
-    carry_pitch: PositiveLength | None = None
+    carry_pitch: Annotated[PositiveLength | None, OneOf("idlers.carry.pitch")] = None
     """idler pitch of the carry strand there, instead of that of `idlers.carry`"""
-    curve_radius: PositiveSpan | None = None
+    curve_radius: Annotated[
+        PositiveSpan | None, Absent("no curve is described: lift-off and edges there are not checked")
+    ] = None
     """radius of the vertical curve that leads from the section before into this one"""
 
     @classmethod
@@ -71,9 +74,9 @@ class Curve:
 class Route(Fragment):
     """Where the belt runs: from the tail drum to the drum at the head."""
 
-    length: PositiveSpan | None = None
+    length: Annotated[PositiveSpan | None, OneOf("sections")] = None
     """distance between tail and head drum, along the belt; or give `sections`"""
-    lift: SignedSpan = 0.0
+    lift: Annotated[SignedSpan, Absent("a section without a lift is level")] = 0.0
     """height the load is raised by; negative when it is lowered"""
     sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=200)] | None = None
     """parts of different slope from the tail to the head, instead of `length` and `lift`"""

@@ -7,7 +7,7 @@ with. With J the sum of all steps, sign or not, over M, J' the same with ramps t
 `laws.loop_bounds`,
 
     |v - V| <= u = J' e                                              speed anywhere
-    |x_head - X| <= 2 J M C(0)                                       no mode displaces by more than twice its mean
+    |x - X| <= 2 J M max C                                           no mode displaces by more than twice its mean
     int rho v'^2 ds <= n^2 = M J^2 + M^2 J'^2 (1/m - 1/M)            F phi_n(0) of every mode, the rigid one in it
 
 with V and X of the rigid body: nothing turns round before V is down to u. From that moment on friction and brakes may
@@ -48,9 +48,9 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.braking import rigid_stop
 from ptmcalc.machines.conveyor.driving import running
-from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
-from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, Stopping
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Stopping
 
 FloatArray = NDArray[np.float64]
 
@@ -183,7 +183,8 @@ class ShortStop:
         return {name: Interval(min(least[name], worst[name]), max(least[name], worst[name])) for name in least}
 
     def rest(self) -> tuple[Interval, Interval]:
-        """Time and way to rest of the belt at the head [s], [m]; unknown where it may turn round from the first."""
+        """Time to rest of the belt at the head [s], way to rest of any point of the belt [m]; unknown where it may turn
+        round from the first."""
         masses, soft = self.masses, 1 + self.softening
         apart = self.apart * math.sqrt(soft)
         if not apart < self.line.speed:
@@ -191,7 +192,8 @@ class ShortStop:
         first, way_first = rigid_stop(self.spec, self.scene, self.line, apart)
         last, way = rigid_stop(self.spec, self.scene, self.line)
         more = _ON_AND_ON * (last - first) + _ROUNDS * self.line.contour_time
-        off = 2 * self.jumps * masses.total_mass * float(loop_bounds.give(masses, CARRY, 1.0)) * soft
+        gives = max(float(loop_bounds.give(masses, which, x)) for which in _STRANDS for x in _X)
+        off = 2 * self.jumps * masses.total_mass * gives * soft
         return Interval(first, last + more), Interval(max(way_first - off, 0.0), way + off + apart * more)
 
 
@@ -233,19 +235,16 @@ def loads(stop: ShortStop) -> dict[str, float]:
     if stop.line.grip_exponent is not None:
         found |= {of(name, drive): 0.0 for name in SLIPS}
     time, way = rigid_stop(stop.spec, stop.scene, stop.line)
-    return found | {"stop_time": time, _way_of(stop.scene): way}
+    return found | {"stop_time": time} | dict.fromkeys(ways_of(stop.scene), way)
 
 
 def offsets(stop: ShortStop, values: Mapping[str, Estimate]) -> dict[str, Interval]:
     """How far each load may lie from that of the rigid conveyor."""
     held = stop.held()
-    held["stop_time"], held[_way_of(stop.scene)] = stop.rest()
+    held["stop_time"], way = stop.rest()
+    held |= dict.fromkeys(ways_of(stop.scene), way)
     return {
         name: Interval(held[family(name)].low - one.value, held[family(name)].high - one.value)
         for name, one in values.items()
         if family(name) in held
     }
-
-
-def _way_of(scene: ConveyorScene) -> str:
-    return "coast_distance" if isinstance(scene, Coast) else "stop_distance"

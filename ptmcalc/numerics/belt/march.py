@@ -55,6 +55,8 @@ class Drawn:
     """largest tension of every cell, gravity's part included [N]"""
     lows: FloatArray
     """smallest tension on return and carry strand in every step, shape (steps, 2) [N]"""
+    longest_way: Extreme
+    """largest displacement of any point between the stations [m], its time and place"""
 
 
 def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
@@ -117,7 +119,7 @@ def march(
     yields = 1 / (course.before[1:-1] + course.after[1:-1] + course.drag[1:-1])
     drag = course.drag[1:-1].copy()
     drag[at] = 0.0
-    tops, bottoms = _Watch(course, 1), _Watch(course, -1)
+    tops, bottoms, ways = _Watch(course, 1), _Watch(course, -1), _Ways(course, speed)
     lows: list[FloatArray] = []
 
     def watch(seen: FloatArray, first: int) -> None:
@@ -181,12 +183,14 @@ def march(
         if filled == _BLOCK:
             watch(block, k - filled + 1)
             lost += _lost(speeds, friction, drag)
+            ways.see(speeds, k - filled + 1)
             filled = 0
         if still is not None and still(time, top):
             break
     if filled:
         watch(block[:filled], k - filled + 1)
         lost += _lost(speeds[:filled], friction, drag)
+        ways.see(speeds[:filled], k - filled + 1)
     lost += give.lost / step if give else 0.0
     change = _energy(against, along, impedance, step, give) - stored - carried
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
@@ -205,6 +209,7 @@ def march(
         updates=k * cells,
         highest=tops.best / 2 + course.climb_within,
         lows=np.concatenate(lows),
+        longest_way=ways.longest(),
     )
 
 
@@ -264,3 +269,36 @@ class _Watch:
         index = (part.start or 0) + cell
         time = (float(self.when[index]) + 0.5) * course.step
         return Extreme(self.sense * float(value[cell]), time, float(course.middles[index]))
+
+
+class _Ways:
+    """Displacement of every node between the stations, and the largest so far; the tail's own node is that of its
+    station and counts there."""
+
+    def __init__(self, course: Course, speed: float) -> None:
+        self.course = course
+        self.now = np.full(course.cells - 1, speed * course.step / 2)  # trapezoidal rule: the first speed counts half
+        self.best = np.zeros(course.cells - 1)
+        self.when = np.zeros(course.cells - 1, dtype=np.intp)
+
+    def see(self, speeds: FloatArray, first: int) -> None:
+        """Take in the speeds of nodes, shape (steps, nodes), where the first row of the first block is that of the
+        begin and 0."""
+        ways = np.cumsum(speeds, axis=0)
+        ways *= self.course.step
+        ways += self.now
+        at = ways.argmax(axis=0)
+        value = ways[at, np.arange(ways.shape[1])]
+        better = value > self.best
+        self.best[better] = value[better]
+        self.when[better] = first + at[better]
+        self.now = ways[-1].copy()
+
+    def longest(self) -> Extreme:
+        """The largest displacement [m]."""
+        inside = self.best.copy()
+        inside[self.course.tail - 1] = 0.0
+        node = int(inside.argmax())
+        return Extreme(
+            float(inside[node]), float(self.when[node]) * self.course.step, float(self.course.places[node + 1])
+        )

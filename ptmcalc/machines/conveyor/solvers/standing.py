@@ -11,7 +11,7 @@ from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.forces import extra_forces, filled
-from ptmcalc.machines.conveyor.loads import OF_STOP
+from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
@@ -139,8 +139,8 @@ def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], le
     **Source** Newton's law.
     """
     case = moving(spec, scene)
-    name = "coast_distance" if isinstance(scene, Coast) else "stop_distance"
-    return _exactly({"stop_time": case.rigid_time, name: case.rigid_way})
+    ways = dict.fromkeys(ways_of(scene), case.rigid_way)
+    return _exactly({"stop_time": case.rigid_time} | ways)
 
 
 def _formula(

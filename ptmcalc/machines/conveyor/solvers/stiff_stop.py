@@ -14,7 +14,7 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, short_stops
 from ptmcalc.machines.conveyor.braking import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.driving import running
-from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE
+from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE, ways_of
 from ptmcalc.machines.conveyor.model import loop_masses
 from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, rounds
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
@@ -62,7 +62,7 @@ def rigid_loads(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
         lows.append(float(np.minimum(static, slowed).min()))
         highs.append(float(np.maximum(static, slowed).max()))
     found = bounds.derived_loads(line, max(highs), tuple(lows)) | {"tension_max": max(highs), "tension_min": min(lows)}
-    return found | {"stop_time": time, "coast_distance" if isinstance(scene, Coast) else "stop_distance": way}
+    return found | {"stop_time": time} | dict.fromkeys(ways_of(scene), way)
 
 
 def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
