@@ -25,7 +25,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
-from ptmcalc.spec.optional import Assumed, Limit, OneOf
+from ptmcalc.spec.optional import Limit, OneOf, Setting
 
 FloatArray = NDArray[np.float64]
 Curve = Callable[[FloatArray], FloatArray]
@@ -166,9 +166,7 @@ class InductionBase(Motor):
     """largest (breakdown) torque over the rated one"""
     formula: Literal["simplified", "full"] = "simplified"
     """the formula of Kloss without (`simplified`) or with (`full`) the resistance of the stator"""
-    stator_ratio: Annotated[
-        PositiveRatio | None, Assumed(1.0, 0.5, 1.5, "cage motors: resistance of the stator about that of the rotor")
-    ] = None
+    stator_ratio: Annotated[PositiveRatio | None, Setting("the full formula of Kloss: equal resistances")] = None
     """resistance of the stator over that of the rotor as seen from it, in the full formula; 1 when left out"""
 
     @classmethod
@@ -334,7 +332,7 @@ class ConverterMotor(RatedMotor):
     """the most the converter lets the motor give, driving and braking"""
     slip: Annotated[RatedSlip | None, OneOf("stiffness")] = None
     """shortfall of speed at rated torque over the rated speed, or give `stiffness`"""
-    own_stiffness: PositiveTorqueSlope | None = Field(default=None, alias="stiffness")
+    own_stiffness: Annotated[PositiveTorqueSlope | None, OneOf("slip")] = Field(default=None, alias="stiffness")
     """torque per shortfall of speed, instead of `slip`"""
 
     @classmethod

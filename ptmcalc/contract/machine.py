@@ -128,7 +128,7 @@ class MachineKind(Generic[S]):
         return tuple(self.tables(spec, scenes)) if self.tables else ()
 
     def load_info(self, spec: S, name: str) -> LoadInfo:
-        """What is known of a load of a machine by its name, or of a family, as a check that is switched off names it."""
+        """What is known of a load of a machine, or of a family, as a check that is switched off names it."""
         known = (info for infos in (self.loads_of(spec), self.loads) for info in infos if info.name == name)
         return next(known)
 

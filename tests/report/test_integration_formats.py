@@ -117,7 +117,11 @@ def test_junit_counts_as_the_summary_does(reports: tuple[FileReport, ...]) -> No
     errors = totals["undecided"] + totals["not_checked"] + totals["invalid"]
     assert int(root.attrib["errors"]) == outcomes("error") == errors
     left_out = sum(one.state == "skipped" for report in reports for scene in report.scenes for one in scene.effects)
-    assert sum(int(suite.attrib["skipped"]) for suite in root) == outcomes("skipped") == totals["waived"] + totals["off"] + left_out
+    assert (
+        sum(int(suite.attrib["skipped"]) for suite in root)
+        == outcomes("skipped")
+        == totals["waived"] + totals["off"] + left_out
+    )
     made = sum(totals[name] for name in ("pass", "fail", "undecided", "not_checked", "waived", "off"))
     assert len(cases) == totals["files"] + made + left_out
 

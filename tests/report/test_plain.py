@@ -74,7 +74,8 @@ def test_the_worst_come_first(path: str) -> None:
         (
             "switched_off",
             [
-                "toy.yaml:5:3: warning SPC204 nothing was checked: every check that applies is switched off (1); delete an `off`",
+                "toy.yaml:5:3: warning SPC204 nothing was checked: every check that applies is switched off (1);"
+                " delete an `off`",
                 "toy.yaml:6:12: off TOY101 too much weight on the hook [hang]: a show piece",
             ],
         ),

@@ -33,8 +33,8 @@ BW_02: dict[str, Any] = {
 
 
 def template() -> dict[str, Any]:
-    """The data of the conveyor's own template, with a take-up that keeps its tension: most tests compare with belts whose
-    weight has no inertia."""
+    """The data of the conveyor's own template, with a take-up that keeps its tension: most tests compare with belts
+    whose weight has no inertia."""
     data = yaml.safe_load(load_kind("conveyor").template)
     assert isinstance(data, dict)
     return data | {"effects": {"takeup_mass": "off"}}

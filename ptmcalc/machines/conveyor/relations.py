@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.machines.conveyor.model import breaking_force
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, EmergencyStop, Run, Stop
+from ptmcalc.spec.scene import Scene
 
-_ANY = IN_MOTION | {Run}
-_STOPS = frozenset({Stop, EmergencyStop})
+_ANY: frozenset[type[Scene]] = IN_MOTION.union((Run,))
+_STOPS: frozenset[type[Scene]] = frozenset((Stop, EmergencyStop))
 
 
 def _safety(spec: Conveyor, scene: ConveyorScene, loads: Mapping[str, float]) -> float:

@@ -187,8 +187,8 @@ FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is no
         needs=no_needs,
         blame=lambda spec, scene, loads: _hoist_key(spec, scene),
         repair=_hoist_key,
-        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the rated weight with"
-        " which the elements of the hoist have been calculated, until the limiter has switched it off.",
+        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the rated weight"
+        " with which the elements of the hoist have been calculated, until the limiter has switched it off.",
         why="Combination 5 of overhead, 4 of rack stackers is this event; it is several times the weight at any speed"
         " where the motor is strong.",
         formula="F/Q_0,   m_1 x'' = P(x') - F,   F = Q + K (x - y)",
