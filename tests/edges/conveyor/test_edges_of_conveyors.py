@@ -1,0 +1,122 @@
+"""Belts whose defaults, windows or means once decided silently, with the right values."""
+
+import math
+
+import pytest
+from support.edges import codes, judged, load, report_on, verdict
+
+from ptmcalc.base.diagnostic import Verdict
+
+G = 9.81
+
+
+def test_a_gravity_take_up_without_mass_has_the_weight_of_its_tension() -> None:
+    """Own integration of the belt with a weight of 2 T/g: 1.190; without its inertia it would be 1.248."""
+    found = report_on("conveyor/takeup-mass", ("mass: 6116 kg", "stroke: 4 m"))
+    (assumed,) = (one for one in found.assumed if one.path == ("takeup", "mass"))
+    assert assumed.value == pytest.approx(2 * 30e3 / G, rel=1e-9)
+    one = judged(found, "CNV101", "start_loaded")
+    assert one.verdict is Verdict.FAIL
+    assert one.value is not None
+    assert one.value.low <= 1.190 <= one.value.high + 0.01
+
+
+def test_half_of_the_resistance_holds_a_stopped_belt() -> None:
+    """f C g L (2 m_B + idlers + load)/2 against the climb of the load, by hand: 4.90 kN m on the head pulley."""
+    found = report_on("conveyor/no-backstop")
+    load_line, length = 1500 / 3.6 / 2.5, 400.0
+    factor = load(found, "effective_tension") if False else None
+    assert factor is None
+    one = judged(found, "CNV109")
+    assert one.verdict is Verdict.FAIL
+    assert one.value is not None
+    climb = load_line * G * 16
+    friction = 2 * (climb - one.value.value / 0.4)
+    plain = 0.025 * G * length * (2 * 18 + 22 / 1.2 + 18 / 3 + load_line)
+    assert 1.2 < friction / plain < 1.3, "the factor C of a belt of 400 m"
+    assert one.value.value == pytest.approx(4901, rel=1e-3)
+
+
+def test_closed_brakes_hold_a_stopped_belt() -> None:
+    one = judged(report_on("conveyor/brake-hold"), "CNV109")
+    assert one.verdict is Verdict.PASS
+    assert one.limit is not None
+    assert one.limit.value == pytest.approx(3000 * 25 / 0.93 / 1.25, rel=1e-9)
+
+
+def test_the_stopping_distance_limits_an_emergency_stop_too() -> None:
+    one = judged(report_on("conveyor/emergency-way"), "CNV106")
+    assert one.verdict is Verdict.FAIL
+    assert one.limit is not None
+    assert one.limit.value == 20
+
+
+@pytest.mark.parametrize("name", ["conveyor/decline-slips", "conveyor/recursion"])
+def test_a_belt_that_slips_and_never_stops_fails_with_its_cure(name: str) -> None:
+    found = report_on(name)
+    for code in ("CNV106", "CNV107"):
+        one = judged(found, code)
+        assert one.verdict is Verdict.FAIL
+        assert one.value is not None
+        assert one.value.value == math.inf
+        assert "does not stop" in one.reason
+        assert "more take-up tension" in one.reason
+        assert one.blame.path == ("takeup", "tension")
+
+
+def test_more_take_up_tension_stops_it() -> None:
+    found = report_on("conveyor/decline-slips", ("tension: 60 kN", "tension: 120 kN"))
+    way = load(found, "stop_distance", "stop_loaded")
+    assert math.isfinite(way.value)
+    assert verdict(found, "CNV107") is Verdict.PASS
+
+
+def test_gear_losses_may_change_their_side_during_a_stop() -> None:
+    """Integrated with the losses on the driven side at each moment: 9.792 s."""
+    time = load(report_on("conveyor/gear-flip-downhill"), "stop_time")
+    assert time.low <= 9.792 <= time.high
+    assert time.high - time.low < 0.02 * time.value
+
+
+def test_the_largest_tension_anywhere_is_at_least_that_at_the_pulley() -> None:
+    found = report_on("conveyor/largest-anywhere")
+    assert load(found, "tension_max").low >= load(found, "tension_run_on_max").low * (1 - 1e-9)
+
+
+def test_waves_left_out_leave_the_rigid_stop() -> None:
+    found = report_on("conveyor/stop-wave-off")
+    assert load(found, "stop_time", "st").value == pytest.approx(6.0, rel=1e-3)
+    assert {one.verdict for _, one in found.judgements} <= {Verdict.PASS, Verdict.FAIL, Verdict.NOT_CHECKED}
+
+
+def test_a_belt_that_goes_slack_fails() -> None:
+    assert verdict(report_on("conveyor/slack-undecided"), "CNV105") is Verdict.FAIL
+
+
+def test_a_motor_curve_in_the_file_is_followed() -> None:
+    """Locked-rotor torque over what the loaded belt requires: 0.5139; the mean over the curve would be 1.427."""
+    one = judged(report_on("conveyor/curve-replaced"), "CNV104", "start_loaded")
+    assert one.verdict is Verdict.FAIL
+    assert one.value is not None
+    assert one.value.value == pytest.approx(0.5139, abs=5e-5)
+
+
+def test_slip_is_followed_until_the_belt_grips() -> None:
+    """The rigid start ends at 4.67 s with 0.84 MJ; the belt grips at 11.8 s, with about 1.43 MJ."""
+    one = judged(report_on("conveyor/slip-window"), "CNV111")
+    assert one.verdict is Verdict.FAIL
+    assert one.value is not None
+    assert 1.3e6 < one.value.value < 1.5e6
+
+
+def test_slip_that_goes_on_has_no_bound_and_says_so() -> None:
+    found = report_on("conveyor/wet-runaway")
+    slip = load(found, "slip_distance[head]", "start_loaded")
+    assert slip.high == math.inf
+    assert "NUM112" in codes(found)
+    assert verdict(found, "CNV101", "start_loaded") is Verdict.FAIL
+
+
+def test_a_longer_window_is_a_key_of_the_scene() -> None:
+    twice = report_on("conveyor/slack-undecided", ("type: start", "type: start, window_factor: 2"))
+    assert verdict(twice, "CNV105") is Verdict.FAIL
