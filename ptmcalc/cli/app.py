@@ -314,7 +314,7 @@ def check(
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
     with Run(options, jobs, store, in_json=in_json, whole=whole, executor=executor) as run:
         reports = counted(run.reports(paths, exclude or (), shard, gitignore=gitignore))
-        info = RunInfo(shard or None, fail_level.value, run.left_out, not run.interrupted)
+        info = RunInfo(shard or None, run.files, fail_level.value, run.left_out, not run.interrupted)
         for target, name in files if not run.interrupted else ():
             write(Path(name), rendered(Format(target), reports, verbose, to_terminal=False, run=info))
         if courses and not run.interrupted:

@@ -52,6 +52,8 @@ class Run:
                 "`--jobs` counts processes here, `--executor` has the work done elsewhere", "leave one out"
             )
         self.interrupted = False
+        self.files = 0
+        """what the command line names, in all shards together"""
         self.left_out = 0
         """design files that `--exclude` or `.gitignore` kept out of folders"""
         self.broken_off: GoneError | None = None
@@ -76,6 +78,7 @@ class Run:
             files = "1 design file is" if chosen.excluded == 1 else f"{chosen.excluded} design files are"
             say(f"ptmcalc: {files} left out by --exclude or .gitignore\n", err=True)
         named, told = chosen.files, _told(chosen)
+        self.files = len(named) + len(told)
         if shard:
             named = part(named, shard)
             told = told if shard.startswith("1/") else []

@@ -101,8 +101,10 @@ def _run_of(parts: Sequence[str], documents: dict[str, dict[str, Any]]) -> json.
             raise UsageError(reason, "merge parts of one run")
     shards = {part: info.shard for part, info in infos.items()}
     if not any(shards.values()):
-        left_out = sum(info.left_out for info in infos.values())
-        return replace(first, left_out=left_out)
+        for part, info in infos.items():
+            _has_all(f"`{part}`", len(documents[part]["files"]), info.files)
+        left_out, files = (sum(getattr(info, name) for info in infos.values()) for name in ("left_out", "files"))
+        return replace(first, left_out=left_out, files=files)
     numbers = {(shard or "1/1").partition("/")[2] for shard in shards.values()}
     if len(numbers) > 1:
         raise UsageError(f"the reports are parts of different runs: {', '.join(map(_said, shards.items()))}", again)
@@ -121,7 +123,17 @@ def _run_of(parts: Sequence[str], documents: dict[str, dict[str, Any]]) -> json.
             f" of the run {'are' if len(missing) > 1 else 'is'} missing",
             again,
         )
+    for part, info in infos.items():
+        if info.files != first.files:
+            reason = f"`{part}` is part of a run over {info.files} files, `{parts[0]}` of one over {first.files}"
+            raise UsageError(reason, again)
+    _has_all("all parts together", sum(len(document["files"]) for document in documents.values()), first.files)
     return replace(first, shard=None)
+
+
+def _has_all(what: str, there: int, all_of_them: int) -> None:
+    if there != all_of_them:
+        raise UsageError(f"{what}: {there} files of a run over {all_of_them}", "write the parts anew")
 
 
 _NAMED = 5
@@ -142,6 +154,7 @@ def _info(part: str, document: dict[str, Any]) -> json.RunInfo:
             1 <= int(index) <= int(number)
             and Severity(info.fail_level) is not None
             and isinstance(info.left_out, int)
+            and isinstance(info.files, int)
             and isinstance(info.complete, bool)
         )
     except _MALFORMED:

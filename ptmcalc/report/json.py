@@ -52,10 +52,11 @@ def render(reports: Iterable[FileReport], *, width: int, color: bool, verbose: b
 
 @dataclass(frozen=True, slots=True)
 class RunInfo:
-    """What the document says of the run: which part of it this is, if not the whole, what its exit status counts, how
-    many files were left out of folders, and whether it was interrupted."""
+    """What the document says of the run: which part of it this is, if not the whole, how many files all parts together
+    have, what the exit status counts, how many files were left out of folders, and whether it came to its end."""
 
     shard: str | None = None
+    files: int = 0
     fail_level: str = "error"
     left_out: int = 0
     complete: bool = True

@@ -280,18 +280,34 @@ def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
         assert reason in done.err
 
 
-@pytest.fixture
-def parts(folder: Path) -> dict[str, dict[str, Any]]:
-    """The reports of both shards of a run over files that pass and files with warnings, and of a third of three."""
+WARNED = ("--scene", "run_loaded", "--fail-level", "warning")
+
+
+@pytest.fixture(scope="module")
+def reports_of_shards(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str], Done]:
+    """The reports of both shards of a run over files that pass and files with warnings, and of a third of three; the
+    folder of the run, and what it prints as a whole."""
+    place = tmp_path_factory.mktemp("shards")
+    (place / "specs" / "inner").mkdir(parents=True)
+    for index in range(6):
+        (place / "specs" / f"{index}.yaml").write_bytes(PASSING + b"# %d\n" % index)
     for index in range(3):
-        (folder / "inner" / f"{index}.yaml").unlink()
-        (folder / "inner" / f"{index + 3}.yaml").write_bytes((SPECS / "disagreeing.yaml").read_bytes())
+        (place / "specs" / "inner" / f"{index}.yaml").write_bytes((SPECS / "disagreeing.yaml").read_bytes())
     found = {}
-    for shard in ("1/2", "2/2", "3/3"):
-        name = f"{shard.replace('/', 'of')}.json"
-        checked("--shard", shard, "-o", f"json={name}", "--fail-level", "warning")
-        found[name] = json.loads(Path(name).read_text("utf-8"))
-    return found
+    with pytest.MonkeyPatch.context() as here:
+        here.chdir(place)
+        for shard in ("1/2", "2/2", "3/3"):
+            found[f"{shard.replace('/', 'of')}.json"] = checked("--shard", shard, *WARNED).out
+        return place, found, checked(*WARNED)
+
+
+@pytest.fixture
+def parts(
+    reports_of_shards: tuple[Path, dict[str, str], Done], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> dict[str, dict[str, Any]]:
+    """Those reports, to be changed."""
+    monkeypatch.chdir(tmp_path)
+    return {name: json.loads(text) for name, text in reports_of_shards[1].items()}
 
 
 def merged(parts: dict[str, dict[str, Any]], *names: str) -> Done:
@@ -300,10 +316,12 @@ def merged(parts: dict[str, dict[str, Any]], *names: str) -> Done:
     return ptmcalc("merge", *(names or ("1of2.json", "2of2.json")))
 
 
-def test_the_level_that_fails_is_that_of_the_parts(parts: dict[str, dict[str, Any]]) -> None:
-    assert checked("--fail-level", "warning").status == 1
+def test_the_level_that_fails_is_that_of_the_parts(
+    parts: dict[str, dict[str, Any]], reports_of_shards: tuple[Path, dict[str, str], Done]
+) -> None:
+    whole = reports_of_shards[2]
     done = merged(parts)
-    assert (done.status, done.out) == (1, checked("--fail-level", "warning").out)
+    assert (done.status, done.out) == (whole.status, whole.out) == (1, whole.out)
     for part in parts.values():
         part["run"]["fail_level"] = "error"
     assert merged(parts).status == 0
@@ -331,6 +349,18 @@ def test_a_part_that_is_missing_or_doubled_is_refused(
     assert reason in done.err
     parts["copy.json"] = parts["1of2.json"]
     assert "`1of2.json` and `copy.json` are both part 1/2" in merged(parts, "1of2.json", "copy.json", "2of2.json").err
+
+
+def test_a_part_without_one_of_its_files_is_refused(parts: dict[str, dict[str, Any]]) -> None:
+    part = parts["1of2.json"]
+    gone = part["files"].pop(0)
+    counts = [check["verdict"] for scene in gone["scenes"] for check in scene["checks"]]
+    part["summary"]["files"] -= 1
+    part["summary"]["pass"] -= counts.count("pass")
+    assert counts.count("pass") == len(counts)
+    assert "all parts together: 8 files of a run over 9" in merged(parts).err
+    parts["2of2.json"]["run"]["files"] = 8
+    assert "`2of2.json` is part of a run over 8 files, `1of2.json` of one over 9" in merged(parts).err
 
 
 def test_a_part_of_an_interrupted_run_is_refused(parts: dict[str, dict[str, Any]]) -> None:
