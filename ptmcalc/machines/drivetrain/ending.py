@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
@@ -84,7 +85,7 @@ def _last_change(case: Case) -> float:
     train = case.train
     signals = [drive.gate for drive in train.drives]
     signals += [grip.capacity for grip in train.grips]
-    signals += [guide.speed for guide in train.guides]
+    signals += [guide.acceleration for guide in train.guides]
     laws = [stage.law for drive in train.drives if drive.name != REACHED for stage in drive.stages]
     signals += [law for law in laws if isinstance(law, Signal)]
     signals += [law.reference for law in laws if isinstance(law, Governed)]
@@ -105,7 +106,7 @@ def _failure(spec: Drivetrain, case: Case, speed: float) -> Failure:
     if not case.stopping:
         wanted = units.show(abs(case.until or 0.0), quantity)
         motor = next(iter(spec.motors), None)
-        path = ("motors", motor) if motor is not None else ("inertias",)
+        path: KeyPath = ("motors", motor) if motor is not None else ("inertias",)
         at_rest = not speed
         how = "stays at rest" if at_rest else f"stays at {now}"
         cure = "more motor torque at rest" if at_rest else "more motor torque at this speed"
