@@ -77,7 +77,8 @@ def fit(model: Model, begin: FloatArray, scale: FloatArray, samples: FloatArray)
             damping *= 10
     inverse = np.asarray(np.linalg.pinv(slopes.T @ slopes), np.float64)
     noise = float(np.sqrt(residual @ residual / (len(samples) - count)))
-    covariance = np.outer(scale, scale) * _larger(np.asarray(noise**2 * inverse, np.float64), _of_blocks(slopes, residual, inverse))
+    independent = np.asarray(noise**2 * inverse, np.float64)
+    covariance = np.outer(scale, scale) * _larger(independent, _of_blocks(slopes, residual, inverse))
     return Parameters(at, covariance, values, noise, settled)
 
 

@@ -256,7 +256,7 @@ def test_the_table_says_the_same(spec: Path, tmp_path: Path) -> None:
     record = recorded(tmp_path / "r.csv", times, speeds)
     done = ptmcalc("decode", spec, record, "--phase", "brake", "--from", f"{START} rad")
     assert (done.status, done.err) == (0, "")
-    assert re.search(r"full torque of the brake: (30[0-9]|29[0-9])[.0-9]* N\*m ± [0-9]+ N\*m", done.out)
+    assert re.search(r"full torque of the brake: (30[0-9]|29[0-9])[.0-9]* N\*m ± [.0-9]+ N\*m", done.out)
     assert "torque, main shaft" in done.out
     assert "noise of a sample" in done.out
     assert len(done.out.splitlines()) > 25

@@ -30,7 +30,7 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 def either(rotation: Quantity, translation: Quantity, **limits: float) -> Measure:
@@ -491,7 +491,7 @@ class TrainScene(Scene):
     duration: Annotated[PositiveTime | None, Setting("the start or stop and ten periods of the lowest frequency")] = (
         None
     )
-    """how long the scene is looked at"""
+    """length of the scene; what happens later is no part of it, and `window_factor` does not change it"""
     of: str | None = None
     """the inertia the scene is about; the first motor's, or the first one, when left out"""
     speed: Annotated[AnySpeed | None, Absent("it starts from rest")] = None
@@ -508,7 +508,7 @@ class Run(TrainScene):
     """how long the scene is looked at"""
 
 
-class Start(TrainScene):
+class Start(TrainScene, TransientScene):
     """A start from rest: brakes are off, motors drive."""
 
     type: Literal["start"] = "start"
@@ -516,7 +516,7 @@ class Start(TrainScene):
     """the start is over when the inertia the scene is about reaches this speed; 95 % of the motor's when left out"""
 
 
-class Stop(TrainScene):
+class Stop(TrainScene, TransientScene):
     """A stop: motors off, brakes applied."""
 
     type: Literal["stop"] = "stop"
