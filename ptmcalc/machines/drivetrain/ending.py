@@ -42,8 +42,8 @@ add is then at most some times the last growth, as the peak of a sum of sines gr
 _PEAKS = frozenset({"torque_peak", "motor_torque_peak"})
 
 _OF_THE_WINDOW = frozenset({"motor_torque_rms", "speed_end", "angle_end", "torque_steady"})
-"""Loads that are those of the end or the mean of the scene: of a start or stop without `duration` they would be those of
-the window that happens to be computed."""
+"""Loads of the end or the mean of the scene: of a start or stop without `duration` they would be those of the window
+that happens to be computed."""
 
 
 def steady_runs(
