@@ -162,8 +162,9 @@ def _failure(spec: Drivetrain, case: Case, speed: float) -> Failure:
         motor = next(iter(spec.motors), None)
         path: KeyPath = ("motors", motor) if motor is not None else ("inertias",)
         at_rest = not speed
-        how = "stays at rest" if at_rest else f"stays at {now}"
-        cure = "more motor torque at rest" if at_rest else "more motor torque at this speed"
+        backward = speed * (case.until or 0.0) < 0
+        how = "stays at rest" if at_rest else f"is driven back at {now}" if backward else f"stays at {now}"
+        cure = "more motor torque at rest" if at_rest or backward else "more motor torque at this speed"
         return Failure(
             "DRV109", f"`{name}` {how} and never reaches {wanted}", path, f"{cure}, or less load and resistance"
         )

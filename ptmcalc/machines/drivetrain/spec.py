@@ -98,8 +98,8 @@ class Clearance(Fragment):
     """of the wheel on the shaft of the link's first inertia"""
     module: Annotated[PositiveLength | None, Absent("needed with `wear` only")] = None
     """needed with `wear`"""
-    wear: Annotated[Annotated[float, Measure(units.LENGTH, at_least=0)], Assumed()] = 0.0
-    """thickness lost by a tooth"""
+    wear: Annotated[Annotated[float, Measure(units.LENGTH, at_least=0)] | None, Assumed()] = None
+    """thickness lost by a tooth; none to 15 % of the tooth is assumed with a `module` when it is left out"""
     both_worn: bool = True
     """whether both gears have lost it"""
     kind: Literal["gearbox", "coupling", "open_gear"] = "gearbox"
@@ -142,8 +142,8 @@ class Link(Fragment):
     """c in F = k d^n (1 + 1.5 c d'), in s/rad or s/m (`hunt_crossley`)"""
     exponent: Annotated[Exponent, Absent("a linear contact")] = 1.0
     """n of `hunt_crossley`"""
-    restitution: Annotated[Fraction, Assumed()] = 0.0
-    """of a `rigid` contact"""
+    restitution: Annotated[Fraction | None, Assumed()] = None
+    """of a `rigid` contact; 0 to 0.5 is assumed when it is left out"""
     start: Literal["centred", "driving", "braking"] = "centred"
     """where in its play the link stands at the start: `driving` touches on the side of a positive torque"""
     preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
@@ -423,7 +423,7 @@ class MotorOn(Fragment):
     """the inertia it acts on"""
     motor: AnyMotor
     """what its torque is"""
-    count: Annotated[Annotated[int, Field(ge=1, le=64, strict=True)], Absent("one motor")] = 1
+    count: Annotated[Annotated[int, Field(ge=1, le=64, strict=True)], Absent("one motor drives the inertia")] = 1
     """number of equal motors"""
     off_after: Annotated[PositiveTime | None, Absent("it stays on")] = None
     """it is switched off after so much time"""

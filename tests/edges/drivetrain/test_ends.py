@@ -17,8 +17,10 @@ def findings(path: Path) -> dict[str, str]:
 
 def test_nobody_set_a_limit() -> None:
     found = findings(HERE / "start-limit.yaml")
-    assert found["DRV102"].startswith("not_checked") and "`checks.start_time` is not given" in found["DRV102"]
-    assert found["DRV103"].startswith("not_checked") and "`checks.stop_time` is not given" in found["DRV103"]
+    assert found["DRV102"].startswith("not_checked")
+    assert "`checks.start_time` is not given" in found["DRV102"]
+    assert found["DRV103"].startswith("not_checked")
+    assert "`checks.stop_time` is not given" in found["DRV103"]
     assert found["DRV109"].startswith("pass")
     assert found["DRV110"].startswith("pass")
 
