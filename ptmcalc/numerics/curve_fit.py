@@ -10,7 +10,7 @@ FloatArray = NDArray[np.float64]
 Model = Callable[[FloatArray], FloatArray]
 """Values at the samples, shape (k, n), for k sets of parameters, shape (k, p)."""
 
-_ITERATIONS = 60
+_ITERATIONS = 30
 _STEP = 1e-5
 """Difference of a derivative in scales: rounding and curvature are both below 1e-9 of the change."""
 _SETTLED = 1e-8

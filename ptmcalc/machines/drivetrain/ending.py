@@ -43,7 +43,7 @@ _PEAKS = frozenset({"torque_peak", "motor_torque_peak"})
 
 _OF_THE_WINDOW = frozenset({"motor_torque_rms", "speed_end", "angle_end", "torque_steady"})
 """Loads of the end or the mean of the scene: of a start or stop without `duration` they would be those of the window
-that happens to be computed."""
+that happens to be computed, but for a part at rest."""
 
 
 def steady_runs(
@@ -89,7 +89,12 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
     between the window and infinity.
     """
     if scene.duration is None:
-        defined = {name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW}
+        stopped = course.case.stopping and math.isfinite(motion.ended(course))
+        main = course.case.bodies[course.case.main]
+        kept = {of("speed_end", main), of("angle_end", main)} if stopped else set[str]()
+        defined = {
+            name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW or name in kept
+        }
         result = replace(result, loads=defined)
     found = _ending(spec, scene, course)
     if found is None:

@@ -93,6 +93,10 @@ def decoded(
         rows, values = _run_up(machine, fitted, total + known, deviation)
         length = float(np.median(time[fitted.last] - time[fitted.first]))
         return _finite(Decoded(phase, "motor", rows, values, fitted.noise, length))
+    most = slowing.too_long(machine, float(fitted.angle[-1]))
+    if most or not math.isfinite(float(fitted.angle[-1])):
+        turned, limit = (units.show(one, units.ANGLE) for one in (float(fitted.angle[-1]), most))
+        raise UsageError(f"the shaft turns by {turned} in the record, more than {limit}", "cut out a part of it")
     with np.errstate(all="ignore"):
         found = (slowing.run_out if phase == "run_out" else slowing.braked)(machine, time, speed, angle)
     values = _losses(found, float(np.median(speed))) if phase == "run_out" else _brake(found)

@@ -15,8 +15,10 @@ _TABLE = 8192
 """Points of the tables of inertia and weights over a cycle: straight lines between them err by less than 1e-6."""
 _TURN_OF_A_STEP = 0.05
 """Angle of an integration step [rad]: one of fourth order errs by less than 1e-7 of the speed."""
-_FEWEST, _MOST = 400, 40_000
-"""Steps of an integration: enough for the delay of a brake, and a minute of work at most."""
+_FEWEST, _MOST = 400, 8_000
+"""Steps of an integration: enough for the delay of a brake, and two seconds of work at most for all parameters."""
+_WIDEST = 0.2
+"""Largest angle of a step [rad]: it errs by less than 1e-5 of the speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +143,12 @@ def _grid(machine: Machine, end: float, speed: float) -> FloatArray:
     edges = [] if machine.brake is None else [machine.brake.delay, machine.brake.delay + machine.brake.rise]
     inside = [edge for edge in edges if 0 < edge < end]
     return np.unique(np.concatenate([np.linspace(0.0, end, count + 1), inside]))
+
+
+def too_long(machine: Machine, turned: float) -> float:
+    """Largest angle of a record that steps of 0.2 rad can follow, where it turns by more; else 0 [rad]."""
+    most = _MOST * _WIDEST
+    return most if turned > most and (machine.changing or _weighs(machine)) else 0.0
 
 
 def _weighs(machine: Machine) -> bool:
