@@ -13,7 +13,7 @@ Model = Callable[[FloatArray], FloatArray]
 _ITERATIONS = 30
 _STEP = 1e-5
 """Difference of a derivative in scales: rounding and curvature are both below 1e-9 of the change."""
-_SETTLED = 1e-8
+_SETTLED = 1e-6
 _BLOCKS = 8
 """Blocks of the record over which the sums of the residuals are compared: enough for a variance, each long enough to
 hold what a model that does not follow the record leaves."""
@@ -67,7 +67,7 @@ def fit(model: Model, begin: FloatArray, scale: FloatArray, samples: FloatArray)
         if np.isfinite(new_square) and new_square <= square:
             at, slopes, residual, values = trial, new_slopes, new_residual, new_values
             damping = max(damping / 10, _EASIEST)
-            if np.abs(change).max() <= _SETTLED or square - new_square <= 1e-13 * square:
+            if np.abs(change).max() <= _SETTLED or square - new_square <= 1e-10 * square:
                 settled = True
                 break
         elif damping >= _HARDEST or np.abs(change).max() <= _SETTLED:

@@ -13,8 +13,8 @@ FloatArray = NDArray[np.float64]
 
 _TABLE = 8192
 """Points of the tables of inertia and weights over a cycle: straight lines between them err by less than 1e-6."""
-_TURN_OF_A_STEP = 0.05
-"""Angle of an integration step [rad]: one of fourth order errs by less than 1e-7 of the speed."""
+_TURN_OF_A_STEP = 0.1
+"""Angle of an integration step [rad]: one of fourth order errs by less than 1e-6 of the speed."""
 _FEWEST, _MOST = 400, 8_000
 """Steps of an integration: enough for the delay of a brake, and two seconds of work at most for all parameters."""
 _WIDEST = 0.2
@@ -37,7 +37,7 @@ def run_out(machine: Machine, time: FloatArray, speed: FloatArray, angle: float)
         J w' + w^2 J'/2 = -(a + b w) - M_weights,   w(0) = w_0
 
     **Range** rotation in one sense; J, J' and the weights are those of the file.
-    **Error** that of the fit (`numerics.curve_fit`); a step in angle of 0.05 rad.
+    **Error** that of the fit (`numerics.curve_fit`); a step in angle of 0.1 rad.
     **Source** energy equation of the shaft; classical fourth-order Runge-Kutta method.
     """
 
