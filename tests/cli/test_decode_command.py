@@ -324,7 +324,8 @@ def test_a_record_that_ends_before_the_brake(spec: Path, tmp_path: Path) -> None
 
 
 def test_a_record_too_short_for_its_losses(spec: Path, tmp_path: Path) -> None:
-    done = faulty(spec, tmp_path, b"time,speed\n" + b"".join(b"%.2f,%.1f\n" % (0.01 * k, 30 + 0.5 * (-1) ** k) for k in range(11)))
+    rows = b"".join(b"%.2f,%.1f\n" % (0.01 * k, 30 + 0.5 * (-1) ** k) for k in range(11))
+    done = faulty(spec, tmp_path, b"time,speed\n" + rows)
     assert (done.status, done.out) == (2, "")
     assert "too short" in done.err
 
