@@ -266,7 +266,7 @@ def _brought_to_speed(
     return (
         ways,
         lambda t: np.asarray(np.where(np.asarray(t) < end, speed(np.minimum(t, end)), v)),
-        lambda t: np.asarray(np.where(np.asarray(t) < end, acceleration(np.minimum(t, end)), 0.0)),
+        lambda t: np.asarray(np.where(np.asarray(t) <= end, acceleration(np.minimum(t, end)), 0.0)),
         (*(kink for kink in kinks if kink < end), end),
     )
 

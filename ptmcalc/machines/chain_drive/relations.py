@@ -20,7 +20,9 @@ def _start_tension(spec: ChainDrive, scene: Start, loads: Mapping[str, float]) -
 
 def _start_safety(spec: ChainDrive, scene: Start, loads: Mapping[str, float]) -> float:
     tension = loads["tension_start"] + chain_line(spec, scene).centrifugal
-    return strength.safety(spec, tension) if math.isfinite(tension) else 0.0
+    if not math.isfinite(tension):
+        return 0.0 if tension > 0 else math.inf
+    return strength.safety(spec, tension)
 
 
 RELATIONS: tuple[Relation, ...] = (

@@ -9,7 +9,7 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, History, Result
+from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -180,12 +180,12 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
             "tension_min": course_at(spec, scene, case, count, one_section(sections, which), where["time"]),
         },
     )
-    return beyond_slack(spec, found)
+    return beyond_slack(spec, found, "CHN123")
 
 
-def beyond_slack(spec: ChainDrive, result: Result) -> Result:
-    """The result, or what is left of it where the chain may go slack: how low it would come, and a finding where it
-    surely does. What a chain does that is caught again is not known."""
+def beyond_slack(spec: ChainDrive, result: Result, check: str) -> Result:
+    """The result, or what is left of it where the chain may go slack: how low it would come, and a failure of a check
+    (without one, a finding) where it surely does. What a chain does that is caught again is not known."""
     low = result.loads["tension_min"]
     if low.estimate.low >= 0:
         return result
@@ -196,14 +196,14 @@ def beyond_slack(spec: ChainDrive, result: Result) -> Result:
     if low.estimate.high >= 0:
         return replace(result, loads=loads)
     where = tension_key(spec)
-    finding = Finding(
-        "NUM102",
-        f"the chain goes slack at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the run-off; what is said"
-        " of the time after that is not trusted",
-        where,
-        f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut",
+    message = (
+        f"the chain goes slack: its tension is lowest at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the"
+        " run-off"
     )
-    return replace(result, loads=loads, findings=(finding,))
+    hint = f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut"
+    if not check:
+        return replace(result, loads=loads, findings=(Finding("NUM102", message, where, hint),))
+    return replace(result, loads=loads, failures=(Failure(check, message, where, hint),))
 
 
 Sections = tuple[tuple[int, FloatArray], ...]
