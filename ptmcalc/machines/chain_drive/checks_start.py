@@ -31,7 +31,8 @@ def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
     """What makes a start quick or slow: the time of its profile, else the torque."""
     if not scene.profile.imposes_speed or spec.scenes is None:
         return torque_key(spec)
-    return ("scenes", list(spec.all_scenes).index(scene), "profile", scene.profile.time_key)
+    index = [one.label for one in spec.all_scenes].index(scene.label)
+    return ("scenes", index, "profile", scene.profile.time_key)
 
 
 def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
