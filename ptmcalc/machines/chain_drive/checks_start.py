@@ -63,7 +63,8 @@ WEAK: Check[ChainDrive, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec),
     repair=_torque_repair,
-    what="The mean starting force at the chain exceeds what resists at the start, or what an imposed speed asks for.",
+    what="The mean starting force at the chain, or along a motor's curve the smallest up to nine tenths of the rated"
+    " speed, exceeds what resists at the start, or what an imposed speed asks for.",
     why="A motor that does not move the chain burns, or trips its overload relay.",
     formula="M i eta/R >= W_start                     torque\nM i eta/R >= W_start + (m + m_drive) a    speed",
     source="Newton's law; resistance at the start 1.2 to 1.5 times that in motion by practice",

@@ -29,7 +29,7 @@ def kloss(speed: float) -> float:
 
 
 def with_curve(**changes: Any) -> dict[str, Any]:
-    data = changed(scraper(speed="1.4 m/s"), **changes)
+    data: dict[str, Any] = changed(scraper(speed="1.4 m/s"), **changes)
     data["drive"]["motor"] = {"inertia": "0.35 kg*m^2", "curve": INDUCTION}
     return data
 
@@ -121,7 +121,7 @@ class TestStops:
 
         def pull(lift: float) -> float:
             scene = scene_of(report_of(changed(data, layout__lift=f"{lift} m")))
-            return load_of(scene, "backstop_torque").estimate.high
+            return float(load_of(scene, "backstop_torque").estimate.high)
 
         lift = next(lift for lift in np.arange(0.0, 40.0, 0.25) if pull(lift) > 0)
         near = report_of(changed(data, layout__lift=f"{lift - 0.25} m"))
