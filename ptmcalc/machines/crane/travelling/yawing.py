@@ -89,13 +89,13 @@ def places(spec: Travelling, scene: Collision, share: float, closing: float) -> 
     """The crane in a collision, the hook in each of its places.
 
     `share` is the mass of a straight stop over that of the crane: not 1 where two cranes meet, of which the other one
-    is taken to have its mass where this one has it.
+    is taken to have its mass where this one has it, and a load that swings as this one does.
     """
     given = spec.buffers
     assert given is not None
     hanging = model.hanging(spec, scene)
     guided = scene.suspension == "guided"
-    swings = 0.0 if guided else hanging * (share**2 / 2 if scene.other_mass is not None else 1.0)
+    swings = 0.0 if guided else share**2 * hanging
     push = model.driving_force(spec, spec.drive.torque) if scene.drive == "on" else 0.0
     driven = (_driven_share(spec, "A"), _driven_share(spec, "B"))
     omega = math.sqrt(spec.gravity / spec.suspension.length)
