@@ -162,10 +162,13 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
     ends = _SLOW * speed if hydraulic else 0.0
     tops, left = [0.0, 0.0], 0.0
     hardest = [one.force(1e-300, speed)] * 2 if hydraulic else [0.0, 0.0]
-    deceleration = 0.0
+    begun = one.rates((1e-300, 1e-300, 0.0, speed, speed, speed))
+    deceleration = max(-begun[3], -begun[4], 0.0)
     quickest = math.inf
     if given.type == "constant":  # the time in which a constant force fades out
-        quickest = _STANDS * speed * min(one.masses[0], one.masses[2]) / given.hardness
+        aa, ab, bb = one.masses
+        lightest = (aa * bb - ab * ab) / (aa + bb)  # below the smaller of both masses that move by themselves
+        quickest = _STANDS * speed * lightest / given.hardness
     held = sum(one.pushes) + one.hanging * one.omega * speed < given.hardness  # whatever the load pulls later on
     for _ in range(_MOST * steps):
         fastest = max(state[3], state[4], 0.05 * speed if not hydraulic else ends)
@@ -173,6 +176,9 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         if min(state[3], state[4]) < 4 * _STANDS * speed:
             step = min(step, quickest)
         after = _stepped(one, state, step)
+        last = max(after[3], after[4]) <= ends
+        if last:  # it stands within this step: what follows is another motion
+            step, after = _until(one, state, step, ends)
         for side in (0, 1):
             top = _between(state[side], after[side], state[side + 3], after[side + 3], step)
             tops[side] = max(tops[side], top)
@@ -183,7 +189,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         rates = one.rates(after)
         deceleration = max(deceleration, -rates[3], -rates[4])
         state = after
-        if state[3] <= ends and state[4] <= ends:
+        if last:
             break
         if given.type == "constant" and max(state[3], state[4]) <= _STANDS * speed and (held or state[5] <= 0):
             break
@@ -208,6 +214,16 @@ def _stepped(one: Yawing, state: State, step: float) -> State:
         for x, k1, k2, k3, k4 in zip(state, first, second, third, fourth, strict=True)
     )
     return a, b, c, d, e, f
+
+
+def _until(one: Yawing, state: State, step: float, rate: float) -> tuple[float, State]:
+    """The part of a step after which neither rail moves faster than so."""
+    low, high = 0.0, step
+    for _ in range(40):
+        middle = (low + high) / 2
+        tried = _stepped(one, state, middle)
+        low, high = (middle, high) if max(tried[3], tried[4]) > rate else (low, middle)
+    return high, _stepped(one, state, high)
 
 
 def _moved(state: State, rates: State, step: float) -> State:
