@@ -42,7 +42,7 @@ class Yawing:
 
     def force(self, stroke: float, rate: float) -> float:
         """Of the buffers on one rail, their curve continued beyond its end [N]."""
-        if stroke <= 0:
+        if stroke < 0:
             return 0.0
         given, hard = self.given, self.given.hardness / 2
         if given.type == "linear":
@@ -170,11 +170,18 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         lightest = (aa * bb - ab * ab) / (aa + bb)  # below the smaller of both masses that move by themselves
         quickest = _STANDS * speed * lightest / given.hardness
     held = sum(one.pushes) + one.hanging * one.omega * speed < given.hardness  # whatever the load pulls later on
+    if given.type == "constant" and held:
+        ends = _STANDS * speed
     for _ in range(_MOST * steps):
         fastest = max(state[3], state[4], 0.05 * speed if not hydraulic else ends)
         step = reach / (steps * fastest)
-        if min(state[3], state[4]) < 4 * _STANDS * speed:
-            step = min(step, quickest)
+        if given.type == "constant":  # into the speed at which it fades out by no large step
+            slowing = one.rates(state)
+            for rate, change in zip(state[3:5], slowing[3:5], strict=True):
+                if rate > 0 > change:
+                    step = min(step, max(quickest, -rate / change / 4))
+            if min(state[3], state[4]) < 4 * _STANDS * speed:
+                step = min(step, quickest)
         after = _stepped(one, state, step)
         last = max(after[3], after[4]) <= ends
         if last:  # it stands within this step: what follows is another motion
@@ -197,7 +204,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         hardest = [one.force(min(top, given.stroke), 0.0) for top in tops]
     elif given.type == "constant":
         hardest = [given.hardness / 2] * 2
-    if left and left <= ends:
+    if hydraulic and left <= ends:
         left = 0.0
     side = 0 if tops[0] >= tops[1] else 1
     return Pressed(max(hardest) / max(given.count / 2, 1.0), tops[side], left, deceleration, "AB"[side], 0.0)
