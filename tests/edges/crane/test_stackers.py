@@ -1,4 +1,4 @@
-"""Faults seen in stacker cranes, each with the right value: by a closed form here, or as it was integrated elsewhere."""
+"""Faults seen in stacker cranes, each with the right value by a closed form, or as it was integrated elsewhere."""
 
 import math
 from pathlib import Path
@@ -125,3 +125,14 @@ class TestMemory:
             changed(_file("memory-hog"), travel__speed="200 m/s", scenes=[{"type": "brake"}], accuracy="1 %")
         )
         assert any(one.code == "NUM103" and "memory" in one.message for one in report.diagnostics)
+
+
+class TestPulledThroughItsBrake:
+    """The base first stands at 3.25 s; the column pulls it through its brake again until 9.98 s."""
+
+    DATA = changed(_file("modal_bar"), accuracy="1 %", effects__mast_gravity="off")
+
+    @pytest.mark.parametrize(("limit", "verdict"), [("3 s", "fail"), ("9 s", "fail"), ("11 s", "pass")])
+    def test_a_stop_lasts_until_the_base_stands_for_good(self, limit: str, verdict: str) -> None:
+        report = _checked(changed(self.DATA, checks={"brake_time": limit}))
+        assert set(_verdicts(report, "CRN205").values()) == {verdict}
