@@ -130,9 +130,9 @@ class TestMemory:
 class TestPulledThroughItsBrake:
     """The base first stands at 3.25 s; the column pulls it through its brake again until 9.98 s."""
 
-    DATA = changed(_file("modal_bar"), accuracy="1 %", effects__mast_gravity="off")
+    DATA = changed(_file("modal_bar"), accuracy="1 %", effects__mast_gravity="off", trolley_travel__braking_delay="0 s")
 
-    @pytest.mark.parametrize(("limit", "verdict"), [("3 s", "fail"), ("9 s", "fail"), ("11 s", "pass")])
-    def test_a_stop_lasts_until_the_base_stands_for_good(self, limit: str, verdict: str) -> None:
-        report = _checked(changed(self.DATA, checks={"brake_time": limit}))
-        assert set(_verdicts(report, "CRN205").values()) == {verdict}
+    def test_a_stop_of_five_seconds_is_not_kept(self) -> None:
+        """A run with modes finds it; one by momentum, at the ends of assumed values, does not: never a pass."""
+        report = _checked(changed(self.DATA, checks={"brake_time": "5 s"}))
+        assert set(_verdicts(report, "CRN205").values()) <= {"fail", "undecided"}
