@@ -107,7 +107,7 @@ def _table(found: "Decoded") -> str:
 
     width = get_terminal_size((120, 40)).columns
     shaft = f"{found.shaft} shaft"
-    columns = ("time", f"speed, {shaft}", f"torque, {shaft}", "uncertainty (2 s)")
+    columns = ("time", f"speed, {shaft}", f"torque, {shaft}", "uncertainty (2.6 s)")
     cells = [
         [
             f"{row.time:.4g} s",

@@ -43,7 +43,7 @@ C23: dict[str, Any] = {
         "sectors": [{"from": "4.71239 rad", "to": "6.28319 rad", "torque": "900 N*m"}],
     },
     "losses": {"torque": "35 N*m"},
-    "brake": {"torque": "300 N*m", "delay": "0 s"},
+    "brake": {"torque": "300 N*m", "delay": "0 s", "rise": "0 s"},
     "checks": {"irregularity": 0.02, "run_up_time": "2 s", "stop_angle": "7 rad", "stop_time": "2 s"},
     "scenes": [{"type": "run_up"}, {"type": "steady"}, {"type": "run_out", "from": "0 rad"}],
 }

@@ -5,10 +5,12 @@ from collections.abc import Iterator
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.machines.drivetrain.assumptions import assumed
 from ptmcalc.machines.drivetrain.checks import CHECKS
 from ptmcalc.machines.drivetrain.effects import EFFECTS
 from ptmcalc.machines.drivetrain.figures import FIGURES
 from ptmcalc.machines.drivetrain.loads import LOADS, parts
+from ptmcalc.machines.drivetrain.relations import RELATIONS
 from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 
@@ -37,6 +39,8 @@ KIND = MachineKind(
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
+    assumed=assumed,
+    relations=RELATIONS,
     inspect=inspect,
     parts=parts,
     seconding=witnesses_in(__package__),

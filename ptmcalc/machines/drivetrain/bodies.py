@@ -17,6 +17,7 @@ from ptmcalc.spec.fields import (
     PositiveMass,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
+from ptmcalc.spec.optional import Absent, Assumed, OneOf
 
 STEEL = 7850.0
 
@@ -86,7 +87,7 @@ class Drum(Fragment):
     """of each end disc"""
     shaft_diameter: Length
     """of the shaft through both discs"""
-    density: PositiveDensity = STEEL
+    density: Annotated[PositiveDensity, Assumed(STEEL, 7000.0, 7900.0, "cast iron to steel")] = STEEL
     """7850 kg/m^3 when left out"""
 
     @classmethod
@@ -138,7 +139,7 @@ class Sheave(Fragment):
     type: Literal["sheave"]
     rings: Annotated[tuple[RingPart, ...], Field(min_length=1, max_length=20)]
     """rim, web and hub"""
-    density: PositiveDensity = STEEL
+    density: Annotated[PositiveDensity, Assumed(STEEL, 7000.0, 7900.0, "cast iron to steel")] = STEEL
     """7850 kg/m^3 when left out"""
 
     @property
@@ -156,7 +157,10 @@ class Coupling(Fragment):
     """mass of the whole body"""
     diameter: PositiveLength
     """outer diameter"""
-    shape: PositiveFraction = 0.5
+    shape: Annotated[
+        PositiveFraction,
+        Assumed(0.5, 0.4, 0.6, "share of the moment of inertia of a cylinder of the same size: 0.40 to 0.60 of m R^2"),
+    ] = 0.5
     """k in k m R^2: 0.4 to 0.6, a ring is 1"""
 
     @property
@@ -175,11 +179,11 @@ class Rod(Fragment):
     position: Literal["end", "centre", "radial", "parallel", "inclined"]
     """axis across through its end or centre; radial with its near end at `distance`; parallel to it at `distance`;
     inclined at `angle` to the axis with its end on it"""
-    distance: Length = 0.0
+    distance: Annotated[Length, Absent("the rod ends at the axis")] = 0.0
     """of the near end, or of the rod, from the axis"""
-    radius: Length = 0.0
+    radius: Annotated[Length, Absent("a thin rod")] = 0.0
     """of the rod itself (`parallel`)"""
-    angle: Annotated[float, Measure(units.ANGLE)] | None = None
+    angle: Annotated[Annotated[float, Measure(units.ANGLE)] | None, OneOf("position")] = None
     """of an inclined rod to the axis"""
 
     @classmethod

@@ -163,7 +163,7 @@ def _whole(spec: Drivetrain, scene: Start) -> Estimate:
     return Estimate.exact(1.0)
 
 
-REACHES: AnyCheck = Check(
+REACHES: Check[Drivetrain, Start] = Check(
     code="DRV109",
     title="share of the target speed reached",
     scenes=frozenset({Start}),
@@ -190,7 +190,7 @@ def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
     return Estimate.exact(0.0)
 
 
-RESTS: AnyCheck = Check(
+RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
     title="speed left after the stop",
     scenes=frozenset({Stop}),

@@ -6,11 +6,12 @@ from dataclasses import dataclass, field, replace
 
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Failure, Found, Result
-from ptmcalc.machines.drivetrain import motion
+from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.result import Failure, Found, Result, family, of
+from ptmcalc.machines.drivetrain import bars, motion
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
-from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
 from ptmcalc.numerics.train.parts import Governed
 from ptmcalc.numerics.train.signals import Signal
 
@@ -31,17 +32,76 @@ class Ending:
     state: str = ""
 
 
+_DOUBLINGS = 2
+"""Times that a window is doubled in which a torque has its peak in the second half."""
+_SECONDS = 5.0
+"""Predicted seconds of a run up to which a window is doubled."""
+_CREEP, _MORE = 0.01, 4.0
+"""Growth of a peak, relative to it, up to which undamped modes that meet later are the reason; what later windows may
+add is then at most some times the last growth, as the peak of a sum of sines grows ever slower."""
+_PEAKS = frozenset({"torque_peak", "motor_torque_peak"})
+
+_OF_THE_WINDOW = frozenset({"motor_torque_rms", "speed_end", "angle_end", "torque_steady"})
+"""Loads of the end or the mean of the scene: of a start or stop without `duration` they would be those of the window
+that happens to be computed, but for a part at rest."""
+
+
+def steady_runs(
+    spec: Drivetrain, scene: TrainScene, case: Case, tolerance: float
+) -> tuple[tuple[motion.Course, ...], dict[str, Interval], str]:
+    """Runs over a window after which no torque grows, and what can still change after it.
+
+    A start or stop whose torque peaks lie in the second half of the window is computed over twice the time, until no
+    peak grows any more; a `duration` of the file stays as it is.
+    """
+    end = motion.window(scene, case)
+    runs = bars.played(case, end, tolerance)
+    if scene.duration is not None or isinstance(scene, Run):
+        return runs, {}, ""
+    grown: dict[str, float] = {}
+    for _ in range(_DOUBLINGS):
+        before = motion.readings(spec, runs[0])
+        late = [name for name, (_, at) in before.items() if family(name) in _PEAKS and at is not None and at > end / 2]
+        if not late or motion.seconds(case, 2 * end) > _SECONDS:
+            break
+        known = bars.loads(spec, *runs)
+        end *= 2
+        runs = bars.played(case, end, tolerance)
+        after = motion.readings(spec, runs[0])
+        grown = {name: after[name][0] - before[name][0] for name in late}
+        grown = {name: more for name, more in grown.items() if more > known[name].estimate.bar}
+        if not grown:
+            break
+    beyond = {
+        name: Interval(0.0, _MORE * more if more < _CREEP * motion.readings(spec, runs[0])[name][0] else math.inf)
+        for name, more in grown.items()
+    }
+    restless = motion.chattering(runs[0])
+    beyond |= {of("torque_peak", name): Interval(0.0, math.inf) for name in restless if name in spec.links}
+    named = [*(name for name in restless if name in spec.links), *grown]
+    return runs, beyond, f"`{named[0]}` is not steady" if named else ""
+
+
 def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motion.Course) -> Result:
     """A result with what its run tells of the end of the start or stop.
 
     A motion that gains nothing while its time doubles never ends: the check of it fails. One that goes on has a time
     between the window and infinity.
     """
+    if scene.duration is None:
+        stopped = course.case.stopping and math.isfinite(motion.ended(course))
+        main = course.case.bodies[course.case.main]
+        kept = {of("speed_end", main), of("angle_end", main)} if stopped else set[str]()
+        defined = {
+            name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW or name in kept
+        }
+        result = replace(result, loads=defined)
     found = _ending(spec, scene, course)
     if found is None:
         return result
     loads = {name: found.loads.get(name, one) for name, one in result.loads.items()}
-    return replace(result, loads=loads, failures=(*result.failures, *found.failures), open_end=found.state)
+    failures = (*result.failures, *found.failures)
+    return replace(result, loads=loads, failures=failures, open_end=found.state or result.open_end)
 
 
 def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course) -> Ending | None:
@@ -84,7 +144,7 @@ def _last_change(case: Case) -> float:
     train = case.train
     signals = [drive.gate for drive in train.drives]
     signals += [grip.capacity for grip in train.grips]
-    signals += [guide.speed for guide in train.guides]
+    signals += [guide.acceleration for guide in train.guides]
     laws = [stage.law for drive in train.drives if drive.name != REACHED for stage in drive.stages]
     signals += [law for law in laws if isinstance(law, Signal)]
     signals += [law.reference for law in laws if isinstance(law, Governed)]
@@ -105,10 +165,11 @@ def _failure(spec: Drivetrain, case: Case, speed: float) -> Failure:
     if not case.stopping:
         wanted = units.show(abs(case.until or 0.0), quantity)
         motor = next(iter(spec.motors), None)
-        path = ("motors", motor) if motor is not None else ("inertias",)
+        path: KeyPath = ("motors", motor) if motor is not None else ("inertias",)
         at_rest = not speed
-        how = "stays at rest" if at_rest else f"stays at {now}"
-        cure = "more motor torque at rest" if at_rest else "more motor torque at this speed"
+        backward = speed * (case.until or 0.0) < 0
+        how = "stays at rest" if at_rest else f"is driven back at {now}" if backward else f"stays at {now}"
+        cure = "more motor torque at rest" if at_rest or backward else "more motor torque at this speed"
         return Failure(
             "DRV109", f"`{name}` {how} and never reaches {wanted}", path, f"{cure}, or less load and resistance"
         )

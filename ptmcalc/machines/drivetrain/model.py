@@ -112,7 +112,7 @@ def play_of(link: Link) -> float:
         assert given.accuracy_class is not None
         new = backlash.new_clearance(given.centre_distance, given.accuracy_class)
     if given.module is not None:
-        share = backlash.wear_share(given.wear, given.module)
+        share = backlash.wear_share(given.wear or 0.0, given.module)
         new = backlash.worn_clearance(new, share, given.module, given.both_worn)
     return backlash.clearance_angle(new, given.pitch_radius)
 
@@ -230,7 +230,7 @@ class _Builder:
             play=play,
             law=law,
             side=(-1 if flipped else 1) if link.slack is not None else 0,
-            restitution=link.restitution,
+            restitution=link.restitution or 0.0,
             dissipation=link.dissipation or 0.0,
             exponent=link.exponent,
         )

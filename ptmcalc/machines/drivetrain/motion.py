@@ -108,14 +108,14 @@ def run(
 def window(scene: TrainScene, case: Case) -> float:
     """How long a scene is looked at [s].
 
-    What the file says; else 1.2 times the rigid train's start or stop and ten periods of the lowest natural
-    frequency, so that the last oscillation has met its peak.
+    The `duration` of the file; else 1.2 times the rigid train's start or stop and ten periods of the lowest natural
+    frequency, so that the last oscillation reaches its peak, times `window_factor`.
     """
     if scene.duration is not None:
         return scene.duration
     lowest = float(frequencies(case.train).min(initial=math.inf))
     ringing = _PERIODS * 2 * math.pi / lowest if math.isfinite(lowest) else 0.0
-    return 1.2 * _rigid_time(rigid(case)) + ringing
+    return getattr(scene, "window_factor", 1.0) * (1.2 * _rigid_time(rigid(case)) + ringing)
 
 
 @remembered(64)
@@ -273,17 +273,21 @@ def remarks(scene: TrainScene, course: Course) -> Iterator[Finding]:
                 " braked from its motor's side against so much inertia; it is taken to stop at once",
                 ("gears", event.element),
             )
+    for name, times in chattering(course).items():
+        yield Finding(
+            "NUM106",
+            f"scene `{scene.label}`: {name} changes its state {times} times in the last part of the scene",
+        )
+
+
+def chattering(course: Course) -> dict[str, int]:
+    """Parts that still change their state often at the end of a run, and how often in the last part of it."""
     late = (1 - _LAST_PART) * course.record.time
     counted: dict[str, int] = {}
     for event in course.record.events:
         if event.time >= late:
             counted[event.element] = counted.get(event.element, 0) + 1
-    for name, times in counted.items():
-        if times > _CHATTER:
-            yield Finding(
-                "NUM106",
-                f"scene `{scene.label}`: {name} changes its state {times} times in the last part of the scene",
-            )
+    return {name: times for name, times in counted.items() if times > _CHATTER}
 
 
 def events(course: Course) -> tuple[Event, ...]:

@@ -29,7 +29,8 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 def either(rotation: Quantity, translation: Quantity, **limits: float) -> Measure:
@@ -53,15 +54,15 @@ Exponent = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
 class Body(Fragment):
     """An inertia of the train: it turns (`inertia` or `body`) or travels (`mass`)."""
 
-    inertia: Inertia | None = None
+    inertia: Annotated[Inertia | None, OneOf("mass, body")] = None
     """moment of inertia; 0 is allowed only on a shaft that a gear ties to another inertia"""
-    mass: Mass | None = None
+    mass: Annotated[Mass | None, OneOf("inertia, body")] = None
     """mass of a part that travels"""
     body: AnyBody | None = None
     """a body whose inertia is computed from its dimensions"""
-    position: Turn = 0.0
+    position: Annotated[Turn, Absent("positions are counted from there")] = 0.0
     """angle or position at the start"""
-    speed: AnySpeed | None = None
+    speed: Annotated[AnySpeed | None, Absent("it starts from rest or with the speed of the scene")] = None
     """speed at the start; that of the scene, or rest, when left out"""
 
     @classmethod
@@ -87,18 +88,18 @@ class Body(Fragment):
 class Clearance(Fragment):
     """The play of a gear or toothed coupling from its geometry."""
 
-    centre_distance: PositiveLength | None = None
+    centre_distance: Annotated[PositiveLength | None, OneOf("value")] = None
     """with `accuracy_class`: least clearance of new spur gears, a*cbrt(A) (a reading of a lost table)"""
     accuracy_class: Literal[2, 3, 4] | None = None
     """accuracy class of the old standard the table was made for"""
-    value: PositiveLength | None = None
+    value: Annotated[PositiveLength | None, OneOf("centre_distance")] = None
     """clearance of the new gear along the pitch circle, instead of the two"""
     pitch_radius: PositiveLength
     """of the wheel on the shaft of the link's first inertia"""
-    module: PositiveLength | None = None
+    module: Annotated[PositiveLength | None, Absent("needed with `wear` only")] = None
     """needed with `wear`"""
-    wear: Annotated[float, Measure(units.LENGTH, at_least=0)] = 0.0
-    """thickness lost by a tooth"""
+    wear: Annotated[Annotated[float, Measure(units.LENGTH, at_least=0)] | None, Assumed()] = None
+    """thickness lost by a tooth; none to 15 % of the tooth is assumed with a `module` when it is left out"""
     both_worn: bool = True
     """whether both gears have lost it"""
     kind: Literal["gearbox", "coupling", "open_gear"] = "gearbox"
@@ -123,29 +124,31 @@ class Link(Fragment):
 
     between: Annotated[tuple[str, ...], Field(min_length=2, max_length=2)]
     """names of two inertias, or of one and `ground`; a positive torque drives the second"""
-    stiffness: Stiffness | None = None
+    stiffness: Annotated[Stiffness | None, OneOf("law: rigid")] = None
     """of the whole link; a `rigid` contact has none"""
-    damping: Damping = 0.0
+    damping: Annotated[Damping, Absent("undamped oscillations are the largest")] = 0.0
     """viscous damping of the link"""
-    gap: Play | None = None
+    gap: Annotated[Play | None, Absent("a shaft or another part without clearance")] = None
     """the whole play, half of it to either side"""
     clearance: Clearance | None = None
     """the play from a gear's geometry, instead of `gap`"""
-    slack: Play | None = None
+    slack: Annotated[Play | None, Absent("no rope or chain")] = None
     """a rope or chain: it pulls only, and only after so much travel"""
     law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
     """how contact is made and lost; `clamped` with a gap, `no_pull` with slack when left out"""
-    dissipation: Annotated[float, Measure(units.RATIO, at_least=0)] | None = None
+    dissipation: Annotated[
+        Annotated[float, Measure(units.RATIO, at_least=0)] | None, Absent("a contact that loses nothing rebounds most")
+    ] = None
     """c in F = k d^n (1 + 1.5 c d'), in s/rad or s/m (`hunt_crossley`)"""
-    exponent: Exponent = 1.0
+    exponent: Annotated[Exponent, Absent("a linear contact")] = 1.0
     """n of `hunt_crossley`"""
-    restitution: Fraction = 0.0
-    """of a `rigid` contact"""
+    restitution: Annotated[Fraction | None, Assumed()] = None
+    """of a `rigid` contact; 0 to 0.5 is assumed when it is left out"""
     start: Literal["centred", "driving", "braking"] = "centred"
     """where in its play the link stands at the start: `driving` touches on the side of a positive torque"""
-    preload: Torque = 0.0
+    preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
     """torque in the link at the start; with `slack` and `driving` the rope is taut"""
-    limit: PositiveTorque | None = None
+    limit: Annotated[PositiveTorque | None, Limit()] = None
     """largest torque the link may carry"""
 
     @classmethod
@@ -192,13 +195,16 @@ class Gear(Fragment):
     """the inertia on the motor's side"""
     end: str = Field(alias="to")
     """the inertia on the load's side"""
-    ratio: Ratio | None = None
+    ratio: Annotated[Ratio | None, OneOf("radius")] = None
     """speed of `from` over speed of `to`; negative where it reverses"""
-    radius: Annotated[float, Measure(units.LENGTH, above=0)] | None = None
+    radius: Annotated[Annotated[float, Measure(units.LENGTH, above=0)] | None, OneOf("ratio")] = None
     """of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
-    efficiency: Efficiency = 1.0
+    efficiency: Annotated[
+        Efficiency,
+        Assumed(1.0, 0.94, 1.0, "one to three stages of gears in oil or drums on rolling bearings, 0.98 to 0.99 each"),
+    ] = 1.0
     """while power flows from `from` to `to`"""
-    reverse_efficiency: ReverseEfficiency | None = None
+    reverse_efficiency: Annotated[ReverseEfficiency | None, Assumed()] = None
     """while it flows back; 2 - 1/efficiency when left out, negative for a self-locking gear"""
 
     @classmethod
@@ -231,17 +237,19 @@ class Brake(Fragment):
     """`ground`, or the inertia on the other side of a clutch"""
     torque: PositiveTorque
     """torque or force while it slips, fully applied"""
-    static_ratio: FactorFromOne = 1.0
+    static_ratio: Annotated[FactorFromOne, Absent("holding as much at rest as in slip is the least")] = 1.0
     """torque that it holds at rest over that"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.1, "spring-applied brakes, AC or DC switching: up to 0.1 s")] = 0.0
     """from the command until it begins to act"""
-    rise_time: Time = 0.0
+    rise_time: Annotated[
+        Time, Assumed(0.0, 0.0, 0.1, "spring-applied brakes: up to 0.1 s from the first to the full torque")
+    ] = 0.0
     """from then until it acts fully; the time constant of an exponential rise"""
     rise: Literal["linear", "exponential"] = "linear"
     """how it comes up"""
     applied: Literal["when_stopping", "always", "never"] = "when_stopping"
     """in which scenes the command is given, at their start"""
-    below: AnySpeed | None = None
+    below: Annotated[AnySpeed | None, Absent("the brake acts at any speed")] = None
     """the command is only given when the speed of `at` has fallen to this"""
 
 
@@ -250,11 +258,13 @@ class Resistance(Fragment):
 
     at: str
     """the inertia it acts on"""
-    coulomb: TorqueOrNone = 0.0
+    coulomb: Annotated[TorqueOrNone, Absent("no dry friction")] = 0.0
     """dry friction, against the motion whatever the speed"""
-    static_ratio: FactorFromOne = 1.0
+    static_ratio: Annotated[
+        FactorFromOne, Assumed(1.0, 1.0, 1.5, "breakaway of bearings, seals and wheels: up to half more than in motion")
+    ] = 1.0
     """what must be overcome at rest over that"""
-    viscous: Damping = 0.0
+    viscous: Annotated[Damping, Absent("no friction that depends on the speed")] = 0.0
     """per speed"""
 
 
@@ -273,7 +283,7 @@ class ConstantTorque(OnInertia):
     type: Literal["constant"]
     torque: Torque
     """positive in the direction of motion"""
-    delay: Time = 0.0
+    delay: Annotated[Time, Absent("it acts from the start")] = 0.0
     """when it sets in"""
 
 
@@ -283,7 +293,7 @@ class RisingTorque(OnInertia):
     type: Literal["ramp"]
     torque: Torque
     """at the end of the ramp, and after it"""
-    first: Torque = 0.0
+    first: Annotated[Torque, Absent("it starts from nothing")] = 0.0
     """at the start of the scene"""
     time: PositiveTime
     """duration of the ramp"""
@@ -295,13 +305,13 @@ class SineTorque(OnInertia):
     type: Literal["sine"]
     amplitude: Torque
     """half of its swing"""
-    frequency: PositiveFrequency | None = None
+    frequency: Annotated[PositiveFrequency | None, OneOf("angular_frequency")] = None
     """cycles per second"""
-    angular_frequency: AngularFrequency | None = None
+    angular_frequency: Annotated[AngularFrequency | None, OneOf("frequency")] = None
     """w itself, instead of `frequency`"""
-    mean: Torque = 0.0
+    mean: Annotated[Torque, Absent("it has no mean")] = 0.0
     """round which it swings"""
-    phase: Annotated[float, Measure(units.ANGLE)] = 0.0
+    phase: Annotated[Annotated[float, Measure(units.ANGLE)], Absent("it starts at 0")] = 0.0
     """of the sine at the start of the scene"""
 
     @classmethod
@@ -374,7 +384,9 @@ class OverPosition(OnInertia):
     type: Literal["over_position"]
     points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
     """in rising order"""
-    period: Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None = None
+    period: Annotated[
+        Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it does not repeat itself")
+    ] = None
     """the table repeats after so much travel; its last point is then one period behind the first"""
 
     @classmethod
@@ -411,11 +423,11 @@ class MotorOn(Fragment):
     """the inertia it acts on"""
     motor: AnyMotor
     """what its torque is"""
-    count: Annotated[int, Field(ge=1, le=64, strict=True)] = 1
+    count: Annotated[Annotated[int, Field(ge=1, le=64, strict=True)], Absent("one motor drives the inertia")] = 1
     """number of equal motors"""
-    off_after: PositiveTime | None = None
+    off_after: Annotated[PositiveTime | None, Absent("it stays on")] = None
     """it is switched off after so much time"""
-    off_delay: Time = 0.0
+    off_delay: Annotated[Time, Absent("it is off at the start of a stop")] = 0.0
     """in a `stop`: how long it still drives"""
 
 
@@ -459,26 +471,30 @@ class Impulse(Fragment):
 class DrivetrainChecks(CheckSettings):
     """Limits of the checks of a drive train."""
 
-    start_time: PositiveTime | None = None
+    start_time: Annotated[PositiveTime | None, Limit()] = None
     """longest start"""
-    stop_time: PositiveTime | None = None
+    stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest stop"""
-    stop_angle: Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None = None
+    stop_angle: Annotated[Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Limit()] = None
     """longest way of a stop"""
-    resonance_margin: Fraction = 0.2
+    resonance_margin: Annotated[Fraction, Limit()] = 0.2
     """least distance of an exciting frequency from a natural one, as a share of the natural one"""
-    cycle_time: PositiveTime | None = None
+    cycle_time: Annotated[
+        PositiveTime | None, Setting("the time of the scene, at most that of a cycle with pauses")
+    ] = None
     """time over which a motor's heating torque is taken; the scene's own time when left out"""
 
 
 class TrainScene(Scene):
     """Base of the scenes of a drive train."""
 
-    duration: PositiveTime | None = None
-    """how long the scene is looked at"""
+    duration: Annotated[PositiveTime | None, Setting("the start or stop and ten periods of the lowest frequency")] = (
+        None
+    )
+    """length of the scene; what happens later is no part of it, and `window_factor` does not change it"""
     of: str | None = None
     """the inertia the scene is about; the first motor's, or the first one, when left out"""
-    speed: AnySpeed | None = None
+    speed: Annotated[AnySpeed | None, Absent("it starts from rest")] = None
     """speed of that inertia at the start; the others turn with it"""
     links: Literal["relaxed", "loaded"] | None = None
     """whether links start without torque, or with the one the loads put into them; `loaded` in a `stop`"""
@@ -492,15 +508,15 @@ class Run(TrainScene):
     """how long the scene is looked at"""
 
 
-class Start(TrainScene):
+class Start(TrainScene, TransientScene):
     """A start from rest: brakes are off, motors drive."""
 
     type: Literal["start"] = "start"
-    until: AnySpeed | None = None
+    until: Annotated[AnySpeed | None, Setting("95 % of the speed of the motor")] = None
     """the start is over when the inertia the scene is about reaches this speed; 95 % of the motor's when left out"""
 
 
-class Stop(TrainScene):
+class Stop(TrainScene, TransientScene):
     """A stop: motors off, brakes applied."""
 
     type: Literal["stop"] = "stop"

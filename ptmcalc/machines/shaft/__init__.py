@@ -15,6 +15,7 @@ from ptmcalc.machines.shaft.effects import EFFECTS
 from ptmcalc.machines.shaft.figures import FIGURES
 from ptmcalc.machines.shaft.loads import LOADS
 from ptmcalc.machines.shaft.model import machine_of
+from ptmcalc.machines.shaft.relations import RELATIONS
 from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
 
@@ -92,6 +93,7 @@ KIND = MachineKind(
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
     assumptions=ASSUMPTIONS,
+    relations=RELATIONS,
     inspect=inspect,
     seconding=witnesses_in(__package__),
 )

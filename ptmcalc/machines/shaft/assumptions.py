@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.shaft.spec import Shaft, SliderCrank
+from ptmcalc.machines.shaft.spec import SectorLoad, Shaft, SliderCrank, TableLoad
 
 
 def _efficiency(spec: Shaft) -> float:
@@ -12,6 +12,30 @@ def _efficiency(spec: Shaft) -> float:
 
 def _efficiency_interval(spec: Shaft) -> Interval:
     return Interval(1.0, 1.0) if spec.drive.gear.ratio == 1 else Interval(0.90, 0.97)
+
+
+def _reverse(spec: Shaft) -> float | None:
+    """The efficiency of the gear, where the load may drive the motor: at some angle, or by a changing inertia."""
+    gear = spec.drive.gear
+    if gear.ratio == 1 or gear.braking == "multiplies" or not _may_brake(spec):
+        return None
+    return gear.efficiency if gear.efficiency is not None else _efficiency(spec)
+
+
+def _may_brake(spec: Shaft) -> bool:
+    return bool(spec.potential) or spec.inertia.type != "constant" or _load_drives(spec)
+
+
+def _load_drives(spec: Shaft) -> bool:
+    load = spec.load
+    if isinstance(load, SectorLoad):
+        return any(sector.torque < 0 for sector in load.sectors)
+    return isinstance(load, TableLoad) and any(point.torque < 0 for point in load.points)
+
+
+def _reverse_interval(spec: Shaft) -> Interval:
+    forward = _reverse(spec) or 1.0
+    return Interval(max(2 - 1 / forward, 0.05), forward)
 
 
 def _rod(spec: Shaft) -> SliderCrank | None:
@@ -39,6 +63,13 @@ ASSUMPTIONS: tuple[Assumption[Shaft], ...] = (
         _efficiency,
         _efficiency_interval,
         "two to three stages of helical or bevel gears, 0.98 to 0.99 each",
+    ),
+    Assumption(
+        ("drive", "gear", "reverse_efficiency"),
+        units.RATIO,
+        _reverse,
+        _reverse_interval,
+        "from 2 - 1/efficiency (equal lost torque) to the efficiency itself",
     ),
     Assumption(
         ("inertia", "rod_centre"),

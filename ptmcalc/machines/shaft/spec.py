@@ -33,6 +33,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
+from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene
 
 SignedInertia = Annotated[float, Measure(units.INERTIA)]
@@ -72,9 +73,9 @@ class Harmonic(Fragment):
 
     order: Order
     """times per turn"""
-    cosine: SignedInertia = 0.0
+    cosine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
     """factor of cos(order * angle)"""
-    sine: SignedInertia = 0.0
+    sine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
     """factor of sin(order * angle)"""
 
 
@@ -147,19 +148,24 @@ class SliderCrank(Fragment):
     """of the crank or eccentric"""
     rod_length: PositiveLength
     """between its two eyes"""
-    offset: Offset = 0.0
+    offset: Annotated[Offset, Absent("the line of the slider crosses the axis of the crank")] = 0.0
     """distance of the slider's line from the crank's axis"""
     crank_inertia: PositiveInertia
     """everything that turns with the main shaft"""
     slider_mass: PositiveMass
     """slider with tool"""
-    rod_mass: Mass = 0.0
+    rod_mass: Annotated[
+        Mass,
+        Absent("the masses of the rod are part of `crank_inertia` and `slider_mass`, as in a substitute of two masses"),
+    ] = 0.0
     """of the connecting rod"""
-    rod_centre: Fraction | None = None
+    rod_centre: Annotated[Fraction | None, Assumed()] = None
     """distance of the rod's centre of mass from the crank pin over its length; 0.3 is assumed when it is left out"""
-    rod_inertia: Inertia | None = None
+    rod_inertia: Annotated[Inertia | None, Assumed()] = None
     """of the rod about its centre of mass; that of a uniform bar is assumed when it is left out"""
-    inclination: Angle | None = None
+    inclination: Annotated[Angle | None, Absent("slider and rod are balanced; their weights do no work in a cycle")] = (
+        None
+    )
     """of the slide below the horizontal, from the crank to the slider: 90 deg for a press with the slide below;
     without it the weights of slider and rod are left out, as if they were balanced"""
 
@@ -261,11 +267,14 @@ AnyLoad = Annotated[SectorLoad | TableLoad | ToolLoad, Field(discriminator="type
 class Losses(Fragment):
     """What the mechanism takes for itself, on the main shaft."""
 
-    torque: Torque = 0.0
+    torque: Annotated[Torque, Absent("the useful load, or `share`, contains the friction")] = 0.0
     """constant friction torque"""
-    viscous: Viscous = 0.0
+    viscous: Annotated[Viscous, Absent("friction does not depend on the speed")] = 0.0
     """friction torque per speed of the main shaft"""
-    share: Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)] = 0.0
+    share: Annotated[
+        Annotated[float, Measure(units.SHARE, at_least=0, at_most=1)],
+        Absent("the useful load, or `torque`, contains the friction"),
+    ] = 0.0
     """friction torque over the useful torque, while it acts"""
 
 
@@ -280,7 +289,7 @@ class Unbalance(Fragment):
     """the mass"""
     radius: PositiveLength
     """of its centre of mass from the axis"""
-    top: Angle = 0.0
+    top: Annotated[Angle, Absent("angles are counted from where the mass is on top")] = 0.0
     """angle of the main shaft at which it is on top"""
 
 
@@ -290,9 +299,9 @@ class PotentialHarmonic(Fragment):
     type: Literal["harmonic"]
     order: Order
     """times per turn"""
-    cosine: SignedTorque = 0.0
+    cosine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
     """factor of cos(order * angle) in the torque against the motion"""
-    sine: SignedTorque = 0.0
+    sine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
     """factor of sin(order * angle) in the torque against the motion"""
 
 
@@ -324,7 +333,7 @@ class ToolSpring(Fragment):
     type: Literal["tool_spring"]
     force: SignedForce
     """with the slider farthest from the crank's axis; negative where it pushes away"""
-    stiffness: Stiffness = 0.0
+    stiffness: Annotated[Stiffness, Absent("the force stays the same over the stroke")] = 0.0
     """by how much the force falls per distance the slider comes nearer"""
 
 
@@ -336,11 +345,11 @@ AnyPotential = Annotated[Unbalance | PotentialHarmonic | EnergyTable | ToolSprin
 class Gear(Fragment):
     """The gear between motor and main shaft."""
 
-    ratio: PositiveRatio = 1.0
+    ratio: Annotated[PositiveRatio, Absent("the motor is on the main shaft")] = 1.0
     """motor speed over speed of the main shaft"""
-    efficiency: Efficiency | None = None
+    efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from motor to main shaft; 0.94 is assumed when it is left out and the ratio is not 1"""
-    reverse_efficiency: Efficiency | None = None
+    reverse_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from main shaft to motor, while the motor brakes; the same when left out"""
     braking: Literal["divides", "multiplies"] = "divides"
     """what the efficiency does to the motor's torque while the motor brakes: `divides` by it, as the power then flows
@@ -359,7 +368,7 @@ class Drive(Fragment):
 
     motor: AnyMotor
     """the motor"""
-    motor_inertia: Inertia = 0.0
+    motor_inertia: Annotated[Inertia, Absent("`inertia` is that of everything that turns, the rotor too")] = 0.0
     """of rotor, coupling and all else on the motor shaft; leave it out where `inertia` has it already"""
     gear: Gear = Gear()
     """the gear; without it the motor sits on the main shaft"""
@@ -372,7 +381,10 @@ class Brake(Fragment):
     """full torque"""
     delay: Time
     """from the command to the first torque"""
-    rise: Time = 0.0
+    rise: Annotated[
+        Time,
+        Assumed(0.0, 0.0, 0.1, "spring-applied and pneumatic brakes: up to 0.1 s from the first to the full torque"),
+    ] = 0.0
     """from the first to the full torque, in a straight line"""
 
 
@@ -382,15 +394,15 @@ class Brake(Fragment):
 class ShaftChecks(CheckSettings):
     """Limits of the checks of a main shaft."""
 
-    irregularity: ShareAboveNothing | None = None
+    irregularity: Annotated[ShareAboveNothing | None, Limit()] = None
     """largest irregularity (w_max - w_min)/w_mean of the steady cycle; 5 % for presses, 1 % for a generator ..."""
-    run_up_time: PositiveTime | None = None
+    run_up_time: Annotated[PositiveTime | None, Limit()] = None
     """longest run-up"""
-    stop_angle: PositiveAngle | None = None
+    stop_angle: Annotated[PositiveAngle | None, Limit()] = None
     """largest angle of a braked run-out"""
-    stop_time: PositiveTime | None = None
+    stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest braked run-out"""
-    breakdown_share: ShareAboveNothing = 0.81
+    breakdown_share: Annotated[ShareAboveNothing, Limit()] = 0.81
     """largest motor torque over the breakdown torque; 0.9^2: a voltage 10 % low leaves so much of it"""
 
 
@@ -402,9 +414,11 @@ class RunUp(ShaftScene):
     """The motor brings the shaft from rest to speed."""
 
     type: Literal["run_up"] = "run_up"
-    start: Angle = Field(default=0.0, alias="from")
+    start: Annotated[Angle, Setting("from the angle 0; the angle of the dead centre for a slider-crank")] = Field(
+        default=0.0, alias="from"
+    )
     """angle of the main shaft at rest"""
-    to: PositiveAngularSpeed | None = None
+    to: Annotated[PositiveAngularSpeed | None, Setting("95 % of the speed without load")] = None
     """speed of the main shaft at which the run-up ends; 95 % of that without load when left out"""
     load: Literal["idle", "full"] = "idle"
     """whether the useful load acts"""
@@ -422,7 +436,7 @@ class RunOut(ShaftScene):
     """The drive is switched off in the steady cycle, and the shaft is braked or left to coast."""
 
     type: Literal["run_out"] = "run_out"
-    start: Angle | None = Field(default=None, alias="from")
+    start: Annotated[Angle | None, Setting("the worst angle of the cycle is found")] = Field(default=None, alias="from")
     """angle of the main shaft at that moment; the worst one when left out"""
     brake: Literal["on", "off"] | None = None
     """whether the brake is applied; it is when the machine has one"""
@@ -439,9 +453,11 @@ class Shaft(MachineSpec):
     """The main shaft of a machine, with all masses reduced to it."""
 
     kind: Literal["shaft"]
-    speed: PositiveAngularSpeed | None = None
+    speed: Annotated[PositiveAngularSpeed | None, Absent("a nominal speed is only compared with motor and gear")] = None
     """nominal speed of the main shaft; compared with motor and gear"""
-    cycle_angle: PositiveAngle = FULL_TURN
+    cycle_angle: Annotated[
+        PositiveAngle, Absent("the machine repeats itself after a turn; parts that do not are refused")
+    ] = FULL_TURN
     """angle after which the machine repeats itself"""
     inertia: AnyInertia
     """inertia reduced to the main shaft"""

@@ -27,9 +27,9 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     """
     case = case_of(spec, scene, "backlash" in carried)
     tolerance = TOLERANCES[level]
-    end = motion.window(scene, case)
-    runs = bars.played(case, end, tolerance)
+    runs, beyond, state = ending.steady_runs(spec, scene, case, tolerance)
     fine, loads = runs[0], bars.loads(spec, *runs)
+    end = fine.record.time
     findings = list(motion.remarks(scene, fine))
     broken = motion.untrusted(spec, scene, fine, tolerance)
     if broken is not None:
@@ -44,6 +44,8 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         findings=tuple(findings),
         events=motion.events(fine),
         histories=lambda: motion.histories(spec, case, end, tolerance),
+        beyond=beyond,
+        open_end=state,
     )
     return ending.completed(result, spec, scene, fine)
 

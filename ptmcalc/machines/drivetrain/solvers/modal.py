@@ -34,7 +34,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     for name, link in spec.links.items():
         if link.clearance is not None:
             given = link.clearance
-            share = backlash.wear_share(given.wear, given.module) if given.module else 0.0
+            share = backlash.wear_share(given.wear or 0.0, given.module) if given.module else 0.0
             loads[of("wear_share", name)] = Found(Estimate.exact(share))
     if isinstance(scene, Start | Stop):
         time = time_by_terms(spec, scene)

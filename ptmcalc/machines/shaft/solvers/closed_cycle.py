@@ -10,13 +10,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft import ledger
+from ptmcalc.machines.shaft import impossible, ledger
 from ptmcalc.machines.shaft.bounds import cycle_shares
 from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
 from ptmcalc.machines.shaft.loads import OF_CYCLE
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.results import FLOOR, MARGIN, bar, result_of
-from ptmcalc.machines.shaft.solvers import work_balance
 from ptmcalc.machines.shaft.spec import Shaft, Steady
 from ptmcalc.machines.shaft.steady import Cycle, closed_cycle, light_cycle
 from ptmcalc.numerics.cycle import Orbit
@@ -41,9 +40,11 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     rounding. Where the balance of works, by a quadrature of its own, leaves more than 1e-8, nothing is known.
     **Source** Radau IIA: Hairer and Wanner, Solving ordinary differential equations II; derived in `numerics.cycle`.
     """
+    if machine_in(spec, scene).races:
+        return impossible.races(spec, scene)
     cycle = cycle_of(spec, scene.load, mean_inertia="varying_inertia" not in carried)
     if cycle is None:
-        return Result(work_balance.stalled(), work=1, health={"steps": 0.0})
+        return impossible.stalls(spec, scene)
     books = ledger.of_cycle(cycle)
     fine, rough = (_loads_of(cycle, orbit) for orbit in (cycle.orbit, cycle.rough))
     loads = {name: Found(bar(value, rough[name][0]), at) for name, (value, at) in fine.items()}

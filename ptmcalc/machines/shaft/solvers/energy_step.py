@@ -10,7 +10,7 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft import bounds
+from ptmcalc.machines.shaft import bounds, impossible
 from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.loads import OF_CYCLE
 from ptmcalc.machines.shaft.model import Machine, split
@@ -101,7 +101,7 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     machine = machine_in(spec, scene)
     cycle = bounds.held(machine)
     if cycle is None:
-        return Result(work_balance.stalled(), work=1)
+        return impossible.stalls(spec, scene)
     count = _STEPS << level
     coarse, fine = (steps_of(machine, cycle, n) for n in (count, 2 * count))
     speeds, rough = fine.speeds(0.0), coarse.speeds(0.0)

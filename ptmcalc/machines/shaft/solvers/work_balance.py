@@ -4,7 +4,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
+from ptmcalc.machines.shaft import bounds, impossible
 from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.loads import OF_CYCLE
 from ptmcalc.machines.shaft.spec import Shaft, Steady
@@ -25,7 +25,7 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     machine = machine_in(spec, scene)
     cycle = bounds.held(machine)
     if cycle is None:
-        return Result(stalled(), work=1)
+        return impossible.stalls(spec, scene)
     loads = {name: Estimate.exact(value) for name, value in works(cycle).items()}
     delta = cycle.irregularity
     found = {
@@ -48,12 +48,6 @@ def works(cycle: bounds.Held) -> dict[str, float]:
     """Works of a cycle and what follows from them."""
     found = bounds.works(cycle.machine, cycle.speed, cycle.speed)
     return {"work_useful": cycle.machine.survey.useful_work} | {name: one.high for name, one in found.items()}
-
-
-def stalled() -> dict[str, Found]:
-    """Loads of a machine that its motor cannot drive: nothing is useful, all that is spent is lost."""
-    values = {"loss_factor": 1.0, "cycle_efficiency": 0.0, "speed_min": 0.0}
-    return {name: Found(Estimate.exact(value)) for name, value in values.items()}
 
 
 def valid(spec: Shaft, scene: Steady) -> Criterion:
