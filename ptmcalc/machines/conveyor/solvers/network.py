@@ -46,7 +46,7 @@ _CONTOURS_AT_REST = 3.0
 """Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
 _HOUR = 3600.0
 """Time in which a belt must have come to rest to count as stopped [s], as in the check of the stopping time."""
-_MOST_SECONDS = 10.0
+_MOST_SECONDS = 2.5
 """Predicted seconds of the march on the finest grid: what a scene may cost by default."""
 _WORTH = 0.015
 """Belt speed over that of its slowest wave from which on a plain start is worth simulating in cells."""
