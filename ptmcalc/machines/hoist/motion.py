@@ -28,6 +28,7 @@ from ptmcalc.machines.hoist.moving import (
     Moving,
 )
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
+from ptmcalc.numerics.components import components
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import LONG, PANEL, Record, most_work
@@ -310,6 +311,100 @@ def spent(course: Course) -> float:
     return 1e-2 + PANEL * record.work
 
 
+# -- after the window -----------------------------------------------------------------------------------------------
+
+
+def _ringing_on(scene: Moving, course: Course, found: dict[str, Found]) -> dict[str, Found]:
+    """Loads with what the oscillation after the window can add: components of several frequencies meet later than any
+    window ends.
+
+        |y - y_0| <= sum_k |s_k c_k|
+
+    c_k is the amplitude of a component at the end of the window, s_k its share in the signal y of steady part y_0.
+
+    **Range** linear motion without further events; a rope that becomes slack again is not bounded above.
+    """
+    case = course.case
+    if not _several(course):
+        return found
+    limits = {}
+    rope, structure = case.named("link", ROPE), case.named("link", STRUCTURE)
+    for force, index in (("rope_force", rope), ("bridge_force", structure if structure is not None else rope)):
+        assert index is not None
+        limits[force] = _rings(course, "link", index)
+    changes = [event.after for event in course.record.events if event.element == ROPE]
+    slack = limits["rope_force"].low < 0 or (bool(changes) and changes[-1] == "open")
+    if slack:
+        limits = {force: Interval(-math.inf, math.inf) for force in limits}
+    result = dict(found)
+    for force, limit in limits.items():
+        if (largest := found.get(f"{force}_max")) is not None:
+            result[f"{force}_max"] = _up_to(largest, limit.high)
+        if (smallest := found.get(f"{force}_min")) is not None:
+            low = max(limit.low, 0.0) if force == "rope_force" else limit.low
+            result[f"{force}_min"] = _down_to(smallest, low)
+    for way, sign in (("stop_distance", 1), ("stop_distance_lowering", -1)):
+        if way in found and math.isfinite(found[way].estimate.value):
+            load = case.named("body", LOAD)
+            assert load is not None
+            limit = _rings(course, "position", load)
+            result[way] = _up_to(found[way], math.inf if slack else limit.high if sign > 0 else -limit.low)
+    for name, force in _FACTORS.items():
+        if name in found and force in result:
+            result[name] = Found(_over(result[force], case.weight).estimate, found[name].at)
+    if "backlash_torque_peak" in found:
+        shaft = case.named("link", SHAFT)
+        mesh = case.named("mesh", GEARBOX)
+        index = shaft if shaft is not None else mesh
+        assert index is not None
+        limit = _rings(course, "link" if shaft is not None else "mesh", index)
+        most = math.inf if slack else max(limit.high, -limit.low)
+        result["backlash_torque_peak"] = _up_to(found["backlash_torque_peak"], most)
+        result["gear_impact_factor"] = _over(result["backlash_torque_peak"], case.even_torque)
+    return result
+
+
+_FACTORS = {
+    "lift_off_factor": "rope_force_max",
+    "lowering_brake_factor": "rope_force_max",
+    "start_factor": "rope_force_max",
+    "stop_factor": "rope_force_max",
+    "release_factor": "rope_force_min",
+    "bridge_factor": "bridge_force_max",
+    "rope_force_share": "rope_force_min",
+}
+"""Factors on the weight, by the force they are computed from."""
+
+
+def _several(course: Course) -> bool:
+    """Whether more than one natural frequency takes part."""
+    springs = tuple(one for one in course.case.train.springs if one.name != FLANK)
+    return len(frequencies(replace(course.case.train, springs=springs))) > 1
+
+
+def _rings(course: Course, what: str, index: int) -> Interval:
+    """Bounds of a signal after the window, as long as no event comes."""
+    system, record = course.system, course.record
+    motion, place = system.motion(record.mode), system.watched[what, index]
+    if motion.curves:
+        return Interval(-math.inf, math.inf)
+    row = motion.watch[[place]]
+    found = components(motion.rate, row, system.own)
+    seen = (found.amplitudes(record.state[None])[0] * found.shapes[:, 0])[found.posed]
+    steady, around = float(row[0] @ record.state) - float(seen.real.sum()), float(np.abs(seen).sum())
+    return Interval(steady - around, steady + around)
+
+
+def _up_to(one: Found, most: float) -> Found:
+    extra = most - one.estimate.high
+    return one if extra <= 0 else Found(one.estimate.widened(Interval(0.0, extra)), one.at)
+
+
+def _down_to(one: Found, least: float) -> Found:
+    extra = one.estimate.low - least
+    return one if extra <= 0 else Found(one.estimate.widened(Interval(-extra, 0.0)), one.at)
+
+
 # -- a whole solver run ---------------------------------------------------------------------------------------------
 
 
@@ -328,8 +423,14 @@ def result(scene: Moving, case: Case, level: int) -> Result:
             break
         case = replace(case, window=2 * case.window)
         course = play(case, tolerance)
+    while isinstance(scene, Lift) and (longer := until_lifted(case, lift_off_time(course))):
+        if math.isfinite(first_event(course, DRIVE, "started")):  # the limiter ends the lift
+            break
+        case = replace(case, window=longer)
+        course = play(case, tolerance)
     others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
     found = loads(scene, course, others)
+    found = _ringing_on(scene, course, found)
     if case.left_weight <= LEAST_LEFT * case.weight:
         found = _with_a_hook(found, case)
     if isinstance(scene, Release) and scene.manner == "slow":
@@ -432,6 +533,17 @@ def tripped_early(scene: Moving) -> list[Failure]:
     """A limiter that trips before the load leaves the ground."""
     reason, hint = "the limiter trips before the load leaves the ground", "a larger factor or delay of the limiter"
     return [Failure("HST121", reason, ("limiter", "factor"), hint)]
+
+
+def until_lifted(case: Case, lifted: float) -> float:
+    """Longer window of a lift that ends before the load has left the ground, or before it has oscillated after that;
+    0 where the window is long enough [s]."""
+    if case.weak or case.window >= LONGEST:
+        return 0.0
+    if math.isinf(lifted):
+        return min(2 * case.window, LONGEST)
+    needed = min(lifted + case.ringing, LONGEST)
+    return needed if needed > case.window * (1 + 1e-9) else 0.0
 
 
 def outlasts(case: Case) -> bool:
