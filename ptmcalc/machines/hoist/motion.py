@@ -9,6 +9,7 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
+from ptmcalc.machines.hoist.after_window import over, ringing_on
 from ptmcalc.machines.hoist.moving import (
     BRAKE,
     DRIVE,
@@ -28,7 +29,6 @@ from ptmcalc.machines.hoist.moving import (
     Moving,
 )
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
-from ptmcalc.numerics.components import components
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import LONG, PANEL, Record, most_work
@@ -236,9 +236,9 @@ def with_bars(
         found[name] = Found(Estimate.within(value, bar if bar > 0 or not value else unseen * abs(value)), at)
     weight = case.weight
     for factor, force in (("lift_off_factor", "rope_force_max"), ("bridge_factor", "bridge_force_max")):
-        found[factor] = _over(found[force], weight)
+        found[factor] = over(found[force], weight)
     if not isinstance(scene, Lift):
-        found["rope_force_share"] = _over(found["rope_force_min"], weight)
+        found["rope_force_share"] = over(found["rope_force_min"], weight)
     return _named_by_scene(scene, found)
 
 
@@ -282,14 +282,6 @@ def _with_a_hook(found: dict[str, Found], case: Case) -> dict[str, Found]:
     return doubt
 
 
-def _over(force: Found, weight: float) -> Found:
-    one = force.estimate
-    return Found(
-        Estimate(one.value / weight, one.low / weight, one.high / weight, one.numerical / weight, one.model / weight),
-        force.at,
-    )
-
-
 def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> float:
     """Largest difference of loads of one kind, over the largest of them."""
     size = max((abs(own[name][0]) for name in kind if name in apart), default=0.0)
@@ -309,100 +301,6 @@ def spent(course: Course) -> float:
     """Seconds of a run by its panels and crossings: a load that jumps on its rope has hundreds."""
     record = course.record
     return 1e-2 + PANEL * record.work
-
-
-# -- after the window -----------------------------------------------------------------------------------------------
-
-
-def _ringing_on(scene: Moving, course: Course, found: dict[str, Found]) -> dict[str, Found]:
-    """Loads with what the oscillation after the window can add: components of several frequencies meet later than any
-    window ends.
-
-        |y - y_0| <= sum_k |s_k c_k|
-
-    c_k is the amplitude of a component at the end of the window, s_k its share in the signal y of steady part y_0.
-
-    **Range** linear motion without further events; a rope that becomes slack again is not bounded above.
-    """
-    case = course.case
-    if not _several(course):
-        return found
-    limits = {}
-    rope, structure = case.named("link", ROPE), case.named("link", STRUCTURE)
-    for force, index in (("rope_force", rope), ("bridge_force", structure if structure is not None else rope)):
-        assert index is not None
-        limits[force] = _rings(course, "link", index)
-    changes = [event.after for event in course.record.events if event.element == ROPE]
-    slack = limits["rope_force"].low < 0 or (bool(changes) and changes[-1] == "open")
-    if slack:
-        limits = {force: Interval(-math.inf, math.inf) for force in limits}
-    result = dict(found)
-    for force, limit in limits.items():
-        if (largest := found.get(f"{force}_max")) is not None:
-            result[f"{force}_max"] = _up_to(largest, limit.high)
-        if (smallest := found.get(f"{force}_min")) is not None:
-            low = max(limit.low, 0.0) if force == "rope_force" else limit.low
-            result[f"{force}_min"] = _down_to(smallest, low)
-    for way, sign in (("stop_distance", 1), ("stop_distance_lowering", -1)):
-        if way in found and math.isfinite(found[way].estimate.value):
-            load = case.named("body", LOAD)
-            assert load is not None
-            limit = _rings(course, "position", load)
-            result[way] = _up_to(found[way], math.inf if slack else limit.high if sign > 0 else -limit.low)
-    for name, force in _FACTORS.items():
-        if name in found and force in result:
-            result[name] = Found(_over(result[force], case.weight).estimate, found[name].at)
-    if "backlash_torque_peak" in found:
-        shaft = case.named("link", SHAFT)
-        mesh = case.named("mesh", GEARBOX)
-        index = shaft if shaft is not None else mesh
-        assert index is not None
-        limit = _rings(course, "link" if shaft is not None else "mesh", index)
-        most = math.inf if slack else max(limit.high, -limit.low)
-        result["backlash_torque_peak"] = _up_to(found["backlash_torque_peak"], most)
-        result["gear_impact_factor"] = _over(result["backlash_torque_peak"], case.even_torque)
-    return result
-
-
-_FACTORS = {
-    "lift_off_factor": "rope_force_max",
-    "lowering_brake_factor": "rope_force_max",
-    "start_factor": "rope_force_max",
-    "stop_factor": "rope_force_max",
-    "release_factor": "rope_force_min",
-    "bridge_factor": "bridge_force_max",
-    "rope_force_share": "rope_force_min",
-}
-"""Factors on the weight, by the force they are computed from."""
-
-
-def _several(course: Course) -> bool:
-    """Whether more than one natural frequency takes part."""
-    springs = tuple(one for one in course.case.train.springs if one.name != FLANK)
-    return len(frequencies(replace(course.case.train, springs=springs))) > 1
-
-
-def _rings(course: Course, what: str, index: int) -> Interval:
-    """Bounds of a signal after the window, as long as no event comes."""
-    system, record = course.system, course.record
-    motion, place = system.motion(record.mode), system.watched[what, index]
-    if motion.curves:
-        return Interval(-math.inf, math.inf)
-    row = motion.watch[[place]]
-    found = components(motion.rate, row, system.own)
-    seen = (found.amplitudes(record.state[None])[0] * found.shapes[:, 0])[found.posed]
-    steady, around = float(row[0] @ record.state) - float(seen.real.sum()), float(np.abs(seen).sum())
-    return Interval(steady - around, steady + around)
-
-
-def _up_to(one: Found, most: float) -> Found:
-    extra = most - one.estimate.high
-    return one if extra <= 0 else Found(one.estimate.widened(Interval(0.0, extra)), one.at)
-
-
-def _down_to(one: Found, least: float) -> Found:
-    extra = one.estimate.low - least
-    return one if extra <= 0 else Found(one.estimate.widened(Interval(-extra, 0.0)), one.at)
 
 
 # -- a whole solver run ---------------------------------------------------------------------------------------------
@@ -430,7 +328,7 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         course = play(case, tolerance)
     others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
     found = loads(scene, course, others)
-    found = _ringing_on(scene, course, found)
+    found = ringing_on(case, course.system, course.record, found)
     if case.left_weight <= LEAST_LEFT * case.weight:
         found = _with_a_hook(found, case)
     if isinstance(scene, Release) and scene.manner == "slow":

@@ -221,7 +221,18 @@ class _Builder:
         holds = isinstance(scene, Stop | LowerBrake) and held is not None and held.reserve > 1
         weak = self.lifts and self._most_force < self.weight
         return Case(
-            train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds, weak, ringing
+            train,
+            window,
+            self.held_weight,
+            self.weight,
+            stiffness,
+            even,
+            lowers,
+            self.stops,
+            drop,
+            holds,
+            weak,
+            ringing,
         )
 
     @property
@@ -440,8 +451,11 @@ class _Builder:
     # -- how long -----------------------------------------------------------------------------------------------
 
     def _window(self, train: Train) -> tuple[float, float]:
-        """Window of the scene, and its part after the last event [s]: until the rigid hoist has its speed or stands, and six periods more of
-        the slowest vibration, as a peak lies within the first; times the `window_factor` of the scene."""
+        """Window of the scene, and its part after the last event [s].
+
+        The rigid hoist has its speed or stands, then follow six periods of the slowest vibration, as a peak lies within
+        the first; times the `window_factor` of the scene.
+        """
         slowest = float(frequencies(train).min(initial=math.inf))
         free = math.sqrt(self._hook_stiffness / self.mass)
         ringing = _PERIODS * 2 * math.pi / min(slowest, free)
