@@ -26,6 +26,7 @@ START_LOADS = (
 """Loads of a start besides those of `loads.LOADS`."""
 
 OF_STARTING = frozenset(info.name for info in START_LOADS)
+STATE_AFTER_START = "the waves of the torque that falls at rated speed are not followed"
 _STEPS = 4000
 _X = np.linspace(0.0, 1.0, 65)
 
