@@ -512,7 +512,9 @@ def _helps(settled: Settled, spec: MachineSpec, rung: Rung, name: str, share: fl
     model = not bar.bounded or bar.bar - bar.numerical >= share * bar.bar
     coarser = [run for run in same if run.rung.level < rung.level and name in run.estimates]
     finer = any(_worth_refining(run, rung, name, bar, share) for run in coarser)
-    return finer or (model and bool(rung.carried - best.rung.carried - ran))
+    richer = rung.carried - best.rung.carried
+    blind = not bar.bounded and not same and bool(richer)  # each effect may have been carried, but never all together
+    return finer or blind or (model and bool(richer - ran))
 
 
 def _promises_less(plan: ScenePlan, spec: MachineSpec, rung: Rung, name: str, best: Best) -> bool:

@@ -39,7 +39,7 @@ WAYS: dict[str, AnySolver] = {
     "collision": BUFFER_COLLISION,
     "rail_step": RAIL_RESPONSE,
 }
-KNOWN = {"run": 1e-9, "start": 1e-9, "storm": 1e-9, "skew": 1e-8, "collision": 1e-7, "rail_step": 1e-9}
+KNOWN = {"run": 1e-9, "start": 1e-9, "storm": 1e-9, "skew": 1e-8, "collision": 2e-4, "rail_step": 1e-9}
 """What the witness is good for, as a share; a root that is searched for, and a motion that is followed, to less."""
 COARSE = {"wheel_spectrum_factor": 1e-8, "skew_force_slip": 1e-7}
 """A mean over many places; a balance that is met to 1e-9 of the weight."""

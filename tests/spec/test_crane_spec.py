@@ -224,7 +224,7 @@ def test_a_motor_of_another_speed_is_told() -> None:
 
 def test_a_coupling_that_is_not_given_is_assumed() -> None:
     assumed = loaded(changed(YARD, motor__coupling_factor=None)).assumed
-    assert [(one.path, one.value) for one in assumed] == [(("motor", "coupling_factor"), 1.7)]
+    assert {one.path: one.value for one in assumed}["motor", "coupling_factor"] == 1.7
 
 
 def test_a_wind_by_area_is_the_wind_by_torque() -> None:

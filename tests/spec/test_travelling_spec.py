@@ -41,7 +41,7 @@ def test_scenes_come_from_what_the_file_has() -> None:
     )
     labels = [scene.type for scene in crane_of(data).all_scenes]
     assert labels == [
-        "run", "start", "start", "brake", "hoist_while_travelling", "collision", "rail_step", "skew", "storm",
+        "run", "start", "start", "brake", "brake", "hoist_while_travelling", "collision", "rail_step", "skew", "storm",
     ]  # fmt: skip
 
 

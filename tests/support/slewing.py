@@ -5,6 +5,7 @@ from typing import Any
 COURSE: dict[str, Any] = {
     "kind": "crane",
     "type": "slewing",
+    "scenes": [{"type": "slew"}],
     "inertia": "60826 kg*m^2",
     "speed": "2 rpm",
     "friction": "983.8 N*m",
@@ -24,6 +25,7 @@ COURSE: dict[str, Any] = {
 NOTES: dict[str, Any] = {
     "kind": "crane",
     "type": "slewing",
+    "scenes": [{"type": "slew"}],
     "load": {"mass": "5000 kg", "radius": "8 m"},
     "slewing_part": {"mass": "8000 kg", "radius": "2.5 m"},
     "counterweight": {"mass": "6000 kg", "radius": "3 m"},
@@ -38,6 +40,7 @@ NOTES: dict[str, Any] = {
 YARD: dict[str, Any] = {
     "kind": "crane",
     "type": "slewing",
+    "scenes": [{"type": "slew"}],
     "load": {"mass": "3 t", "hook_block": "60 kg", "radius": "8 m", "rope_length": "5 m"},
     "slewing_part": {"mass": "8 t", "radius": "0.3 m", "inertia": "9000 kg*m^2"},
     "counterweight": {"mass": "5 t", "radius": "2.6 m"},

@@ -18,7 +18,13 @@ OVERHEAD: dict[str, Any] = {
     },
     "cab": {"mass": "200 kg"},
     "hoisting": {"speed": "0.2 m/s", "acceleration": "0.3 m/s^2", "rope": {"falls": 2}},
-    "trolley_travel": {"speed": "1 m/s", "driving_force": "6 kN", "braking_force": "9 kN"},
+    "trolley_travel": {
+        "speed": "1 m/s",
+        "driving_force": "6 kN",
+        "braking_force": "9 kN",
+        "braking_delay": "0 s",
+        "resistance": "0 N",
+    },
     "scenes": [{"type": "brake", "mechanism": "trolley"}],
 }
 """The trolley of C11."""
@@ -34,7 +40,13 @@ RACK: dict[str, Any] = {
         "rollers": {"distance": "1.2 m", "diameter": "160 mm", "axle_diameter": "50 mm"},
     },
     "hoisting": {"speed": "0.5 m/s", "acceleration": "0.5 m/s^2", "rope": {"falls": 2}},
-    "travel": {"speed": "2 m/s", "driving_force": "4 kN", "braking_force": "5 kN"},
+    "travel": {
+        "speed": "2 m/s",
+        "driving_force": "4 kN",
+        "braking_force": "5 kN",
+        "braking_delay": "0 s",
+        "resistance": "0 N",
+    },
     "scenes": [{"type": "brake"}],
 }
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq, fsolve, minimize_scalar
 
-from support.buffer_ode import Cushion, hit, meeting
+from support.buffer_ode import Cushion, Hit, hit, meeting
+from support.yaw_ode import turned
 
 G = 9.81
 CORNERS = ("A1", "A2", "B1", "B2")
@@ -504,6 +505,12 @@ class Statics:
             speed, moved = (speed + closing) / 2, 2 * mass * other / (mass + other)
         else:
             found, moved = hit(cushion, mass, speed, push), mass
+        slows = (found.force - push) / mass
+        if math.isfinite(found.way):
+            both = [self._turned(scene, cushion, hook, moved / mass, speed, push) for hook in self.hooks]
+            found = max((one for one, _ in both), key=lambda one: one.way)
+            force, left = max(one.force for one, _ in both), max(one.left for one, _ in both)
+            found, slows = Hit(force, found.way, left), max(rate for _, rate in both) * moved / mass
         spent = 1 - math.exp(-2 * hard * cushion.stroke / moved)
         share = {
             "linear": 0.5,
@@ -517,9 +524,30 @@ class Statics:
             "buffer_force": found.force / given["count"],
             "buffer_stroke": found.way,
             "buffer_speed_left": found.left,
-            "buffer_deceleration": (found.force - push) / mass,
+            "buffer_deceleration": slows,
             "phi7": 1.25 + 0.7 * max(share - 0.5, 0.0),
         }
+
+    def _turned(
+        self, scene: dict[str, Any], cushion: Cushion, hook: float, share: float, speed: float, push: float
+    ) -> tuple[Hit, float]:
+        """With the hook in one place: the bridge an even rod about its centre, the trolley a point."""
+        rim, wheel = self.ratio / self.radius, self.wheel / self.radius**2
+        rails = [sum(many for corner, many in self.driven.items() if corner[0] == rail) for rail in "AB"]
+        driven = [many / sum(rails) for many in rails]
+        rotors = self.rotors * rim**2 * self.eta + sum(rails) * wheel
+        parts = [(self.bridge, self.centre / self.span, 1 / 12), (self.trolley, hook / self.span, 0.0)]
+        guided = scene["suspension"] == "guided"
+        parts += [(self.hanging(scene) * guided, hook / self.span, 0.0)]
+        for rail in (0, 1):
+            parts += [((2 * self.per_corner - rails[rail]) * wheel + rotors * driven[rail], float(rail), 0.0)]
+        swings = (
+            share**2 * self.hanging(scene) * (not guided),
+            hook / self.span,
+            G / number(self.data["suspension"]["length"]),
+        )
+        pushes = (push * driven[0], push * driven[1])
+        return turned(cushion, [(share * m, x, s) for m, x, s in parts], pushes, swings, speed)
 
     # -- rail ------------------------------------------------------------------------------------------------
 

@@ -16,6 +16,7 @@ from ptmcalc.machines.chain_drive.figures import FIGURES
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.relations import RELATIONS
 from ptmcalc.machines.chain_drive.solvers import SOLVERS
 from ptmcalc.machines.chain_drive.spec import ChainDrive
 
@@ -91,6 +92,7 @@ KIND = MachineKind(
     examples=examples_in(__package__),
     assumed=assumptions,
     parts=parts,
+    relations=RELATIONS,
     inspect=inspect,
     seconding=witnesses_in(__package__),
 )

@@ -31,7 +31,8 @@ def _profile_key(spec: ChainDrive, scene: Start) -> KeyPath:
     """What makes a start quick or slow: the time of its profile, else the torque."""
     if not scene.profile.imposes_speed or spec.scenes is None:
         return torque_key(spec)
-    return ("scenes", list(spec.all_scenes).index(scene), "profile", scene.profile.time_key)
+    index = [one.label for one in spec.all_scenes].index(scene.label)
+    return ("scenes", index, "profile", scene.profile.time_key)
 
 
 def _profile_repair(spec: ChainDrive, scene: Start) -> KeyPath:
@@ -62,7 +63,8 @@ WEAK: Check[ChainDrive, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec),
     repair=_torque_repair,
-    what="The mean starting force at the chain exceeds what resists at the start, or what an imposed speed asks for.",
+    what="The mean starting force at the chain, or along a motor's curve the smallest up to nine tenths of the rated"
+    " speed, exceeds what resists at the start, or what an imposed speed asks for.",
     why="A motor that does not move the chain burns, or trips its overload relay.",
     formula="M i eta/R >= W_start                     torque\nM i eta/R >= W_start + (m + m_drive) a    speed",
     source="Newton's law; resistance at the start 1.2 to 1.5 times that in motion by practice",

@@ -224,13 +224,31 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
 
 
 def _hold_limit(spec: ChainDrive, scene: Hold) -> Estimate:
-    """Torque the backstop may be asked for: rated torque over the reserve; none without a backstop.
+    """Torque that the backstop with its reserve and the closed brake hold on the sprocket shaft.
 
-    **Range** a chain at rest with its drive off.
-    **Error** none: a chosen reserve.
+        M_backstop/reserve + M_brake i,   i = 1 for a brake on the sprocket shaft
+
+    **Range** a chain at rest with its drive off: its brake is closed then.
+    **Error** none: a chosen reserve; the losses of the gear, which help to hold, are left out.
     **Source** practice: reserve 1.25 to 1.75.
     """
-    return Estimate.exact(spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0)
+    return Estimate.exact((spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0) + _closed(spec))
+
+
+def _closed(spec: ChainDrive) -> float:
+    """Torque of the closed brake on the sprocket shaft [N*m]; none on a motor without its gear in the file."""
+    if spec.brake is None:
+        return 0.0
+    if spec.brake.shaft == "sprocket":
+        return spec.brake.torque
+    return spec.brake.torque * spec.drive.gear.ratio if spec.drive is not None else 0.0
+
+
+def _hold_key(spec: ChainDrive) -> KeyPath:
+    """The torque of the backstop, else of the closed brake, else where a backstop would stand."""
+    if spec.backstop is not None:
+        return ("backstop", "torque")
+    return ("brake", "torque") if _closed(spec) > 0 else ("backstop",)
 
 
 HELD: Check[ChainDrive, Hold] = Check(
@@ -241,11 +259,11 @@ HELD: Check[ChainDrive, Hold] = Check(
     sense=Sense.AT_MOST,
     limit=_hold_limit,
     needs=no_needs,
-    blame=lambda spec, scene, loads: ("backstop", "torque") if spec.backstop else ("backstop",),
-    repair=lambda spec, scene: ("backstop", "torque") if spec.backstop else (),
-    what="What pulls the loaded chain back is held by friction, or by the backstop with its reserve.",
+    blame=lambda spec, scene, loads: _hold_key(spec),
+    repair=lambda spec, scene: _hold_key(spec) if len(_hold_key(spec)) > 1 else (),
+    what="What pulls the loaded chain back is held by friction, the backstop with its reserve, and the closed brake.",
     why="A conveyor that runs back buries its tail, turns the motors backward and tears its flights off.",
-    formula="(q_G g H - W_friction at its lowest) R <= M_backstop/reserve",
+    formula="(q_G g H - W_friction at its lowest) R <= M_backstop/reserve + M_brake i",
     source="lecture notes Kramatorsk 2007",
 )
 

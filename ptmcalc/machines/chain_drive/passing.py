@@ -229,7 +229,8 @@ def _motion(case: StartCase) -> Motion:
             marks,
         )
     if shape == start_profile.STEP:
-        return (
+        return _brought_to_speed(
+            case,
             lambda t: np.asarray(a * t**2 / 2),
             lambda t: np.asarray(a * t),
             lambda t: np.full_like(t, a),
@@ -245,7 +246,29 @@ def _motion(case: StartCase) -> Motion:
     def acceleration(t: FloatArray) -> FloatArray:
         return np.asarray(force * start_profile.rise(shape, t_s, t + held) - resistance)
 
-    return _way(speed, case.window), speed, acceleration, tuple(mark - held for mark in marks if mark > held)
+    kinks = tuple(mark - held for mark in marks if mark > held)
+    return _brought_to_speed(case, _way(speed, case.end), speed, acceleration, kinks)
+
+
+def _brought_to_speed(
+    case: StartCase,
+    way: Callable[[FloatArray], FloatArray],
+    speed: Callable[[FloatArray], FloatArray],
+    acceleration: Callable[[FloatArray], FloatArray],
+    kinks: tuple[float, ...],
+) -> Motion:
+    """A motion that goes on evenly once the chain has its speed."""
+    end, v = case.end, case.line.speed
+
+    def ways(t: FloatArray) -> FloatArray:
+        return np.asarray(way(np.minimum(t, end)) + v * np.maximum(np.asarray(t) - end, 0.0))
+
+    return (
+        ways,
+        lambda t: np.asarray(np.where(np.asarray(t) < end, speed(np.minimum(t, end)), v)),
+        lambda t: np.asarray(np.where(np.asarray(t) <= end, acceleration(np.minimum(t, end)), 0.0)),
+        (*(kink for kink in kinks if kink < end), end),
+    )
 
 
 def _way(speed: Callable[[FloatArray], FloatArray], window: float) -> Callable[[FloatArray], FloatArray]:

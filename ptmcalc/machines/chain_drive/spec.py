@@ -248,7 +248,8 @@ class ChainDrive(MachineSpec):
     checks: ChainChecks = ChainChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a loaded run when left out, and a loaded start where the drive is given"""
+    """what happens to the machine; when left out a run, and a start where the drive is given, of conveyors loaded and
+    empty"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -266,7 +267,11 @@ class ChainDrive(MachineSpec):
     def all_scenes(self) -> Sequence[ChainScene]:
         if self.scenes is not None:
             return _followed(self, self.scenes)
-        return _followed(self, (Run(), Start()) if self.drive is not None else (Run(),))
+        loads: tuple[Literal["full", "empty"], ...] = (
+            ("full",) if isinstance(self.layout, TwoShafts) else ("full", "empty")
+        )
+        runs = tuple(Run(load=load) for load in loads)
+        return _followed(self, (*runs, *(Start(load=load) for load in loads)) if self.drive is not None else runs)
 
     @property
     def settings(self) -> ChainChecks:

@@ -30,9 +30,12 @@ from ptmcalc.numerics.mode_sum import Course
 _LIGHT = 1e-12
 """Mass of the slack strand between two shafts over that of the tight one: it only gives way, and is not 0."""
 _PERIODS = 1.5
-"""Window of a start at an imposed speed behind its end, in periods of the lowest mode."""
+"""Window behind the end of a profile of speed or the moment at which a torque has brought the chain to speed, in
+periods of the lowest mode."""
 _SEEN = 200
 """Samples of a speed over time."""
+UP_TO = 0.9
+"""Part of the rated speed up to which the motors must exceed the resistance: beyond it, their curve falls to it."""
 _CURVE = 2000
 """Steps of speed along a motor's curve."""
 
@@ -113,6 +116,8 @@ class StartCase:
     losses: float
     acceleration: float
     held: float
+    end: float
+    """from the release until the rigid body has the rated speed; from then on the drive pulls what the chain resists"""
     window: float
     follows_curve: bool
 
@@ -131,20 +136,28 @@ class StartCase:
         """Of the start of the rigid body, from switching on [s]; infinite where it cannot move."""
         if not self.moves:
             return math.inf
-        return self.rise_time if self.imposed_speed else self.held + self.window
+        return self.rise_time if self.imposed_speed else self.held + self.end
 
     def phases(self, lowest_frequency: float) -> tuple[start_profile.Phase, ...]:
         """Bounds on the answer of every mode of at least this frequency [rad/s], relative to that of the rigid body.
 
         Of a torque that rises through the resistance only the part above it acts, and only until the rated speed is
         reached: a part of a ramp is a ramp, a part of anything else is only known to rise. A resistance that drives
-        acts at once.
+        acts at once. When the chain has its speed the part above the resistance ends at once: a mode then swings freely
+        by no more than it strayed before and the share that ends.
         """
         if not self.moves:
             return (start_profile.Phase(0.0, 0.0, 0.0),)
-        if self.imposed_speed or self.shape == start_profile.STEP:
-            return start_profile.phases(self.shape, self.imposed_speed, self.rise_time, lowest_frequency)
-        rising = min(self.rise_time - self.held, self.window)
+        if self.imposed_speed:
+            return start_profile.phases(self.shape, True, self.rise_time, lowest_frequency)
+        before = self._before_the_end(lowest_frequency)
+        return (*before, start_profile.Phase(0.0, 0.0, 1.0 + max(min(phase.stray, 1.0) for phase in before)))
+
+    def _before_the_end(self, lowest_frequency: float) -> tuple[start_profile.Phase, ...]:
+        """The phases of a torque until the chain has its speed."""
+        if self.shape == start_profile.STEP:
+            return start_profile.phases(self.shape, False, self.rise_time, lowest_frequency)
+        rising = min(self.rise_time - self.held, self.end)
         if self.shape != start_profile.RAMP:
             if self.held > 0 or self.line.static_resistance < 0 or rising < self.rise_time:
                 return (start_profile.Phase(0.0, 1.0, 1.0),)
@@ -164,14 +177,14 @@ class StartCase:
         """The acceleration that its modes follow, over the largest of the rigid body, from the release on."""
         if self.imposed_speed:
             return _of_speed(self.shape, self.rise_time)
-        return _of_torque(self)
+        return _ended(_of_torque(self), self.end)
 
 
 def start_case(spec: ChainDrive, scene: Start) -> StartCase:
     """A start of this chain drive.
 
-    The window of a start by torque ends when the rigid body reaches the rated speed; that of an imposed speed one and a
-    half periods of the lowest mode behind the end of the profile.
+    The window ends one and a half periods of the lowest mode behind the end of a profile of speed, or behind the moment
+    at which a torque has brought the rigid body to the rated speed; `window_factor` of the scene makes it longer.
     """
     line, profile, gear = chain_line(spec, scene, start_factor(spec)), scene.profile, drive_of(spec).gear
     arm = mean_arm(spec)
@@ -181,21 +194,22 @@ def start_case(spec: ChainDrive, scene: Start) -> StartCase:
     loop = light_return(spec, line.masses(0.0 if imposed else drive, imposed))
     available = losses * motor_torque(spec) * gear.ratio / arm
     shape, rise_time = profile.rise, profile.rise_time
-    acceleration = held = window = 0.0
+    acceleration = held = end = window = 0.0
+    after = _PERIODS * 2 * math.pi / loop_bounds.lowest_frequency_bound(loop)
     if imposed:
         acceleration = line.speed * start_profile.peak_rate(shape, rise_time)
-        lowest = loop_bounds.lowest_frequency_bound(loop)
-        window = rise_time + _PERIODS * 2 * math.pi / lowest
+        end, window = rise_time, scene.window_factor * (rise_time + after)
     elif plateau > 0:
         mass = line.moving_mass + drive
         resistance = line.static_resistance
         held = float(start_profile.time_of_share(shape, rise_time, resistance / available))
         needed = mass * line.speed
-        window = float(start_profile.time_to_momentum(shape, rise_time, available, resistance, held, needed))
-        reached = available * float(start_profile.rise(shape, rise_time, held + window))
+        end = float(start_profile.time_to_momentum(shape, rise_time, available, resistance, held, needed))
+        window = scene.window_factor * (end + after)
+        reached = available * float(start_profile.rise(shape, rise_time, held + end))
         acceleration = (reached - line.static_resistance) / mass
     follows = profile.shape == "curve"
-    return StartCase(line, loop, shape, rise_time, imposed, available, losses, acceleration, held, window, follows)
+    return StartCase(line, loop, shape, rise_time, imposed, available, losses, acceleration, held, end, window, follows)
 
 
 def ratios(spec: ChainDrive, scene: ChainScene, frequencies: FloatArray) -> FloatArray:
@@ -285,6 +299,24 @@ def _pieces(
     return Course(np.asarray(times, float), np.asarray(values, float), slope, bend, swing, phase, frequency)
 
 
+def _ended(course: Course, end: float) -> Course:
+    """A course that ends at once."""
+    kept = course.times < end
+
+    def cut(part: FloatArray) -> FloatArray:
+        return np.append(part[kept], 0.0)
+
+    return Course(
+        np.append(course.times[kept], end),
+        cut(course.values),
+        cut(course.slopes),
+        cut(course.bends),
+        cut(course.swings),
+        cut(course.phases),
+        course.frequency,
+    )
+
+
 def _released(held: float, course: Course) -> Course:
     """A course from the release on; until then nothing acts."""
     first = max(int(np.searchsorted(course.times, held, "right")) - 1, 0)
@@ -302,7 +334,8 @@ def _released(held: float, course: Course) -> Course:
 def curve_start(spec: ChainDrive, scene: Start) -> tuple[float, float]:
     """Start time of the rigid body along the curve of its motors, and how far a coarser quadrature is off [s].
 
-    t = integral of dv/a(v),   infinite where the motors cannot bring it to speed
+    t = integral of dv/a(v),   up to nine tenths of the speed where the motors do not exceed the resistance of a start
+    beyond it, and infinite where they do not even there
     """
     curve, gear = drive_of(spec).motor.curve, drive_of(spec).gear
     assert curve is not None
@@ -311,7 +344,10 @@ def curve_start(spec: ChainDrive, scene: Start) -> tuple[float, float]:
     torques = count * curve.torque(speeds / mean_arm(spec) * gear.ratio, np.inf)
     rates = np.array([rigid_acceleration(spec, line, float(torque))[0] for torque in torques])
     if rates.min() <= 0:
-        return math.inf, 0.0
+        most = round(UP_TO * _CURVE / 2) * 2
+        if rates[: most + 1].min() <= 0:
+            return math.inf, 0.0
+        return _simpson(1 / rates[: most + 1], speeds[1]), math.inf
     fine, coarse = _simpson(1 / rates, speeds[1]), _simpson(1 / rates[::2], speeds[2])
     return fine, abs(fine - coarse)
 

@@ -504,7 +504,7 @@ def moved(
     drum (`moved_grip`), `grips` being mu alpha; where it still holds, nothing slips. An imposed speed asks of the
     drives at `asked` ends of the belt a force that both tensions there enter. The mean of all that moves follows
     Newton's law whatever the waves are, so the head's way is off by no more than the belt is stretched, and its time to
-    rest by what a wave of that size makes of its speed:
+    rest by what a wave of that size makes of its speed; a belt that slips on its braked pulley has neither bound:
 
         ds <= change L_loop/EA        dt <= 2 change/(Z |a|),   a the `slowing` of the rigid body [m/s^2]
     """
@@ -515,6 +515,7 @@ def moved(
     least = min(line.impedance(RETURN), line.impedance(CARRY))
     delay = 2 * most / (least * slowing) if slowing > 0 else np.inf
     several = sum(name.startswith("tension_run_off_min[") for name in loads) > 1
+    slips = any(family(name) == "slip_utilisation_max" and one.value > 1 for name, one in loads.items())
 
     def grip(name: str) -> Interval:
         there = change.at_grip if _grips(name, loads) else max(most, change.at_grip)
@@ -530,6 +531,9 @@ def moved(
         kind, value = family(name), estimate.value
         if kind in OF_STOP and value == np.inf:
             continue  # a belt that never stops does so whatever its waves are
+        if kind in OF_STOP and slips:
+            found[name] = anything(name, estimate)  # its brakes hold with what the tension at the pulley allows
+            continue
         if kind in TENSIONS:
             found[name] = Interval(-change.of(name), change.of(name))
         elif kind == "tension_run_off_min":

@@ -1,6 +1,6 @@
 """What the drives pull: their shares in steady motion, their force over a start, the rigid conveyor under it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,6 +24,13 @@ def share(spec: Conveyor) -> Mapping[str, float]:
     forces = {name: drive_force(drive) for name, drive in spec.all_drives.items()}
     whole = sum(forces.values())
     return {name: force / whole for name, force in forces.items()}
+
+
+def same_drives(drives: Iterable[PlacedDrive]) -> bool:
+    """Whether drives differ by the number of their motors only: only then their torques share the pull in steady
+    motion as their mean starting torques do, at equal speed of all pulleys on equal slip lines."""
+    kinds = {(repr(one.motor.model_copy(update={"count": 1})), one.gear.ratio, one.drum.diameter) for one in drives}
+    return len(kinds) <= 1
 
 
 def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:

@@ -19,6 +19,7 @@ from ptmcalc.machines.hoist.effects_winding import LAYER_MAP
 from ptmcalc.machines.hoist.figures import FIGURES
 from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
+from ptmcalc.machines.hoist.relations import RELATIONS
 from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import CREEPING, Hoist
 
@@ -97,5 +98,6 @@ KIND = MachineKind(
     assumed=assumptions,
     inspect=inspect,
     parts=parts,
+    relations=RELATIONS,
     seconding=witnesses_in(__package__),
 )

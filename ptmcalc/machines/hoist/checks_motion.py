@@ -238,7 +238,9 @@ def _released_limit(spec: Hoist, scene: Release) -> Estimate:
 
 
 def _share_key(spec: Hoist, scene: Release) -> KeyPath:
-    return ("scenes", list(spec.all_scenes).index(scene), "share")
+    places = (place for place, one in enumerate(spec.all_scenes) if one.label == scene.label)
+    place = next(places, None)
+    return ("scenes",) if place is None else ("scenes", place, "share")
 
 
 SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(

@@ -9,6 +9,7 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
+from ptmcalc.machines.hoist.after_window import over, ringing_on
 from ptmcalc.machines.hoist.moving import (
     BRAKE,
     DRIVE,
@@ -235,9 +236,9 @@ def with_bars(
         found[name] = Found(Estimate.within(value, bar if bar > 0 or not value else unseen * abs(value)), at)
     weight = case.weight
     for factor, force in (("lift_off_factor", "rope_force_max"), ("bridge_factor", "bridge_force_max")):
-        found[factor] = _over(found[force], weight)
+        found[factor] = over(found[force], weight)
     if not isinstance(scene, Lift):
-        found["rope_force_share"] = _over(found["rope_force_min"], weight)
+        found["rope_force_share"] = over(found["rope_force_min"], weight)
     return _named_by_scene(scene, found)
 
 
@@ -281,14 +282,6 @@ def _with_a_hook(found: dict[str, Found], case: Case) -> dict[str, Found]:
     return doubt
 
 
-def _over(force: Found, weight: float) -> Found:
-    one = force.estimate
-    return Found(
-        Estimate(one.value / weight, one.low / weight, one.high / weight, one.numerical / weight, one.model / weight),
-        force.at,
-    )
-
-
 def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> float:
     """Largest difference of loads of one kind, over the largest of them."""
     size = max((abs(own[name][0]) for name in kind if name in apart), default=0.0)
@@ -328,8 +321,14 @@ def result(scene: Moving, case: Case, level: int) -> Result:
             break
         case = replace(case, window=2 * case.window)
         course = play(case, tolerance)
+    while isinstance(scene, Lift) and (longer := until_lifted(case, lift_off_time(course))):
+        if math.isfinite(first_event(course, DRIVE, "started")):  # the limiter ends the lift
+            break
+        case = replace(case, window=longer)
+        course = play(case, tolerance)
     others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
     found = loads(scene, course, others)
+    found = ringing_on(case, course.system, course.record, found)
     if case.left_weight <= LEAST_LEFT * case.weight:
         found = _with_a_hook(found, case)
     if isinstance(scene, Release) and scene.manner == "slow":
@@ -432,6 +431,17 @@ def tripped_early(scene: Moving) -> list[Failure]:
     """A limiter that trips before the load leaves the ground."""
     reason, hint = "the limiter trips before the load leaves the ground", "a larger factor or delay of the limiter"
     return [Failure("HST121", reason, ("limiter", "factor"), hint)]
+
+
+def until_lifted(case: Case, lifted: float) -> float:
+    """Longer window of a lift that ends before the load has left the ground, or before it has oscillated after that;
+    0 where the window is long enough [s]."""
+    if case.weak or case.window >= LONGEST:
+        return 0.0
+    if math.isinf(lifted):
+        return min(2 * case.window, LONGEST)
+    needed = min(lifted + case.ringing, LONGEST)
+    return needed if needed > case.window * (1 + 1e-9) else 0.0
 
 
 def outlasts(case: Case) -> bool:

@@ -90,6 +90,8 @@ class Case:
     """whether the scene is a stop whose brake is stronger than the load"""
     weak: bool
     """whether the scene is a lift by a drive whose largest force is less than the load's"""
+    ringing: float = 0.0
+    """time to observe after the last event [s]"""
 
     def named(self, what: str, name: str) -> int | None:
         """Index of a body, link, mesh, grip or drive of this name."""
@@ -209,7 +211,7 @@ class _Builder:
             drives=tuple(self._drives()),
             guides=tuple(self._guides()),
         )
-        window = self._window(train)
+        window, ringing = self._window(train)
         losses = lowering_efficiency(self.spec) if self.way < 0 else 1 / hauling_efficiency(self.spec)
         even = self.held_weight * self.arm * losses
         stiffness = self._hook_stiffness
@@ -219,7 +221,18 @@ class _Builder:
         holds = isinstance(scene, Stop | LowerBrake) and held is not None and held.reserve > 1
         weak = self.lifts and self._most_force < self.weight
         return Case(
-            train, window, self.held_weight, self.weight, stiffness, even, lowers, self.stops, drop, holds, weak
+            train,
+            window,
+            self.held_weight,
+            self.weight,
+            stiffness,
+            even,
+            lowers,
+            self.stops,
+            drop,
+            holds,
+            weak,
+            ringing,
         )
 
     @property
@@ -437,14 +450,18 @@ class _Builder:
 
     # -- how long -----------------------------------------------------------------------------------------------
 
-    def _window(self, train: Train) -> float:
-        """How long the scene is looked at [s]: until the rigid hoist has its speed or stands, and six periods more of
-        the slowest vibration, as a peak lies within the first."""
+    def _window(self, train: Train) -> tuple[float, float]:
+        """Window of the scene, and its part after the last event [s].
+
+        The rigid hoist has its speed or stands, then follow six periods of the slowest vibration, as a peak lies within
+        the first; times the `window_factor` of the scene.
+        """
         slowest = float(frequencies(train).min(initial=math.inf))
         free = math.sqrt(self._hook_stiffness / self.mass)
         ringing = _PERIODS * 2 * math.pi / min(slowest, free)
         before = self._until_lift_off() if self.lifts else self._rigid_time()
-        return min(before + ringing, LONGEST)
+        factor = self.scene.window_factor
+        return min(factor * (before + ringing), LONGEST), factor * ringing
 
     def _until_lift_off(self) -> float:
         """Time in which the slack is run out and the rope tightened [s], or the drive has come to rest."""

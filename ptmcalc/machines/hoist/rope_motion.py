@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -187,6 +187,13 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
             break
         window *= 2
         course = play(spec, scene, rope, window, finer)
+    while isinstance(scene, Lift) and not math.isfinite(course.played.slack_at):
+        longer = motion.until_lifted(replace(case, window=window), course.first("lift"))
+        if not longer or math.isfinite(course.first("trip")):
+            break
+        window = longer
+        course = play(spec, scene, rope, window, finer)
+    case = replace(case, window=window)
     other = play(spec, scene, rope, window, _COMPARED * finer)
     own, beside = readings(scene, case, course), readings(scene, case, other)
     found = motion.with_bars(scene, case, own, [beside], _UNSEEN)

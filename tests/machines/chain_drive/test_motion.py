@@ -139,8 +139,15 @@ class TestStart:
         needed = numbers.resistance(1.2)[2]
         eta = 0.1 / first_frequency(numbers)
 
+        mass = numbers.drive_mass(numbers.eta) + numbers.moving
+        ticks = np.linspace(0.0, found.window[1], 200001)
+        pull = np.array([max(available * rise(t) - needed, 0.0) for t in ticks])
+        speeds = np.concatenate([[0.0], np.cumsum((pull[1:] + pull[:-1]) / 2) * ticks[1]]) / mass
+        at_speed = float(np.interp(numbers.speed, speeds, ticks))
+
         def force(t: float) -> float:
-            return max(available * rise(t) - needed, 0.0)
+            """What the motors pull above the resistance, until the chain has its speed."""
+            return max(available * rise(t) - needed, 0.0) if t < at_speed else 0.0
 
         pieces = 60
         tensions = stepped(numbers, numbers.drive_mass(numbers.eta), force, found.window[1], pieces, 1500, eta)
@@ -179,23 +186,31 @@ class TestStart:
         excess = numbers.eta * numbers.torque * numbers.ratio / numbers.arm - numbers.resistance(1.2)[2]
         a, half = excess / (drive + numbers.moving), math.pi / numbers.teeth
         radius, window = numbers.pitch / 2 / math.sin(half), found.window[1]
+        at_speed, gained = numbers.speed / a, numbers.speed**2 / a / 2
         peaks = []
         for lead in (0.0, 0.25, 0.5, 0.75):
             state, now, tooth, most = np.zeros(2 * n), 0.0, 0, 0.0
             while now < window - 1e-12:
-                end = min(math.sqrt(2 * (tooth + 1 - lead) * numbers.pitch / a), window)
+                way = (tooth + 1 - lead) * numbers.pitch
+                speeds_up = now < at_speed - 1e-12
+                engages = math.sqrt(2 * way / a) if way < gained else at_speed + (way - gained) / numbers.speed
+                end = min(engages, at_speed if speeds_up else window)
 
-                def motion(t: float, y: np.ndarray, tooth: int = tooth, lead: float = lead) -> np.ndarray:
-                    phi = 2 * half * (a * t * t / 2 / numbers.pitch + lead - tooth - 0.5)
-                    moved = radius * (a / numbers.arm * math.cos(phi) - (a * t / numbers.arm) ** 2 * math.sin(phi)) - a
+                def motion(
+                    t: float, y: np.ndarray, tooth: int = tooth, lead: float = lead, speeds_up: bool = speeds_up
+                ) -> np.ndarray:
+                    rate, speed = (a, a * t) if speeds_up else (0.0, numbers.speed)
+                    gone = a * t * t / 2 if speeds_up else gained + numbers.speed * (t - at_speed)
+                    phi = 2 * half * (gone / numbers.pitch + lead - tooth - 0.5)
+                    turned = rate / numbers.arm * math.cos(phi) - (speed / numbers.arm) ** 2 * math.sin(phi)
                     force = -(k @ (y[:n] + eta * y[n:]))
-                    force[0] += excess + drive * moved
+                    force[0] += (excess if speeds_up else 0.0) + drive * (radius * turned - rate)
                     return np.concatenate([y[n:], force / m])
 
                 run = solve_ivp(motion, (now, end), state, "DOP853", np.linspace(now, end, 60), rtol=1e-7, atol=1e-11)
                 tensions = rows[:2] @ (run.y[:n] + eta * run.y[n:])
                 most = max(most, float((1.5 * tensions[0] - 0.5 * tensions[1]).max()))
-                state, now, tooth = run.y[:, -1], end, tooth + 1
+                state, now, tooth = run.y[:, -1], end, tooth + (end == engages)
             peaks.append(most)
         estimate = found.loads["tension_dynamic_start"].estimate
         assert estimate.value == pytest.approx(max(peaks), rel=0.03)

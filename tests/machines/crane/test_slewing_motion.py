@@ -156,12 +156,12 @@ def test_a_given_start_at_the_limit_is_decided(start: dict[str, str]) -> None:
 
 
 def test_a_curve_that_ends_below_the_speed_leaves_nothing_undecided() -> None:
-    """The mean would start the crane, and no solver can bring it to its speed: that is the verdict."""
+    """The mean would start the crane, and the curve does not bring it to its speed: that is the verdict."""
     curve = {"type": "linear", "starting_torque": "40 N*m", "no_load_speed": "880 rpm"}
     report = report_of(changed(YARD, motor__mean_starting_torque=None, motor__curve=curve))
     verdicts = {judgement.code: judgement.verdict.value for _, judgement in report.judgements}
     assert verdicts["CRN118"] == "fail"
-    assert verdicts["CRN101"] == "pass"
+    assert verdicts["CRN101"] == "fail"
     assert "undecided" not in verdicts.values()
 
 

@@ -36,7 +36,7 @@ def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> 
     if case.shape != start_profile.STEP:
         times = np.linspace(0.0, case.rise_time, _POINTS)
     forces = case.available * start_profile.rise(case.shape, case.rise_time, times)
-    window = _WINDOWS * case.duration
+    window = _WINDOWS * case.duration * scene.window_factor
     found = two_mass_start(
         drive, load, float(w[0]) ** 2 * reduced, damping, case.line.static_resistance, times, forces, window
     )

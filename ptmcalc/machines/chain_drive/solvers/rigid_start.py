@@ -13,6 +13,7 @@ from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_iner
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
 from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, rigid_tensions
 from ptmcalc.machines.chain_drive.starting import (
+    UP_TO,
     StartCase,
     curve_start,
     drive_of,
@@ -78,12 +79,10 @@ def least_force(spec: ChainDrive, case: StartCase) -> float:
     curve, gear = drive_of(spec).motor.curve, drive_of(spec).gear
     if not case.follows_curve or curve is None:
         return case.available
-    speeds = np.linspace(0.0, _UP_TO * case.line.speed, _SPEEDS) / mean_arm(spec) * gear.ratio
+    speeds = np.linspace(0.0, UP_TO * case.line.speed, _SPEEDS) / mean_arm(spec) * gear.ratio
     return case.available * float(curve.torque(speeds, np.inf).min()) / drive_of(spec).motor.mean_torque
 
 
-_UP_TO = 0.9
-"""Part of the rated speed up to which the motors must exceed the resistance: beyond it, their curve falls to it."""
 _SPEEDS = 181
 """Speeds at which the curve is evaluated: steps of half a percent of the rated speed."""
 
@@ -98,7 +97,9 @@ def _start_time(spec: ChainDrive, scene: Start, case: StartCase) -> Estimate:
     if not case.follows_curve:
         return Estimate.exact(case.duration)
     time, off = curve_start(spec, scene)
-    return Estimate.exact(time) if math.isinf(time) else Estimate.within(time, off)
+    if math.isinf(time):
+        return Estimate.exact(time)
+    return Estimate(time, time, math.inf, math.inf) if math.isinf(off) else Estimate.within(time, off)
 
 
 _GIVES = frozenset(

@@ -9,7 +9,7 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Finding, Found, History, Result
+from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
@@ -70,7 +70,7 @@ def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int
     whole = loop_bounds.quasi_static(case.masses, CARRY, np.ones(1))
     modes = Modes(w, ratios(spec, scene, w), whole[None, :], whole, np.zeros(1))
     peaks = mode_sum(modes, case.course, case.window)
-    dynamic = _largest(case, peaks, 0)
+    dynamic = _ever(_largest(case, peaks, 0), later(case, modes))
     at = {"time": case.held + float(peaks.largest_time[0])}
     loads = loads_of(spec, case, dynamic, None)
     return Result(
@@ -79,6 +79,43 @@ def one_mode(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int
         window=(0.0, case.held + case.window),
         histories=lambda: {"tension_start": course_of(case, modes, case.line.run_on, at["time"])},
     )
+
+
+def later(case: StartCase, modes: Modes) -> FloatArray:
+    """Most by which what still swings at the end of the window moves the tension at each place ever after [N].
+
+        a (sum |M_k| g_k d_k + rest g),   d = exp(-zeta w t)/sqrt(1 - zeta^2) of the start, at most 1
+
+    g_k are all kicks of the course (`mode_sum.kicks`), t the time since the last one, after which nothing drives the
+    modes. One near critical damping or beyond it falls as (1 + s t) exp(-s t), s = w/(2 zeta).
+    """
+    jumps, variation = kicks(case.course, case.window)
+    w, zeta, since = modes.frequencies, modes.damping_ratios, case.window - float(case.course.times[-1])
+    slow = w * since / (2 * np.maximum(zeta, _NEARLY_CRITICAL))
+    swings = np.minimum(zeta, _NEARLY_CRITICAL)
+    decay = np.where(
+        zeta < _NEARLY_CRITICAL,
+        np.minimum(np.exp(-swings * w * since) / np.sqrt(1 - swings**2), 1.0),
+        (1 + slow) * np.exp(-slow),
+    )
+    left = np.abs(modes.gains).T @ (decay * (jumps + variation / w))
+    return np.asarray(case.acceleration * (left + modes.left_out * (jumps + variation / w[-1])))
+
+
+_NEARLY_CRITICAL = 0.9
+"""Damping ratio from which on the envelope of an oscillation is no close bound."""
+
+
+def _ever(dynamic: Estimate, after: FloatArray) -> Estimate:
+    """A largest dynamic tension with what may still come behind the window."""
+    more = max(float(after.max()) - dynamic.high, 0.0)
+    return replace(dynamic, high=dynamic.high + more, model=dynamic.model + more)
+
+
+def _never_below(smallest: Estimate, after: float) -> Estimate:
+    """A smallest tension with what may still come behind the window."""
+    less = max(smallest.low - after, 0.0)
+    return replace(smallest, low=smallest.low - less, model=smallest.model + less)
 
 
 def _largest(case: StartCase, peaks: Peaks, place: int) -> Estimate:
@@ -124,8 +161,12 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
     count = felt(spec, scene, case, _SECTIONS << level)
     sections = sections_of(case, count)
     along = peaks_at(spec, scene, case, count, sections)
-    dynamic = _largest(case, at_drive, 0)
+    dynamic = _ever(_largest(case, at_drive, 0), later(case, modes_at(spec, scene, case, many, at_end)))
     smallest, where, which = extreme_anywhere(case, along, sections, count)
+    after = later(case, modes_at(spec, scene, case, count, sections))
+    static = np.concatenate([static_at(case, strand, x) for strand, x in sections])
+    smallest = _never_below(smallest, float((static - after).min()) - case.acceleration * _between_sections(
+        case, sections, count))  # fmt: skip
     at = {"time": case.held + float(at_drive.largest_time[0])}
     loads = {name: Found(load, at) for name, load in loads_of(spec, case, dynamic, None).items()}
     loads["tension_min"] = Found(smallest, where)
@@ -139,12 +180,12 @@ def waves(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
             "tension_min": course_at(spec, scene, case, count, one_section(sections, which), where["time"]),
         },
     )
-    return beyond_slack(spec, found)
+    return beyond_slack(spec, found, "CHN123")
 
 
-def beyond_slack(spec: ChainDrive, result: Result) -> Result:
-    """The result, or what is left of it where the chain may go slack: how low it would come, and a finding where it
-    surely does. What a chain does that is caught again is not known."""
+def beyond_slack(spec: ChainDrive, result: Result, check: str) -> Result:
+    """The result, or what is left of it where the chain may go slack: how low it would come, and a failure of a check
+    (without one, a finding) where it surely does. What a chain does that is caught again is not known."""
     low = result.loads["tension_min"]
     if low.estimate.low >= 0:
         return result
@@ -155,14 +196,14 @@ def beyond_slack(spec: ChainDrive, result: Result) -> Result:
     if low.estimate.high >= 0:
         return replace(result, loads=loads)
     where = tension_key(spec)
-    finding = Finding(
-        "NUM102",
-        f"the chain goes slack at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the run-off; what is said"
-        " of the time after that is not trusted",
-        where,
-        f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut",
+    message = (
+        f"the chain goes slack: its tension is lowest at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the"
+        " run-off"
     )
-    return replace(result, loads=loads, findings=(finding,))
+    hint = f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut"
+    if not check:
+        return replace(result, loads=loads, findings=(Finding("NUM102", message, where, hint),))
+    return replace(result, loads=loads, failures=(Failure(check, message, where, hint),))
 
 
 Sections = tuple[tuple[int, FloatArray], ...]

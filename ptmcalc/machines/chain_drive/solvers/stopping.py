@@ -142,7 +142,10 @@ def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
         which = [one.value for one, _ in lows].index(smallest.value)
         return {"tension_min": course_at(spec, scene, *courses[which], where["time"])}
 
-    return beyond_slack(spec, Result(loads, work=work, window=(0.0, case.rest()[0]), histories=histories))
+    check = (
+        "CHN127" if isinstance(spec.layout, ConveyorLayout) else ""
+    )  # the other strand takes over between two shafts
+    return beyond_slack(spec, Result(loads, work=work, window=(0.0, case.rest()[0]), histories=histories), check)
 
 
 _MODES = 24

@@ -257,7 +257,7 @@ def started(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int)
         }
 
     window = (0.0, case.held + case.window)
-    return beyond_slack(spec, Result(loads, work=found.work, window=window, histories=histories))
+    return beyond_slack(spec, Result(loads, work=found.work, window=window, histories=histories), "CHN123")
 
 
 def _lowest(

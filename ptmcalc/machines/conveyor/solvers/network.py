@@ -4,7 +4,7 @@ Bars come from three grids, each with twice the cells of the one before (`cell_b
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,10 +18,12 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds, cell_bars, deep_sag
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
+from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.kept import Kept
-from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import (
     FloatArray,
     belt_line,
@@ -42,10 +44,10 @@ _MORE = 1.25
 """Factor by which a window that was too short grows at least."""
 _CONTOURS_AT_REST = 3.0
 """Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
-_NO_CHANGE = 1e-6
-"""Deceleration of the belt in a contour time, relative to its rated speed, below which it does not slow down."""
-_MOST_SECONDS = 60.0
-"""Predicted seconds of one march: what a scene may cost by default."""
+_HOUR = 3600.0
+"""Time in which a belt must have come to rest to count as stopped [s], as in the check of the stopping time."""
+_MOST_SECONDS = 2.5
+"""Predicted seconds of the march on the finest grid: what a scene may cost by default."""
 _WORTH = 0.015
 """Belt speed over that of its slowest wave from which on a plain start is worth simulating in cells."""
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
@@ -74,6 +76,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
+    failures, open_end = tuple(_failures(case, drawn, ready)), _open_end(case, drawn, slipping)
+    if _unfinished(case, drawn):
+        loads = _so_far(case, loads, runs)
     return Result(
         loads,
         work=sum(part.work for part in runs),
@@ -82,9 +87,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         findings=tuple(findings),
         events=tuple(_events(drawn, ready)),
         histories=lambda: _histories(case, drawn, ready),
-        failures=tuple(_failures(case, drawn, ready)),
+        failures=failures,
         beyond={name: Interval(0.0, math.inf) for name in loads if slipping and family(name) in SLIPS},
-        open_end=f"belt at {drawn.head[-1].belt:.3g} of {case.line.speed:.3g} m/s, a pulley slips" if slipping else "",
+        open_end=open_end,
     )
 
 
@@ -156,27 +161,28 @@ def _computed(
     case: Moving, carried: frozenset[str], level: int, whole: bool = True
 ) -> tuple[dict[str, Found], list[_March]]:
     """Loads from three grids with their bars, and what the belt did on each."""
-    coarsest, coarse, fine = runs = [_marched(case, carried, cells, whole) for cells in _grids(case.scene, level)]
+    few, some, many = _grids(case.scene, level)
+    coarsest = _marched(case, carried, few, whole, many)
+    if whole and _unfinished(case, coarsest.drawn):
+        case, whole = replace(case, window=float(coarsest.drawn.times[-1])), False
+    coarse, fine = (_marched(case, carried, cells, whole, many) for cells in (some, many))
+    runs = [coarsest, coarse, fine]
     front = cell_bars.front_at(fine.drawn) if _jumps(case.scene) else 0.0
     bars = cell_bars.bars(case, (coarsest.loads, coarse.loads, fine.loads), front)
     found = {name: Found(_estimate(name, value, bars[name]), place) for name, (value, place) in fine.values.items()}
     return found, runs
 
 
-def _marched(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> _March:
-    """The march on one grid, made now or kept from before."""
+def _marched(case: Moving, carried: frozenset[str], cells: int, whole: bool, most: int) -> _March:
+    """The march on one grid, made now or kept from before; the finest grid of its kind has `most` cells."""
     causes = cells, carried, whole, *_causes(case)
-    drawn, ready, work = _KEPT.of(causes, lambda: _once(case, carried, cells, whole))
+    drawn, ready, work = _KEPT.of(causes, lambda: _once(case, carried, cells, whole, most))
     return _March(loads_of(case, drawn, ready), drawn, ready, work)
 
 
-def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tuple[Drawn, Set, int]:
-    """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips, or until
-    it is known that it never does.
-
-    Raises:
-        NumericsError: NUM103, the stop takes more work than a scene may cost.
-    """
+def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool, most: int) -> tuple[Drawn, Set, int]:
+    """A march on one grid; of the `whole` scene until a belt that comes to rest has done so, whatever slips, until it
+    is known that it never does, or until the finest grid would take more work than a scene may cost."""
     work = 0
     starts = isinstance(case.scene, Start) and case.imposed is None and "slip" in carried
     usual = case.window
@@ -188,51 +194,104 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool) -> tup
         parts = ready.course, ready.head, ready.tail, ready.tension
         drawn = march(*parts, case.speed, case.window, still, ready.give, ready.travel)
         work += drawn.updates
-        rests = case.brings_to_rest and math.isfinite(case.rigid_time)
-        if not (whole and rests) or any(seen.belt <= 0 for seen in drawn.head):
+        if not whole or not _unfinished(case, drawn):
             return drawn, ready, work
-        left = time_to_rest(case, drawn)
-        if math.isinf(left):
-            return drawn, ready, work
+        left = _time_to_rest(case, drawn)
         longer = max(_MORE * case.window, case.window + left + _CONTOURS_AT_REST * case.line.contour_time)
-        seconds = _seconds(longer, case, carried, cells)
-        if seconds > _MOST_SECONDS:
-            reason = f"the belt still runs after {case.window:.3g} s and takes about {left:.3g} s more to stop"
-            raise NumericsError("NUM103", f"{reason}: more work than a scene may cost", seconds)
+        if math.isinf(longer) or _seconds(longer, case, carried, most) > _MOST_SECONDS:
+            return drawn, ready, work
         case = replace(case, window=longer)
 
 
-def time_to_rest(case: Moving, drawn: Drawn) -> float:
-    """Time that a belt which still runs at the end of a march takes to come to rest, by its mean deceleration over the
-    last contour time [s]; infinite where it does not decelerate.
+def _unfinished(case: Moving, drawn: Drawn) -> bool:
+    """Whether the belt of a stop that comes to an end as a rigid body still runs at the end of a march."""
+    rests = case.brings_to_rest and math.isfinite(case.rigid_time)
+    return rests and not any(seen.belt <= 0 for seen in drawn.head)
 
-        t = v_2 T/(v_1 - v_2),   v_1 and v_2 the mean speeds at the head in the last but one and the last contour time
 
-    **Range** a stop whose brakes act fully: what is left over is a constant force.
-    **Error** that of the means: waves that go round have the period T.
-    **Source** Newton's law.
-    """
+def _mean_speed(case: Moving, drawn: Drawn, until: float = 1.0) -> float:
+    """Mean speed of the belt at the head over a contour time that ends at a part of the window [m/s]: waves that go
+    round have that period."""
     belt = np.array([seen.belt for seen in drawn.head])
+    end = max(round(until * len(belt)), 1)
     many = max(round(case.line.contour_time / float(drawn.times[1])), 1)
-    if len(belt) < 2 * many:
-        return case.window
-    before, last = float(belt[-2 * many : -many].mean()), float(belt[-many:].mean())
-    slows = before - last
-    return last * case.line.contour_time / slows if slows > _NO_CHANGE * case.speed else math.inf
+    return float(belt[max(end - many, 0) : end].mean())
+
+
+def _time_to_rest(case: Moving, drawn: Drawn) -> float:
+    """Time that a belt which still runs at the end of a march takes to come to rest [s]; infinite where it never does.
+
+        t = M v/(W + T_2 (1 - exp(-mu alpha)) + B_tail)     a pulley that slips, T_2 kept by the take-up
+        t = v_2 (t_2 - t_1)/(v_1 - v_2)                      otherwise, by the means in mid-window and at its end
+
+    **Range** a stop whose brakes act fully: what is left is a constant force.
+    **Error** that of the mean speeds; centrifugal tension at the present speed.
+    **Source** Newton's law for the whole belt; Euler-Eytelwein.
+    """
+    speed = _mean_speed(case, drawn)
+    force = _force_of_grip(case, drawn, speed)
+    if force is not None:
+        mass = moving_mass(case.line) - case.line.drive_mass  # the braked pulley stands
+        return mass * speed / force if force > 0 else math.inf
+    slows = _mean_speed(case, drawn, 0.5) - speed
+    return speed * float(drawn.times[-1]) / 2 / slows if slows > 0 else math.inf
+
+
+def _force_of_grip(case: Moving, drawn: Drawn, speed: float) -> float | None:
+    """Force that slows a belt down which slips on the only pulley at the head [N]; None where that is not known."""
+    line, slips = case.line, drawn.head[-1].slips
+    if line.fixed_length or line.grip_exponent is None or len(slips) != 1 or not slips[0]:
+        return None
+    tight = line.takeup_tension - line.belt_line_mass * speed**2
+    acting = brakes_of(case.spec, case.scene).values()
+    at_tail = sum(braking(case.spec, brake).force for brake in acting if brake.at == "tail")
+    return line.static_resistance + line.tail_pull - tight * math.expm1(-line.grip_exponent) + at_tail
+
+
+def _never_rests(case: Moving, drawn: Drawn) -> bool:
+    """Whether a belt slips on its braked pulley until an hour is over: grip does not exceed the pull of the load."""
+    force = _force_of_grip(case, drawn, _mean_speed(case, drawn))
+    return force is not None and _time_to_rest(case, drawn) > _HOUR
+
+
+def _so_far(case: Moving, loads: Mapping[str, Found], runs: Sequence[_March]) -> dict[str, Found]:
+    """Loads of a stop that is simulated up to a time at which the belt still runs: at least as bad as by then."""
+    drawn = runs[-1].drawn
+    window = float(drawn.times[-1])
+    found = deep_sag.certain(case, loads, loads, window)
+    least = min(_way_so_far(run.drawn) for run in runs)
+    left = math.inf if _never_rests(case, drawn) else _time_to_rest(case, drawn)
+    rest = {"stop_time": (window, window + left)} | dict.fromkeys(
+        ways_of(case.scene), (least, least + _mean_speed(case, drawn) * left / 2)
+    )
+    for name, (low, value) in rest.items():
+        endless = Estimate.exact(math.inf)
+        found[name] = Found(endless if math.isinf(left) else Estimate(value, low, math.inf, numerical=math.inf))
+    return found
+
+
+def _way_so_far(drawn: Drawn) -> float:
+    """Distance of the belt at the head in the window [m]."""
+    belt = np.array([seen.belt for seen in drawn.head])
+    return float((belt[1:] + belt[:-1]).sum()) / 2 * float(drawn.times[1])
+
+
+def _open_end(case: Moving, drawn: Drawn, slipping: bool) -> str:
+    """How a scene stands whose window ends before its motion does."""
+    if not slipping and not _unfinished(case, drawn):
+        return ""
+    how = ", a pulley slips" if slipping or any(drawn.head[-1].slips) else ""
+    return f"belt at {drawn.head[-1].belt:.3g} of {case.line.speed:.3g} m/s{how}"
 
 
 def _failures(case: Moving, drawn: Drawn, ready: Set) -> Iterator[Failure]:
-    """A stop that never comes to an end."""
-    if not case.brings_to_rest or any(seen.belt <= 0 for seen in drawn.head) or math.isinf(case.rigid_time):
+    """A stop that never comes to an end: the grip of the braked pulley does not exceed the pull of the load."""
+    if not _unfinished(case, drawn) or not _never_rests(case, drawn):
         return
     belt, time = drawn.head[-1].belt, float(drawn.times[-1])
-    slipping = [drum.name for drum, sense in zip(ready.head.drums, drawn.head[-1].slips, strict=True) if sense]
-    where = f"slips on the braked pulley `{slipping[0]}`" if slipping else "is not held"
-    reason = f"the belt {where} and does not stop: {belt:.3g} m/s after {time:.3g} s, and it does not slow down"
-    for name in slipping:
-        element = name if len(case.spec.all_drives) > 1 else ""
-        yield Failure("CNV101", reason, ("takeup", "tension"), "more take-up tension", element)
-    for code in ("CNV106", "CNV107"):
+    (drum,) = ready.head.drums
+    reason = f"the belt slips on the braked pulley `{drum.name}` and does not stop: {belt:.3g} m/s after {time:.3g} s"
+    for code in ("CNV101", "CNV106", "CNV107"):
         yield Failure(code, reason, ("takeup", "tension"), "more take-up tension, or a brake on a second pulley")
 
 

@@ -1,17 +1,20 @@
 """Steady running: tensions strand by strand, power, and what tension the belt asks for."""
 
+import math
+from collections.abc import Iterable
+
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, History, Result, of
+from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.contract.result import Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
-from ptmcalc.machines.conveyor.driving import running, share
+from ptmcalc.machines.conveyor.driving import running, same_drives, share
 from ptmcalc.machines.conveyor.forces import filled
-from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.machines.conveyor.static_loads import OF_STATICS, static_loads
@@ -69,7 +72,21 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         course = History(units.FORCE, places.tolist(), tensions.tolist(), units.SPAN)
         return {"tension_max": course, "tension_min": course}
 
-    return Result(found, work=1, histories=histories)
+    beyond = _unshared(spec, found)
+    state = "the slip lines of different motors decide how they share the pull" if beyond else ""
+    return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
+
+
+def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
+    """Loads that depend on how different drives share the pull, without a bound."""
+    drives = spec.all_drives.values()
+    if same_drives(drives):
+        return {}
+    several = {one.at for one in drives} == {"head", "tail"}
+    names = [name for name in found if family(name) in PER_DRIVE and ("[" in name or family(name) in GRIP)] + [
+        name for name in found if several and name in OF_BELT - set(GRIP)
+    ]
+    return {name: Interval(-math.inf, math.inf) for name in names}
 
 
 def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:

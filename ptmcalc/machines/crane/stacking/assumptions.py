@@ -43,6 +43,14 @@ def assumptions(spec: Stacker) -> Iterator[Assumption[Stacker]]:
                 yield from _of_a_drive(key, block.drive)
             if block.drive is not None or block.driving_force is not None:
                 yield _resistance(spec, key)
+            if block.braking_force is not None:
+                yield Assumption(
+                    (key, "braking_delay"),
+                    units.TIME,
+                    lambda spec: 0.0,
+                    lambda spec: Interval(0.0, 0.4),
+                    "brakes released by a thruster close within 0.2 to 0.4 s",
+                )
     if isinstance(spec, OverheadStacker) and spec.rotation is not None:
         tenth = 0.1 * spec.rotation.driving_torque
         yield Assumption(
@@ -81,6 +89,14 @@ def _of_the_hoist(spec: Stacker) -> Iterator[Assumption[Stacker]]:
             lambda spec: ROPE_MODULUS,
             lambda spec: Interval(90e9, 120e9),
             "six-strand ropes on their metallic area: 90 GPa new, 120 GPa after some time (EN 12385)",
+        )
+    if drive is not None and drive.inertia is not None:
+        yield Assumption(
+            ("hoisting", "drive", "gear_efficiency"),
+            units.RATIO,
+            lambda spec: 0.94,
+            lambda spec: Interval(0.85, 0.97),
+            "two to three stages of helical or bevel gears",
         )
     if drive is not None and drive.slope is None and spec.hoisting.catches:
         cab = spec.cab.mass if spec.cab is not None else 0.0

@@ -77,9 +77,18 @@ def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, In
     try:
         told = _either(_offsets(spec, scene, gravity=gravity) for gravity in _weights(spec))
     except NumericsError:
-        return dict.fromkeys(loads, ANYTHING)
+        return _unknown_swing(spec, scene, loads)
     spread = {name: offset for name, offset in told.items() if name in loads}
     return bounds_of_derived(spec, scene, loads, _above_zero(spread, loads))
+
+
+_NOT_OF_THE_SWING = ("natural_frequency", "period", "column_stiffness", "rest_deflection", "starts_ratio")
+
+
+def _unknown_swing(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
+    """Nothing is known of the swing; of the time of the event what momentum says of it."""
+    moved = {name: ANYTHING for name in loads if not name.startswith(_NOT_OF_THE_SWING)}
+    return {**moved, **time_bound(spec, scene, loads)}
 
 
 def _weights(spec: Stacker) -> tuple[bool, ...]:
@@ -243,7 +252,7 @@ def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> dict[str,
     try:
         told |= {name: offset for name, offset in _weighted(spec, scene).items() if name in loads}
     except NumericsError:
-        return dict.fromkeys(loads, ANYTHING)
+        return {**_unknown_swing(spec, scene, loads), **told}
     told |= time_bound(spec, scene, loads)
     return bounds_of_derived(spec, scene, loads, _above_zero(told, loads))
 

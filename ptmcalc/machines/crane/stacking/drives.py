@@ -34,8 +34,6 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, togeth
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 Slope = Annotated[float, Measure(units.DAMPING, above=0)]
-_BRAKE_DELAY = Assumed(0.0, 0.0, 0.4, "brakes released by a thruster close within 0.2 to 0.4 s")
-_GEAR_EFFICIENCY = Assumed(0.94, 0.85, 0.97, "two to three stages of helical or bevel gears")
 ROPE_MODULUS = 105e9
 """Of six-strand ropes on their metallic area [Pa]."""
 Falls = Annotated[int, Field(ge=1, le=64, strict=True)]
@@ -63,7 +61,7 @@ class Travel(Fragment):
     """in which it comes up, in a straight line"""
     braking_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the rims, of a stop by force, without the resistance"""
-    braking_delay: Annotated[Time, _BRAKE_DELAY] = 0.0
+    braking_delay: Annotated[Time | None, Assumed()] = None
     """from switching off until it begins"""
     braking_rise: Annotated[Time, Absent("the interval of the assumed `braking_delay` includes the rise")] = 0.0
     """in which it comes up, in a straight line"""
@@ -191,7 +189,7 @@ class HoistDrive(Fragment):
     """of rotor, coupling and brake, on the motor shaft"""
     ratio: Annotated[PositiveRatio | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")] = None
     """of the gear"""
-    gear_efficiency: Annotated[Efficiency, _GEAR_EFFICIENCY] = 0.94
+    gear_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """from motor to drum"""
     drum_diameter: Annotated[
         PositiveLength | None, OneOf("`reduced_mass`, or `inertia`, `ratio` and `drum_diameter`")

@@ -190,7 +190,7 @@ def stopping(spec: Stacker, scene: StackerScene) -> Push:
     if block.deceleration is not None:
         return Push("ramp", block.deceleration, block.ramp_rise)
     return Push(
-        "force", filled(block.braking_force) + (block.resistance or 0.0), block.braking_rise, block.braking_delay
+        "force", filled(block.braking_force) + (block.resistance or 0.0), block.braking_rise, block.braking_delay or 0.0
     )
 
 
@@ -262,5 +262,5 @@ def hoist_mass(spec: Stacker) -> float:
         return drive.reduced_mass
     rope = spec.hoisting.rope
     travel_per_angle = filled(drive.drum_diameter) / 2 / (filled(drive.ratio) * rope.falls / rope.ropes)
-    efficiency = drive.gear_efficiency * tackle_efficiency(spec)
+    efficiency = filled(drive.gear_efficiency) * tackle_efficiency(spec)
     return filled(drive.inertia) * efficiency / travel_per_angle**2

@@ -28,9 +28,7 @@ SectionModulus = Annotated[float, Measure(units.SECTION_MODULUS, above=0)]
 RootStiffness = Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)]
 Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
-_STEEL = Assumed(
-    STEEL, 200e9, 212e9, "EN 1993-1-1: 210 GPa of structural steel; rolled sections measure 200 to 212 GPa"
-)
+_STEEL = Absent("structural steel, whose modulus EN 1993-1-1 fixes at 210 GPa for every proof")
 _BASE_HEIGHT = Assumed(
     0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"
 )

@@ -361,7 +361,7 @@ TIPS: OneCheck = Check(
     what="About each edge of its wheels the crane is held by more than what tips it, with the partial factors of the"
     " edition (`class.stability`): more on loads, drive forces and wind, less on the weight that helps.",
     why="Equal moments are no proof: weights, loads and wind are not known as well as that.",
-    formula="sum g_h G b / (sum g_o G b' + g_l (m a h + H h_r) + g_w F_w h_w) >= 1",
+    formula="sum k_h G b / (sum k_o G b' + k_l (m a h + H h_r) + k_w F_w h_w) >= 1",
     source="equilibrium; EN 13001-2, ISO 8686-1; FEM 1.001",
 )
 

@@ -87,6 +87,38 @@ def anything_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
     return _anything(loads)
 
 
+def reaction_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where a ramp is kept or nothing hangs on the ropes; else nothing is known without it.
+
+    **Range** every load of a start or a stop.
+    **Error** exact where the load cannot change the motion; else unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    motion = motion_of(spec, scene)
+    return {} if motion.ramp is not None or not motion.load else _anything(loads)
+
+
+def hoisting_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing where the ropes keep their length; else nothing is known without it.
+
+    **Range** every load of a start or a stop.
+    **Error** exact for ropes of constant length; else unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads) if motion_of(spec, scene).hoisting else {}
+
+
+def wind_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
+    """Nothing without wind and slope; else nothing is known without it.
+
+    **Range** every load of a start or a stop.
+    **Error** exact where there are none; else unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    motion = motion_of(spec, scene)
+    return _anything(loads) if motion.outside or motion.on_load or motion.wind else {}
+
+
 def reaction_criterion(spec: Travelling, scene: Moving) -> Criterion:
     """Load over what a torque has to move besides it; 0 for a drive that keeps to a ramp.
 
@@ -309,9 +341,9 @@ def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:
 
 EFFECTS_OF_TRAVEL: tuple[AnyEffect, ...] = (
     Effect(SWAY, "swing of the load", MOVING_SCENES, sway_criterion, anything_bound),
-    Effect(REACTION, "pull of the load on a crane driven by torque", MOVING_SCENES, reaction_criterion, anything_bound),
-    Effect(HOISTING, "hoisting while the load swings", MOVING_SCENES, hoisting_criterion, anything_bound),
-    Effect(WIND, "wind and slope", MOVING_SCENES, wind_criterion, anything_bound),
+    Effect(REACTION, "pull of the load on a crane driven by torque", MOVING_SCENES, reaction_criterion, reaction_bound),
+    Effect(HOISTING, "hoisting while the load swings", MOVING_SCENES, hoisting_criterion, hoisting_bound),
+    Effect(WIND, "wind and slope", MOVING_SCENES, wind_criterion, wind_bound),
     Effect(LARGE, "finite angles of the load", MOVING_SCENES, large_criterion, large_bound),
     Effect(CURVE, "torque of the motor over its speed", MOVING_SCENES, curve_criterion, curve_bound),
     Effect(RAIL, "steps and gaps of the rail", frozenset({RailStep}), rail_criterion, rail_bound),

@@ -168,7 +168,9 @@ def slope(spec: Travelling, scene: Moving) -> float:
 
 
 def outside(spec: Travelling, scene: Moving) -> Outside:
-    """Wind and slope of a start or a stop."""
+    """Wind and slope of a start or a stop; none where the file leaves that effect out."""
+    if spec.effects.get("travel_wind") == "off":
+        return Outside(0.0, 0.0, 0.0, 0.0)
     blows = _sign(scene.wind, scene)
     pressure = working_pressure(spec)
     own = sum(body.mass for body in bodies(spec, 0.0))
@@ -256,7 +258,7 @@ def rope_length(spec: Travelling, scene: Moving) -> float:
 
 def hoisting_speed(spec: Travelling, scene: Moving) -> float:
     """By which the ropes get shorter, negative where the load is lowered [m/s]."""
-    if not isinstance(scene, HoistWhileTravelling):
+    if not isinstance(scene, HoistWhileTravelling) or spec.effects.get("hoisting_sway") == "off":
         return 0.0
     speed = filled(spec.suspension.hoist_speed)
     return speed if scene.hoist == "up" else -speed

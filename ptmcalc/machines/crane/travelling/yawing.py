@@ -42,7 +42,7 @@ class Yawing:
 
     def force(self, stroke: float, rate: float) -> float:
         """Of the buffers on one rail, their curve continued beyond its end [N]."""
-        if stroke <= 0:
+        if stroke < 0:
             return 0.0
         given, hard = self.given, self.given.hardness / 2
         if given.type == "linear":
@@ -89,13 +89,13 @@ def places(spec: Travelling, scene: Collision, share: float, closing: float) -> 
     """The crane in a collision, the hook in each of its places.
 
     `share` is the mass of a straight stop over that of the crane: not 1 where two cranes meet, of which the other one
-    is taken to have its mass where this one has it.
+    is taken to have its mass where this one has it, and a load that swings as this one does.
     """
     given = spec.buffers
     assert given is not None
     hanging = model.hanging(spec, scene)
     guided = scene.suspension == "guided"
-    swings = 0.0 if guided else hanging * (share**2 / 2 if scene.other_mass is not None else 1.0)
+    swings = 0.0 if guided else share**2 * hanging
     push = model.driving_force(spec, spec.drive.torque) if scene.drive == "on" else 0.0
     driven = (_driven_share(spec, "A"), _driven_share(spec, "B"))
     omega = math.sqrt(spec.gravity / spec.suspension.length)
@@ -162,17 +162,30 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
     ends = _SLOW * speed if hydraulic else 0.0
     tops, left = [0.0, 0.0], 0.0
     hardest = [one.force(1e-300, speed)] * 2 if hydraulic else [0.0, 0.0]
-    deceleration = 0.0
+    begun = one.rates((1e-300, 1e-300, 0.0, speed, speed, speed))
+    deceleration = max(-begun[3], -begun[4], 0.0)
     quickest = math.inf
     if given.type == "constant":  # the time in which a constant force fades out
-        quickest = _STANDS * speed * min(one.masses[0], one.masses[2]) / given.hardness
+        aa, ab, bb = one.masses
+        lightest = (aa * bb - ab * ab) / (aa + bb)  # below the smaller of both masses that move by themselves
+        quickest = _STANDS * speed * lightest / given.hardness
     held = sum(one.pushes) + one.hanging * one.omega * speed < given.hardness  # whatever the load pulls later on
+    if given.type == "constant" and held:
+        ends = _STANDS * speed
     for _ in range(_MOST * steps):
         fastest = max(state[3], state[4], 0.05 * speed if not hydraulic else ends)
         step = reach / (steps * fastest)
-        if min(state[3], state[4]) < 4 * _STANDS * speed:
-            step = min(step, quickest)
+        if given.type == "constant":  # into the speed at which it fades out by no large step
+            slowing = one.rates(state)
+            for rate, change in zip(state[3:5], slowing[3:5], strict=True):
+                if rate > 0 > change:
+                    step = min(step, max(quickest, -rate / change / 4))
+            if min(state[3], state[4]) < 4 * _STANDS * speed:
+                step = min(step, quickest)
         after = _stepped(one, state, step)
+        last = max(after[3], after[4]) <= ends
+        if last:  # it stands within this step: what follows is another motion
+            step, after = _until(one, state, step, ends)
         for side in (0, 1):
             top = _between(state[side], after[side], state[side + 3], after[side + 3], step)
             tops[side] = max(tops[side], top)
@@ -183,7 +196,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         rates = one.rates(after)
         deceleration = max(deceleration, -rates[3], -rates[4])
         state = after
-        if state[3] <= ends and state[4] <= ends:
+        if last:
             break
         if given.type == "constant" and max(state[3], state[4]) <= _STANDS * speed and (held or state[5] <= 0):
             break
@@ -191,7 +204,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         hardest = [one.force(min(top, given.stroke), 0.0) for top in tops]
     elif given.type == "constant":
         hardest = [given.hardness / 2] * 2
-    if left and left <= ends:
+    if hydraulic and left <= ends:
         left = 0.0
     side = 0 if tops[0] >= tops[1] else 1
     return Pressed(max(hardest) / max(given.count / 2, 1.0), tops[side], left, deceleration, "AB"[side], 0.0)
@@ -208,6 +221,16 @@ def _stepped(one: Yawing, state: State, step: float) -> State:
         for x, k1, k2, k3, k4 in zip(state, first, second, third, fourth, strict=True)
     )
     return a, b, c, d, e, f
+
+
+def _until(one: Yawing, state: State, step: float, rate: float) -> tuple[float, State]:
+    """The part of a step after which neither rail moves faster than so."""
+    low, high = 0.0, step
+    for _ in range(40):
+        middle = (low + high) / 2
+        tried = _stepped(one, state, middle)
+        low, high = (middle, high) if max(tried[3], tried[4]) > rate else (low, middle)
+    return high, _stepped(one, state, high)
 
 
 def _moved(state: State, rates: State, step: float) -> State:

@@ -2,7 +2,7 @@
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.hoist.climb import (
     FloatArray,
@@ -32,14 +32,22 @@ def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Resu
     **Source** `numerics.hauling`.
 
     Raises:
-        NumericsError: for a rope that the drum takes in whole, or that goes slack.
+        NumericsError: for a rope that the drum takes in whole, or an error bound that includes a slack rope.
     """
     case, modulus = climb(spec, scene), filled(spec.rope.modulus)
     hanging = rope(spec, scene)
     motion = haul(radius_map(spec, scene), case.drum_speed, hanging)
     most, least = motion.extremes()
+    if least.value + least.error <= -hanging.static_strain:
+        reason = f"the rope goes slack {least.time:.3g} s after the climb begins"
+        hint = "a lower drum speed, or one layer of rope"
+        return Result({}, work=len(motion.offsets), failures=(Failure("HST140", reason, ("speed",), hint),))
     if least.value - least.error <= -hanging.static_strain:
-        raise NumericsError("NUM102", f"the rope goes slack {least.time:.3g} s after the climb begins")
+        raise NumericsError(
+            "NUM103",
+            f"the error bound of the rope motion reaches {least.error / hanging.static_strain:.2g} of the static"
+            " strain, and includes a slack rope",
+        )
     length = float(motion.rope_length(most.time)) * (1 + hanging.static_strain)
     at = {"time": most.time}
     factors = {

@@ -1,7 +1,7 @@
 """The column in finite elements and modes, marched through drive, brake, standstill and contact."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +10,7 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
-from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
+from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
@@ -20,7 +20,7 @@ from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVIT
 from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.parts import Column
@@ -110,6 +110,7 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
         window=(0.0, course.record.time),
         health={"energy_residual": residual, "steps": float(course.record.steps)},
         findings=tuple(findings),
+        failures=tuple(_failures(spec, scene, (course, other))),
         events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
         histories=lambda: _histories(spec, scene, moves, level, course.record.time),
     )
@@ -386,6 +387,24 @@ def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
             )
         )
     return said
+
+
+def _failures(spec: Stacker, scene: StackerScene, courses: tuple[Course, Course]) -> Iterator[Failure]:
+    """A stop that is within the time allowed only until the column pulls the base through its brake again."""
+    if not isinstance(scene, Brake):
+        return
+    first, last = (max(pick(one) for one in courses) for pick in (_first_rest, lambda one: one.held_since))
+    soonest = min(one.held_since for one in courses)
+    if math.isfinite(last) and first < soonest and soonest > spec.checks.brake_time:
+        message = f"the swinging column pulls the base through its brake: at rest for good at {last:.3g} s only"
+        key = "braking_force" if model.travel(spec, scene).drive is None else "drive"
+        path = (MECHANISMS[model.mechanism(spec, scene)], key)
+        yield Failure("CRN205", message, path, "a stronger brake, or one that comes up slowly, holds the base")
+
+
+def _first_rest(course: Course) -> float:
+    """When the base first stands [s]."""
+    return course.first("base", "at rest")
 
 
 def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int, end: float) -> Mapping[str, History]:

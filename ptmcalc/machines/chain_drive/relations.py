@@ -1,0 +1,51 @@
+"""Relations between the loads of a chain drive that hold for every chain at every moment."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.contract.relation import Relation, computed, ordered
+from ptmcalc.machines.chain_drive import strength
+from ptmcalc.machines.chain_drive.model import chain_line
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run, Start
+from ptmcalc.machines.chain_drive.starting import start_case
+from ptmcalc.spec.scene import Scene
+
+_RUN: frozenset[type[Scene]] = frozenset({Run})
+_START: frozenset[type[Scene]] = frozenset({Start})
+
+
+def _start_tension(spec: ChainDrive, scene: Start, loads: Mapping[str, float]) -> float:
+    return start_case(spec, scene).line.run_on + loads["tension_dynamic_start"]
+
+
+def _start_safety(spec: ChainDrive, scene: Start, loads: Mapping[str, float]) -> float:
+    tension = loads["tension_start"] + chain_line(spec, scene).centrifugal
+    if not math.isfinite(tension):
+        return 0.0 if tension > 0 else math.inf
+    return strength.safety(spec, tension)
+
+
+RELATIONS: tuple[Relation, ...] = (
+    ordered(
+        "tension_polygon_bound",
+        "tension_dynamic_polygon",
+        _RUN,
+        "the largest polygon tension is at most the sum of its absolute harmonics",
+    ),
+    ordered("tension_design", "tension_min", _RUN, "the largest tension is at least the smallest"),
+    ordered("tension_start", "tension_min", _START, "the largest tension is at least the smallest"),
+    computed(
+        "tension_start",
+        ("tension_dynamic_start",),
+        _start_tension,
+        _START,
+        "the tension in the start is the static one and its dynamic part",
+    ),
+    computed(
+        "safety_start",
+        ("tension_start",),
+        _start_safety,
+        _START,
+        "safety is breaking load over largest and centrifugal tension",
+    ),
+)
