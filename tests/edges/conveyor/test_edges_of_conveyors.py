@@ -12,7 +12,7 @@ G = 9.81
 
 def test_a_gravity_take_up_without_mass_has_the_weight_of_its_tension() -> None:
     """Own integration of the belt with a weight of 2 T/g: 1.190; without its inertia it would be 1.248."""
-    found = report_on("conveyor/takeup-mass", ("mass: 6116 kg", "stroke: 4 m"))
+    found = report_on("conveyor/takeup-mass", ("  mass: 6116 kg\n", ""))
     (assumed,) = (one for one in found.assumed if one.path == ("takeup", "mass"))
     assert assumed.value == pytest.approx(2 * 30e3 / G, rel=1e-9)
     one = judged(found, "CNV101", "start_loaded")
@@ -25,8 +25,6 @@ def test_half_of_the_resistance_holds_a_stopped_belt() -> None:
     """f C g L (2 m_B + idlers + load)/2 against the climb of the load, by hand: 4.90 kN m on the head pulley."""
     found = report_on("conveyor/no-backstop")
     load_line, length = 1500 / 3.6 / 2.5, 400.0
-    factor = load(found, "effective_tension") if False else None
-    assert factor is None
     one = judged(found, "CNV109")
     assert one.verdict is Verdict.FAIL
     assert one.value is not None
