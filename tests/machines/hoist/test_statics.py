@@ -232,7 +232,8 @@ class TestWhatIsWrong:
 
     def test_so_does_the_braking_of_a_lowered_load(self) -> None:
         report = report_of(changed(CRANE, brake__torque="60 N*m", scenes=[{"type": "lower_brake"}]))
-        assert any("by up to 12 m" in one.message for one in report.diagnostics)
+        reasons = [one.reason for _, one in report.judgements]
+        assert any("by up to 12 m" in one for one in reasons)
         assert report.verdict == "fail"
 
     @pytest.mark.parametrize(
@@ -262,7 +263,7 @@ class TestWhatIsWrong:
     ) -> None:
         """Nor does a brake on the drum that would hold behind the losses of a gear: they do not help it."""
         report = report_of(changed(CRANE, brake=brake, gearbox__efficiency=0.8, scenes=[scene]))
-        said = [one.message for one in report.diagnostics if one.code == "NUM110"]
+        said = [one.reason for _, one in report.judgements if one.code == "HST118"]
         assert said
         assert all("does not hold the load" in one for one in said)
 
