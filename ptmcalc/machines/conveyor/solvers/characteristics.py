@@ -18,7 +18,6 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
-from ptmcalc.machines.conveyor.moving import AFTER_START
 from ptmcalc.machines.conveyor.slipping import slip_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, peaks, sagging, strand
@@ -90,12 +89,9 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
 def _window(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> float:
     """The usual window [s]; of a drum that slips at its end, until it has gripped, up to some windows."""
-    if case.imposed_speed:
+    if case.imposed_speed or "slip" not in carried or case.line.grip_exponent is None:
         return case.window
-    case = replace(case, window=case.window + AFTER_START * case.line.contour_time)
-    if "slip" not in carried or case.line.grip_exponent is None:
-        return case.window
-    whole = case
+    whole = replace(case, window=case.window)
     for _ in range(_LONGER):
         motion = _motion(whole, carried, grid)
         apart = np.abs(motion.drum_speed - motion.belt_speed) > _STICKS * case.line.speed
