@@ -46,6 +46,15 @@ class Limit:
 
 
 @dataclass(frozen=True, slots=True)
+class Checked:
+    """A size or strength of a part, or how often it is used, that only checks read: the breaking force of a rope.
+
+    A check without it is `not checked` or does not apply, and says so. Unlike a limit it belongs to the machine: a
+    repair may offer another one.
+    """
+
+
+@dataclass(frozen=True, slots=True)
 class Absent:
     """Left out means that the part, motion or load is not there: `reason` states why that is neutral or safe."""
 
@@ -68,7 +77,7 @@ class Setting:
     reason: str
 
 
-Declared = Assumed | Limit | Absent | OneOf | Setting
+Declared = Assumed | Limit | Checked | Absent | OneOf | Setting
 """What may be declared of an optional number."""
 
 

@@ -25,7 +25,7 @@ from ptmcalc.spec.fields import (
     PositiveTime,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
-from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf, Setting
 
 PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1e-24)]
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
@@ -86,7 +86,7 @@ class ChainData(Fragment):
     """effective modulus of the built-up chain on `section`; 0.65 of steel's is assumed when it is left out"""
     damping: Damping = Damping()
     """its internal damping"""
-    pin_diameter: Annotated[PositiveLength | None, Limit()] = None
+    pin_diameter: Annotated[PositiveLength | None, Checked()] = None
     """of the joints; needed for pressure and wear"""
     bush_length: Annotated[PositiveLength | None, Limit()] = None
     """bearing length of a joint; needed for pressure"""

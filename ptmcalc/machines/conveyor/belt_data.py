@@ -23,7 +23,7 @@ from ptmcalc.spec.fields import (
     PositiveSpan,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
-from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
@@ -40,9 +40,9 @@ class Belt(Fragment):
     """tensile stiffness EA of the whole belt, or give `modulus` and `width`"""
     modulus: Annotated[PositiveLineStiffness | None, OneOf("stiffness")] = None
     """tensile modulus per width, e.g. `72000 N/mm`"""
-    breaking_force: Annotated[PositiveForce | None, Limit()] = None
+    breaking_force: Annotated[PositiveForce | None, Checked()] = None
     """breaking force of the whole belt, or give `strength` and `width`"""
-    strength: Annotated[PositiveLineForce | None, Limit()] = None
+    strength: Annotated[PositiveLineForce | None, Checked()] = None
     """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
     carcass: Literal["textile", "steel_cord"] | None = None
     """what carries the tension; chooses the default safety factors"""

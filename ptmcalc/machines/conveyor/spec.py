@@ -32,7 +32,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 
 
@@ -105,7 +105,7 @@ class TakeUp(Fragment):
     """belt tension: at the run-off (gravity), or the mean round the loop when it was set (rigid)"""
     mass: Annotated[PositiveMass | None, Assumed()] = None
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
-    stroke: Annotated[PositiveLength | None, Limit()] = None
+    stroke: Annotated[PositiveLength | None, Checked()] = None
     """way the take-up can go; needed to check it"""
     permanent_elongation: Annotated[Fraction | None, Assumed()] = None
     """of the belt over its life, as a share of its length; adds to the way the take-up needs"""

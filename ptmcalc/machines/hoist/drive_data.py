@@ -19,7 +19,7 @@ from ptmcalc.spec.fields import (
     Time,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
-from ptmcalc.spec.optional import Absent, Assumed, Limit
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit
 
 Mechanism = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 
@@ -104,7 +104,7 @@ class Duty(Fragment):
     """duty type of IEC 60034-1"""
     factor: Annotated[PositiveShare | None, Assumed()] = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""

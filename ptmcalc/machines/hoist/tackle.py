@@ -23,7 +23,7 @@ from ptmcalc.spec.fields import (
     Span,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
-from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Checked, OneOf, Setting
 
 MOST_FALLS = 64
 
@@ -45,9 +45,9 @@ class Reeving(Fragment):
     """sheaves between drum and tackle that only turn the rope, on each rope"""
     deflection_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a deflection sheave; that of the tackle's sheaves when left out"""
-    sheave_diameter: Annotated[PositiveLength | None, Limit()] = None
+    sheave_diameter: Annotated[PositiveLength | None, Checked()] = None
     """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
-    equaliser_diameter: Annotated[PositiveLength | None, Limit()] = None
+    equaliser_diameter: Annotated[PositiveLength | None, Checked()] = None
     """of the equalising sheave at the bottom of the groove"""
     lead_length: Annotated[Span, Absent("the rope falls straight to the hook block, which is stiffest")] = 0.0
     """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
@@ -86,7 +86,7 @@ class Rope(Fragment):
     """modulus of elasticity of the rope on its metallic area, not of its wire; 105 GPa is assumed when left out"""
     mass: Annotated[PositiveLineMass | None, Assumed()] = None
     """per length; assumed from the diameter when it is left out"""
-    breaking_force: Annotated[PositiveForce | None, Limit()] = None
+    breaking_force: Annotated[PositiveForce | None, Checked()] = None
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
     """whether it is a rotation-resistant rope, which bears a smaller fleet angle"""
@@ -114,9 +114,9 @@ class Drum(Fragment):
     """layers of rope the drum is made for"""
     dead_wraps: Annotated[Wraps, Assumed(3.0, 2.0, 5.0, "EN 14492-2: at least two dead wraps; three in practice")] = 3.0
     """turns that stay on the drum with the hook at its lowest"""
-    flange_height: Annotated[PositiveLength | None, Limit()] = None
+    flange_height: Annotated[PositiveLength | None, Checked()] = None
     """of the flanges above the surface; needed for more than one layer"""
-    shell_thickness: Annotated[PositiveLength | None, Limit()] = None
+    shell_thickness: Annotated[PositiveLength | None, Checked()] = None
     """of the shell below the grooves; needed to check its stress"""
     inertia: Annotated[Inertia | None, Assumed()] = None
     """of drum and what turns with it, on its shaft; 0 when left out"""

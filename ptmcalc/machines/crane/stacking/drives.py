@@ -31,7 +31,7 @@ from ptmcalc.spec.fields import (
     Torque,
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, together
-from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
 
 Slope = Annotated[float, Measure(units.DAMPING, above=0)]
 ROPE_MODULUS = 105e9
@@ -71,7 +71,7 @@ class Travel(Fragment):
     """motors, gear and brakes, instead of forces and ramps"""
     wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the rims")] = None
     """of the driven wheels; with a `drive`"""
-    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the mechanism does all day; needed to check its starts"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; that of the drive's motor when left out"""
@@ -115,7 +115,7 @@ class Rotation(Fragment):
     """at the column"""
     resistance: Annotated[Torque | None, Assumed()] = None
     """of its bearings, at the column"""
-    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the mechanism does all day; needed to check its starts"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; needed to check the starts"""
@@ -134,7 +134,7 @@ class HoistRope(Fragment):
     """of the whole tackle while it hauls, instead of that of a sheave"""
     diameter: Annotated[PositiveLength | None, Limit()] = None
     """nominal"""
-    breaking_force: Annotated[PositiveForce | None, Limit()] = None
+    breaking_force: Annotated[PositiveForce | None, Checked()] = None
     """of one part of rope; needed to check its safety"""
     stiffness: Annotated[
         PositiveStiffness | None, OneOf("`stiffness`, or `area` and `length`; without both no `fork_caught`")
@@ -230,7 +230,7 @@ class Hoisting(Fragment):
     """what switches it off at too large a force"""
     group: Group | None = None
     """of the mechanism (ISO 4301-1); with it the rope has to keep the safety of ISO 4308-1"""
-    starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
+    starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the hoist does all day; needed to check its starts"""
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; needed to check the starts"""
