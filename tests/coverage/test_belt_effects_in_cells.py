@@ -147,7 +147,7 @@ def trial_of(name: str, number: int) -> Trial:
     (scene,) = spec.all_scenes
     case = moving(spec, scene)
     full = ALWAYS | ({name} if name != "coulomb_idlers" else set())
-    fine, coarse = (network._marched(case, full, cells, True).values for cells in (CELLS, CELLS // 2))
+    fine, coarse = (network._marched(case, full, cells, True, CELLS).values for cells in (CELLS, CELLS // 2))
     apart = {load: 3 * abs(value - coarse[load][0]) for load, (value, _) in fine.items()}
     known = {load: Estimate.within(value, apart[load]) for load, (value, _) in fine.items()}
     if name == "coulomb_idlers":
@@ -155,7 +155,7 @@ def trial_of(name: str, number: int) -> Trial:
         claims = claim_of(plan, spec, CHARACTERISTICS, CHARACTERISTICS.always | {"tail_jump", "tail_mass"}, 1)
         truth = known
     else:
-        bare = _exactly(network._marched(case, full - {name}, CELLS, True).values)
+        bare = _exactly(network._marched(case, full - {name}, CELLS, True, CELLS).values)
         offsets = SMALL[name].bound(spec, scene, bare)
         claims = {load: one.widened(offsets.get(load, Interval(0.0, 0.0))) for load, one in bare.items()}
         truth = _exactly(fine)

@@ -66,7 +66,7 @@ def _changes(scene: str, seed: int) -> Iterator[Change]:
     if not 0 < case.window < MOST_ROUNDS * case.line.contour_time:
         return
     still, moves = (
-        network._marched(case, carried, CELLS, True).values for carried in (CARRIED, CARRIED | {"moving_belt"})
+        network._marched(case, carried, CELLS, True, CELLS).values for carried in (CARRIED, CARRIED | {"moving_belt"})
     )
     loads = {name: Estimate.exact(value) for name, (value, _) in still.items()}
     allowed = effects.travel_bound(spec, case.scene, loads)
