@@ -38,7 +38,8 @@ class Repairs:
     _known: dict[tuple[str, str, KeyPath], Found] = field(default_factory=dict)
 
     def of(self, ruling: Ruling, scene: Scene) -> Found:
-        """The repair of a check that fails in a scene.
+        """The repair of a check that fails in a scene: of the key that a run found to be the cause, where that is one
+        number, or of the check's own key.
 
         A key that only states a limit, a rating or a waiting time is never offered: it changes what is required, not
         the machine.
@@ -46,7 +47,8 @@ class Repairs:
         spec = self.loaded.spec
         assert spec is not None
         check = ruling.check
-        path = ruling.blame if check.repairs_blame or ruling.found else check.repair(spec, scene)
+        found = ruling.found and isinstance(spec.value_at(ruling.blame), int | float)
+        path = ruling.blame if check.repairs_blame or found else check.repair(spec, scene)
         if not path or not self.purse.most or states_a_limit(spec, path):
             return None, ""
         key = (check.code, check.element, path)

@@ -132,4 +132,11 @@ def test_a_repair_is_not_offered_for_a_failure_that_no_value_cures() -> None:
     failure = Failure("TOY101", "the hook opens", ("strength",))
     one = judgement(report(found_by("opens", pull(9.0), failures=(failure,))))
     assert one.repair is None
+    assert one.tried == "no value of strength from 10 N to 10 MN passes"
+
+
+def test_a_failure_of_no_single_number_is_repaired_by_the_key_of_its_check() -> None:
+    kind = found_by("opens", pull(9.0), failures=(Failure("TOY101", "the hook opens", ("scenes",)),))
+    one = judgement(report(kind))
+    assert one.blame.path == ("scenes",)
     assert one.tried == "no value of load from 8 N to 8 MN passes"

@@ -55,23 +55,27 @@ def test_the_factor_is_not_asked_of_an_empty_hook() -> None:
 
 
 def test_a_stall_fails_once_and_says_what_would_lift() -> None:
-    report = report_of(changed(LIFT, motor__mean_starting_torque="20 N*m"), repairs=True)
+    known = changed(LIFT, gearbox__reverse_efficiency=0.913, gearbox__damping=0.03, brake__delay="0 s")
+    report = report_of(changed(known, motor__mean_starting_torque="20 N*m"), repairs=True)
     scene = scene_of(report)
     assert [one.code for one in scene.checks] == ["HST121"]
     check = check_of(scene, "HST121")
     assert check.verdict is Verdict.FAIL
     assert check.repair is not None
     torque = check.repair.value
-    lifted = scene_of(report_of(changed(LIFT, motor__mean_starting_torque=f"{torque} N*m")))
+    lifted = scene_of(report_of(changed(known, motor__mean_starting_torque=f"{torque} N*m")))
     assert check_of(lifted, "HST121").verdict is Verdict.PASS
-    assert sum("stalls" in one.message for one in report.diagnostics) == 1
+    assert "stalls" in check.reason
+    assert not any("stalls" in one.message for one in report.diagnostics)
 
 
 @pytest.mark.parametrize("structure", [None, {"stiffness": "2 MN/m", "mass": "900 kg"}])
 def test_a_stall_is_told_once_whatever_solvers_meet_it(structure: dict[str, str] | None) -> None:
     gear = {"ratio": 80, "efficiency": 0.92, "stiffness": "400 kN*m/rad"}
     data = changed(LIFT, motor__mean_starting_torque="20 N*m", structure=structure, gearbox=gear)
-    assert sum("stalls" in one.message for one in report_of(data).diagnostics) == 1
+    report = report_of(data)
+    assert [one.code for _, one in report.judgements if "stalls" in one.reason] == ["HST121"]
+    assert not any("stalls" in one.message for one in report.diagnostics)
 
 
 def test_scenes_up_and_down_have_names_of_their_own() -> None:

@@ -144,11 +144,26 @@ class TestTheCrane:
 
     def test_the_load_swings_on_its_rope(self) -> None:
         stiffness = 4 * 110e9 * 118e-6 / 13.1
-        rigid = math.sqrt(stiffness / 12850)
-        assert value(hoist_scene(CRANE), "natural_frequency") == pytest.approx(rigid)
-        soft = hoist_scene(changed(CRANE, structure={"stiffness": "6 MN/m", "mass": "0 kg"}))
+        light = changed(CRANE, effects={"rope_mass": "off"})
+        assert value(hoist_scene(light), "natural_frequency") == pytest.approx(math.sqrt(stiffness / 12850))
+        soft = hoist_scene(changed(light, structure={"stiffness": "6 MN/m", "mass": "0 kg"}))
         series = 1 / (1 / stiffness + 1 / 6e6)
         assert value(soft, "natural_frequency") == pytest.approx(math.sqrt(series / 12850))
+
+    @pytest.mark.parametrize("structure", [None, 6e6])
+    def test_its_rope_swings_with_it(self, structure: float | None) -> None:
+        """Four falls of rope between what gives and the load: a chain of many small masses on springs."""
+        stiffness, rope, parts = 4 * 110e9 * 118e-6 / 13.1, 4 * 1.05 * 13.1, 400
+        masses = np.full(parts + 1, rope / parts)
+        masses[0], masses[-1] = rope / parts / 2, 12850 + rope / parts / 2
+        matrix = parts * stiffness * (2 * np.eye(parts + 1) - np.eye(parts + 1, k=1) - np.eye(parts + 1, k=-1))
+        matrix[0, 0] = parts * stiffness + (structure or 1e16)
+        matrix[-1, -1] = parts * stiffness
+        root = np.sqrt(masses)
+        frequency = math.sqrt(np.linalg.eigvalsh(matrix / root / root[:, None])[0])
+        given = {"stiffness": f"{structure} N/m", "mass": "0 kg"} if structure else None
+        scene = hoist_scene(changed(CRANE, structure=given))
+        assert value(scene, "natural_frequency") == pytest.approx(frequency, rel=1e-5)
 
     def test_the_height_of_the_hook(self) -> None:
         high = hoist_scene(changed(CRANE, scenes=[{"type": "run", "hook_height": "12 m"}]))
@@ -215,8 +230,19 @@ class TestAssumptions:
         assert hoist_of(data).rope.modulus is not None
 
     def test_grooves_are_assumed_wider_than_the_rope(self) -> None:
-        report = report_of(changed(CRANE, drum__pitch=None))
-        assert {one.path for one in report.assumed} == {("drum", "pitch")}
+        report, given = report_of(changed(CRANE, drum__pitch=None)), report_of(CRANE)
+        (added,) = {one.path: one for one in report.assumed}.keys() - {one.path for one in given.assumed}
+        assert added == ("drum", "pitch")
+        (pitch,) = (one for one in report.assumed if one.path == added)
+        assert (pitch.value, pitch.interval.low) == (pytest.approx(1.12 * 0.016), pytest.approx(1.06 * 0.016))
+
+    def test_dead_wraps_are_assumed_and_may_decide(self) -> None:
+        """Five of them would need a second layer on this drum; two or three do not."""
+        report = report_of(changed(CRANE, drum__dead_wraps=None))
+        assert {one.path: one.value for one in report.assumed}["drum", "dead_wraps"] == 3
+        judged = check_of(scene_of(report), "HST107")
+        assert judged.verdict is Verdict.UNDECIDED
+        assert "`drum.dead_wraps` is 5" in judged.reason
 
 
 class TestWhatIsWrong:
