@@ -187,6 +187,7 @@ layout:
 chain: {pitch: 320 mm, mass: 80 kg/m, breaking_load: 1300 kN, stiffness: 329.6 MN, damping: {ratio: 0.05}}
 sprocket: {teeth: 8}
 speed: 1.532 m/s
+scenes: [{type: run}]
 """
 
 

@@ -404,6 +404,15 @@ class TestWhatIsWrong:
         assert judged.repair is not None
         assert judged.repair.path == path
 
+    @pytest.mark.parametrize(
+        ("code", "key", "value_"), [("HST101", "checks__rope_safety", 20), ("HST116", "motor__power", "14 kW")]
+    )
+    def test_no_limit_and_no_rating_is_offered(self, code: str, key: str, value_: Any) -> None:
+        """A part of another strength is."""
+        judged = check_of(hoist_scene(changed(CRANE, **{key: value_}), repairs=True), code)
+        assert judged.verdict is Verdict.FAIL
+        assert (judged.repair.path if judged.repair else ()) == (("rope", "breaking_force") if code == "HST101" else ())
+
     def test_a_flange_just_over_the_rope(self) -> None:
         assert verdict(hoist_scene(changed(PAPER, drum__flange_height="80 mm")), "HST108") is Verdict.FAIL
 
