@@ -14,7 +14,7 @@ from ptmcalc.engine.check import Options, check_file
 @cache
 def loads(scene: str) -> dict[str, LoadReport]:
     """The loads of a scene of the overland conveyor with their courses."""
-    options = Options(histories=True, repairs=False, scenes=(scene,))
+    options = Options(histories=True, repairs=False, scenes=(scene,), effects={"takeup_mass": "off"})
     (found,) = check_file(ROOT / "specs" / "conveyor.yaml", options).scenes
     return {load.info.name: load for load in found.loads if load.history is not None}
 

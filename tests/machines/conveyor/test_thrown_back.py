@@ -31,7 +31,11 @@ def told(rig: Rig, rise: float, **effects: str) -> SceneReport:
 
 def data_of(rig: Rig, rise: float, **effects: str) -> dict[str, Any]:
     profile = {"shape": "cosine", "time": f"{rise!r} s"}
-    return rig.data({"type": "start", "profile": profile}, effects={"moving_belt": "off"} | effects, accuracy="2 %")
+    return rig.data(
+        {"type": "start", "profile": profile},
+        effects={"moving_belt": "off", "takeup_mass": "off"} | effects,
+        accuracy="2 %",
+    )
 
 
 @pytest.mark.parametrize("rigid", [False, True], ids=["gravity", "rigid"])
