@@ -83,6 +83,8 @@ class Pressed:
     rail: str
     hook: float
     """from rail A [m]"""
+    ended: bool = True
+    """whether it was followed until it stands"""
 
 
 def places(spec: Travelling, scene: Collision, share: float, closing: float) -> list[Yawing]:
@@ -160,7 +162,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
     state: State = (0.0, 0.0, 0.0, speed, speed, speed)
     hydraulic = given.type == "hydraulic"
     ends = _SLOW * speed if hydraulic else 0.0
-    tops, left = [0.0, 0.0], 0.0
+    tops, left, ended = [0.0, 0.0], 0.0, True
     hardest = [one.force(1e-300, speed)] * 2 if hydraulic else [0.0, 0.0]
     begun = one.rates((1e-300, 1e-300, 0.0, speed, speed, speed))
     deceleration = max(-begun[3], -begun[4], 0.0)
@@ -200,6 +202,8 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
             break
         if given.type == "constant" and max(state[3], state[4]) <= _STANDS * speed and (held or state[5] <= 0):
             break
+    else:
+        ended = False
     if given.type in ("linear", "progressive"):
         hardest = [one.force(min(top, given.stroke), 0.0) for top in tops]
     elif given.type == "constant":
@@ -207,7 +211,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
     if hydraulic and left <= ends:
         left = 0.0
     side = 0 if tops[0] >= tops[1] else 1
-    return Pressed(max(hardest) / max(given.count / 2, 1.0), tops[side], left, deceleration, "AB"[side], 0.0)
+    return Pressed(max(hardest) / max(given.count / 2, 1.0), tops[side], left, deceleration, "AB"[side], 0.0, ended)
 
 
 def _stepped(one: Yawing, state: State, step: float) -> State:

@@ -59,14 +59,17 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
     steady = given.type == "constant"
     force = _worst([(one.force, 0.0 if steady else share) for one, share in runs])
     decelerates = _worst([(one.deceleration * struck / mass, share) for one, share in runs])
+    stroke = _worst([(one.stroke, share) for one, share in runs])
     hardest = max((one for one, _ in runs), key=lambda one: one.stroke)
     where = f"on rail {hardest.rail}, hook {hardest.hook:.3g} m from rail A"
     left = max(one.left for one, _ in runs)
     if left:
         force, decelerates = (replace(one, high=math.inf, model=math.inf) for one in (force, decelerates))
+        if not all(one.ended for one, _ in runs):
+            stroke = replace(stroke, high=math.inf, model=math.inf)
     found |= {
         "buffer_force": Found(force, note=where),
-        "buffer_stroke": Found(_worst([(one.stroke, share) for one, share in runs]), note=_bottoms(left) or where),
+        "buffer_stroke": Found(stroke, note=_bottoms(left) or where),
         "buffer_speed_left": Found(Estimate.within(left, _LEFT * max(share for _, share in runs) * closing)),
         "buffer_deceleration": Found(decelerates),
     }
