@@ -60,6 +60,7 @@ WITHOUT_LEDGER: Mapping[str, str] = {
     "chain_run_through_near": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_start_teeth": "a sum over tooth passes, each in closed form: nothing is integrated",
     "chain_breakaway": "a wave front in closed form: nothing is integrated",
+    "buffer_collision": "two numbers of steps tell the error; runs of an adaptive method are held against it",
 }
 """Transients that keep no account of energy, and why."""
 
@@ -244,6 +245,7 @@ def _unfounded(judgement: Judgement, told: bool) -> Iterator[str]:
         least = judgement.sense is Sense.AT_LEAST
         sound = value.low >= limit.high if least else value.high <= limit.low
         bad = value.high < limit.low if least else value.low > limit.high
+        bad |= bool(judgement.reason)  # a failure that a run found: only such a failed check has a reason
         if (judgement.verdict is Verdict.PASS and not sound) or (judgement.verdict is Verdict.FAIL and not bad):
             yield f"is a {judgement.verdict} by {value} against {limit}"
     elif judgement.verdict is Verdict.UNDECIDED:
