@@ -106,10 +106,19 @@ def happening(spec: Stacker, scene: StackerScene, *, gravity: bool) -> Happening
     size = max(push.size, 0.0)  # a drive that does not overcome the resistance moves nothing
     force = Signal.rising(size, push.delay, push.rise)
     grip = Grip("drive", force, speed) if starts else Grip("brake", force)
-    rigid = push.rise / 2 + column.total * speed / size if size > 0 else 0.0
-    return Happening(
-        column, Base(column.base, at_first, grips=(grip,)), push.delay + max(push.rise, rigid), push.rise, size
-    )
+    lasts = push.delay + _rigid_time(column.total * speed, size, push.rise)
+    return Happening(column, Base(column.base, at_first, grips=(grip,)), lasts, push.rise, size)
+
+
+def _rigid_time(momentum: float, size: float, rise: float) -> float:
+    """How long a force that rises evenly to its size takes to give or take a momentum; one that is none, its rise [s].
+
+    One that rises slowly is done before it has come up to its size.
+    """
+    if size <= 0:
+        return rise
+    even = momentum / size - rise / 2
+    return rise + even if even >= 0 else math.sqrt(2 * rise * momentum / size)
 
 
 def _collision(spec: Stacker, scene: ObstacleScene, speed: float, gravity: bool) -> Happening:
