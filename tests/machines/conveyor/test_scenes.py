@@ -384,6 +384,7 @@ def test_a_brake_on_the_motor_shaft_works_through_the_gear_and_its_losses(torque
     assert load.formula.value == pytest.approx(way, rel=1e-9 if delay == 0 else 3e-2)
     assert load.formula.value >= way * (1 - 1e-9)
     assert load.estimate.value == pytest.approx(load.formula.value, rel=1e-2)
+    assert load.estimate.low <= way <= load.estimate.high
 
 
 def test_a_belt_that_the_load_drives_on_never_stops_and_says_so() -> None:
