@@ -28,7 +28,7 @@ ALL = tuple(range(MACHINES))
 SOME = (*range(60), 155)
 """A bounded part, and a machine whose first wave meets a belt that sags: its bound was once that of a straight one."""
 JUDGED = {load for check in KIND.checks for load in check.loads}
-SLOW = {"moving_belt": "off"}  # what a running belt carries along has a test of its own
+SLOW = {"moving_belt": "off", "takeup_mass": "off"}  # what they change has tests of its own
 MOST_CONTOURS = 20  # longer starts cost more and say no more
 
 

@@ -221,7 +221,7 @@ class Statics:
             "rope_speed": self.drum_speed * self.radius(1),
             "rope_stiffness": stiffness,
             "static_stretch": mass * G / stiffness,
-            "natural_frequency": math.sqrt(stiffness / mass),
+            "natural_frequency": self.swing(stiffness, mass),
             "rope_safety": number(data["rope"]["breaking_force"]) / pull,
             "drum_ratio": (self.barrel + self.d) / self.d,
             "sheave_ratio": number(data["reeving"]["sheave_diameter"]) / self.d + 1,
@@ -229,6 +229,12 @@ class Statics:
         }
         ends = self.falls(mass, 0.0, True)[1]
         return found | {f"rope_pull_fall[{fall}]": float(end) for fall, end in enumerate(ends, 1)}
+
+    def swing(self, stiffness: float, mass: float) -> float:
+        """Lowest frequency of the mass on the falls as one rod that is held at its top: x tan(x) = rod/mass [rad/s]."""
+        rod = number(self.data["rope"]["mass"]) * (self.least + self.height) * self.of_each * self.ropes
+        x = brentq(lambda at: at * math.sin(at) - rod / mass * math.cos(at), 0.0, math.pi / 2, xtol=1e-15, rtol=1e-14)
+        return x * math.sqrt(stiffness / rod)
 
     def _drum(self, mass: float) -> dict[str, float]:
         drum, given = self.data["drum"], self.data["reeving"]
@@ -309,7 +315,8 @@ class Statics:
             [0.0 if on_drum else -torque, load - (torque if on_drum else 0.0)],
         )
         hook = float(a) / self.ratio * self.radius(1) / self.of_each
-        return found | {"drop_distance": self.height, "drop_speed": math.sqrt(2 * hook * self.height)}
+        before = number(self.data["speed"]["main"]) if scene["type"] == "lower_brake" else 0.0
+        return found | {"drop_distance": self.height, "drop_speed": math.sqrt(before**2 + 2 * hook * self.height)}
 
     # -- duty ------------------------------------------------------------------------------------------------
 
