@@ -67,10 +67,18 @@ def test_what_is_claimed_is_what_is_integrated(machines: list[Trial], way: str) 
     assert misses(machines, way) == []
 
 
+def _taut(trial: Trial) -> bool:
+    """Whether the rope is not known to go slack."""
+    least = trial.claims["elastic with play"].get("rope_force_min")
+    return least is None or least.low > 0
+
+
 def test_without_the_gear_nothing_is_known_and_without_its_play_only_where_there_is_none(
     machines: list[Trial],
 ) -> None:
-    assert bounded(machines, "elastic with play", "gear_impact_factor") == 1
+    taut = [trial for trial in machines if _taut(trial)]
+    assert len(taut) > 0.7 * len(machines)
+    assert bounded(taut, "elastic with play", "gear_impact_factor") == 1, "only a rope that goes slack has no upper end"
     assert 0 < bounded(machines, "elastic", "gear_impact_factor") < 1
     assert bounded(machines, "rigid", "gear_impact_factor") == 0
     for trial in machines:
