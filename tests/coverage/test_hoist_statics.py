@@ -64,10 +64,7 @@ def test_what_is_claimed_is_what_the_witness_finds(machines: list[dict[str, Tria
 @pytest.mark.parametrize("scene", WAYS)
 def test_no_verdict_is_another(machines: list[dict[str, Trial]], scene: str) -> None:
     trials = [machine[scene] for machine in machines]
-    dropped = {trial.number for trial in trials if "drop_speed" in trial.truth and trial.truth["drop_speed"].value > 0}
-    # a load that drops fails its brake, be the limit of the reserve below 1 or not
-    fails = {(number, "HST118", Verdict.FAIL) for number in dropped}
-    assert [one for one in opposites(trials) if one[:3] not in fails] == []
+    assert opposites(trials) == []
     assert near(trials) >= 0.45
     said = verdicts(trials, *JUDGED[scene])
     assert min(said.count(Verdict.PASS), said.count(Verdict.FAIL)) > 0.05 * len(said)
