@@ -190,7 +190,7 @@ def _once(case: Moving, carried: frozenset[str], cells: int, whole: bool, most: 
         case = replace(case, window=_LONGEST * usual)  # ends when no drum slips any more
     while True:
         ready = set_up(case, carried, cells)
-        still = _until_it_grips(usual) if starts and whole else _still(case)
+        still = _until_it_grips(case, usual) if starts and whole else _still(case)
         parts = ready.course, ready.head, ready.tail, ready.tension
         drawn = march(*parts, case.speed, case.window, still, ready.give, ready.travel)
         work += drawn.updates
@@ -295,9 +295,15 @@ def _failures(case: Moving, drawn: Drawn, ready: Set) -> Iterator[Failure]:
         yield Failure(code, reason, ("takeup", "tension"), "more take-up tension, or a brake on a second pulley")
 
 
-def _until_it_grips(usual: float) -> Callable[[float, Seen], bool]:
+def _until_it_grips(case: Moving, usual: float) -> Callable[[float, Seen], bool]:
     """Ends the march of a start after its usual window [s], when no drum at the head slips."""
-    return lambda time, head: time >= usual and not any(head.slips)
+    kept = _keeps_its_grip(case)
+
+    def ends(time: float, head: Seen) -> bool:
+        kept(time, head)
+        return time >= usual and not any(head.slips)
+
+    return ends
 
 
 def _slips_on(case: Moving, drawn: Drawn) -> bool:
@@ -306,23 +312,33 @@ def _slips_on(case: Moving, drawn: Drawn) -> bool:
 
 
 def _still(case: Moving) -> Callable[[float, Seen], bool]:
-    """Ends the march of a stop: so long after the first drum at the head came to rest.
-
-    Raises:
-        _GripLostError: a drum at the head slips and its belt pushes harder than it ever pulled while it ran evenly:
-            grip below 0 would drive it, faster and faster.
-    """
+    """Ends the march of a stop: so long after the first drum at the head came to rest."""
     rested: list[float] = []
-    lowest = -max(map(abs, (*case.line.static_ends(RETURN), *case.line.static_ends(CARRY))))
+    kept = _keeps_its_grip(case)
 
     def still(time: float, head: Seen) -> bool:
-        if any(head.slips) and min(head.tensions) < lowest:
-            raise _GripLostError(time)
+        kept(time, head)
         if case.brings_to_rest and not rested and head.belt <= 0:
             rested.append(time)
         return bool(rested) and time >= rested[0] + 2 * case.line.contour_time
 
     return still
+
+
+def _keeps_its_grip(case: Moving) -> Callable[[float, Seen], None]:
+    """Stops the march of a belt that its slipping drum has lost.
+
+    Raises:
+        _GripLostError: a drum at the head slips and its belt pushes harder than it ever pulled while it ran evenly:
+            grip below 0 would drive it, faster and faster.
+    """
+    lowest = -max(map(abs, (*case.line.static_ends(RETURN), *case.line.static_ends(CARRY))))
+
+    def kept(time: float, head: Seen) -> None:
+        if any(head.slips) and min(head.tensions) < lowest:
+            raise _GripLostError(time)
+
+    return kept
 
 
 def _histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
