@@ -78,8 +78,10 @@ def standing(rng: np.random.Generator, kind: str) -> dict[str, Any]:
     return data | {"scenes": [scene], "share": share}
 
 
-def frequencies(data: dict[str, Any], whole: Statics, scene: dict[str, Any], share: float, count: int) -> Any:
-    """The three lowest, over a base that is held [rad/s]."""
+def mast(
+    data: dict[str, Any], whole: Statics, scene: dict[str, Any], share: float, count: int, free: bool = False
+) -> Witness:
+    """The column in elements, over a base that is held; `free` without its guide."""
     column, hangs = data["column"], data["type"] == "overhead_stacker"
     length, turns, shift, root = number(column["length"]), 1 / number(column["root_stiffness"]), None, 0.0
     if hangs:
@@ -89,8 +91,8 @@ def frequencies(data: dict[str, Any], whole: Statics, scene: dict[str, Any], sha
     return Witness(
         1.0, length, STEEL * number(column["second_moment"]), whole.column, whole.climbing(scene), count,
         load_node=round(share * count), pull=G if hangs else -G, turn=1 / turns, shift=shift, root=root,
-        guide=0.0 if number(guide["gap"]) else number(guide["stiffness"]),
-    ).held()[:3]  # fmt: skip
+        guide=0.0 if free or number(guide["gap"]) else number(guide["stiffness"]),
+    )  # fmt: skip
 
 
 def trial_of(index: int) -> Trial:
@@ -103,9 +105,11 @@ def trial_of(index: int) -> Trial:
     (scene,) = spec.all_scenes
     plan = plan_scene(kind, spec, scene)
     claims = {name: claim_of(plan, spec, *way) for name, way in WAYS.items()}
-    fine, coarse = (frequencies(data, whole, asked, share, count) for count in (COUNT, COUNT // 2))
+    fine, coarse = (mast(data, whole, asked, share, count).held()[:3] for count in (COUNT, COUNT // 2))
     exact = fine - (coarse - fine) / 15
     truth = {load: Estimate.exact(value) for load, value in whole.stand(asked).items()}
+    stiff, other = (mast(data, whole, asked, share, count, free=True).tip_stiffness() for count in (COUNT, COUNT // 2))
+    truth["column_stiffness"] = Estimate.within(stiff, abs(stiff - other) + 1e-7 * stiff)
     for mode, (value, other) in enumerate(zip(exact, fine, strict=True), 1):
         truth[f"natural_frequency[{mode}]"] = Estimate.within(value, abs(value - other) / 2 + 2e-8 * value)
     lowest = truth["natural_frequency[1]"]
