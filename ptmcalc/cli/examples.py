@@ -65,8 +65,16 @@ def _examples() -> Iterator[tuple[str, Example]]:
     yield "NUM107", Example("ptmcalc check specs/conveyor.yaml --scene start_loaded --format table", "note NUM107")
     yield "NUM108", Example(f"{_CHECK} --format table", "NUM108", _with("length: 40 m", "length: 25 m", chain))
     yield "NUM109", Example(_CHECK, "design.yaml:15:8: warning NUM109", _with("1.31 m/s", "0.95 m/s", chain))
-    weaker = "ptmcalc new hoist | sed 's/torque: 95 N.m, delay/torque: 9 N*m, delay/' > design.yaml"
-    yield "NUM110", Example(f"{weaker} && {_CHECK} --scene lower_brake_loaded", "warning NUM110")
+    swinging = "tests/stability/specs/travelling_brake_beside_a_heavy_load.yaml"
+    yield "NUM110", Example(f"ptmcalc check {swinging}", "warning NUM110")
+    yield "NUM111", Example(_CHECK, "", train)
+    yield "NUM112", Example("ptmcalc check tests/edges/conveyor/two-curves.yaml --format table", "note NUM112")
+    yield "NUM113", Example("ptmcalc check tests/edges/hoist/limiter.yaml --format table", "note NUM113")
+    yield (
+        "SPC204",
+        Example(_CHECK, "design.yaml:6:1: warning SPC204", f"{_TRAIN}checks: {{DRV101: {{off: a test rig}}}}\n"),
+    )
+    yield "SPC205", Example("ptmcalc check tests/edges/hoist/huge-drum.yaml", "error SPC205")
 
 
 def _severity(code: str) -> str:

@@ -67,7 +67,9 @@ def cases_of(seeds: range, most_contours: float) -> list[Case]:
         carried = EFFECTS | ({"takeup_mass"} if "mass" in data["takeup"] else set())
         carried |= {"moving_belt"} if runs else set()
         claims = {name: one.estimate for name, one in network.run(spec, scene, carried, 0).loads.items()}
-        values = network._marched(case, carried, network._grids(scene, 0)[0] * FINER, True, network._grids(scene, 0)[0] * FINER).values
+        values = network._marched(
+            case, carried, network._grids(scene, 0)[0] * FINER, True, network._grids(scene, 0)[0] * FINER
+        ).values
         fine = {name: value for name, (value, _) in values.items()}
         known = {name: Estimate.exact(value) for name, value in fine.items()}
         rng = np.random.default_rng((seed, 1))

@@ -105,7 +105,9 @@ def test_the_model_is_the_machine_with_every_value_at_its_scale(name: str, given
     }
     assert len(shown.loads) > 15
     for load in shown.loads:
-        assert load.model is not None
+        if load.model is None:  # an effect that the model does not call for has no loads of its own
+            assert (load.scene, load.info.name) not in computed
+            continue
         other = computed[load.scene, load.info.name]
         bars = load.model.bar + other.bar if load.model.bounded and other.bounded else 0.0
         assert load.model.value == pytest.approx(other.value, rel=1e-6, abs=bars + 1e-12), load.info.name

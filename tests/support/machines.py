@@ -33,10 +33,11 @@ BW_02: dict[str, Any] = {
 
 
 def template() -> dict[str, Any]:
-    """The data of the conveyor's own template, with a take-up that keeps its tension: most tests compare with belts
-    whose weight has no inertia."""
+    """The data of the conveyor's own template, with a take-up that keeps a tension of 30 kN: most tests compare with
+    belts whose weight has no inertia."""
     data = yaml.safe_load(load_kind("conveyor").template)
     assert isinstance(data, dict)
+    data["takeup"]["tension"] = "30 kN"
     return data | {"effects": {"takeup_mass": "off"}}
 
 

@@ -27,10 +27,12 @@ def share(spec: Conveyor) -> Mapping[str, float]:
 
 
 def same_drives(drives: Iterable[PlacedDrive]) -> bool:
-    """Whether drives differ by the number of their motors only: only then their torques share the pull in steady
-    motion as their mean starting torques do, at equal speed of all pulleys on equal slip lines."""
-    kinds = {(repr(one.motor.model_copy(update={"count": 1})), one.gear.ratio, one.drum.diameter) for one in drives}
-    return len(kinds) <= 1
+    """Whether drives share the pull in steady motion as their mean starting torques do: their motors have one curve of
+    torque over speed, on pulleys of one speed; taken to be so where no curve is given."""
+    several = list(drives)
+    if all(one.motor.curve is None for one in several):
+        return True
+    return len({repr((one.motor.curve, one.gear.ratio, one.drum.diameter)) for one in several}) == 1
 
 
 def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
