@@ -72,7 +72,7 @@ def _examples() -> Iterator[tuple[str, Example]]:
     yield "NUM113", Example("ptmcalc check tests/edges/hoist/limiter.yaml --format table", "note NUM113")
     yield (
         "SPC204",
-        Example(_CHECK, "design.yaml:6:1: warning SPC204", f"{_TRAIN}checks: {{DRV101: {{off: a test rig}}}}\n"),
+        Example(_CHECK, "design.yaml:6:9: warning SPC204", f"{_TRAIN}checks: {{DRV101: {{off: a test rig}}}}\n"),
     )
     yield "SPC205", Example("ptmcalc check tests/edges/hoist/huge-drum.yaml", "error SPC205")
 
