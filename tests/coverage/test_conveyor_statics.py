@@ -20,7 +20,7 @@ from ptmcalc.machines.conveyor.solvers.standing import BRAKING, HOLDING, IDENTIF
 from ptmcalc.machines.conveyor.solvers.statics import STATICS
 from ptmcalc.spec.machine import MachineSpec
 
-WITHOUT_BARS = {"conveyor": ("statics", "brake_statics", "holding", "run_out")}
+WITHOUT_BARS = {"conveyor": ("statics", "brake_statics", "holding", "run_out", "gear_losses")}
 KIND = load_kind("conveyor")
 SEED, ALWAYS = 1913, 100
 REFERENCE = 1e-9

@@ -32,7 +32,7 @@ from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
 ON_TRIAL = {
     "crane": (
         "efficiency_direction", "slewing_motor_curve", "wind_gust", "load_swing", "centrifugal_offset", "consistent",
-        "geared", "slew",
+        "curved", "geared", "slew",
     )
 }  # fmt: skip
 KIND = next(one for one in load_kind("crane").types if one.type == "slewing")

@@ -38,7 +38,7 @@ class Statics:
         data["idlers"]["carry"]["pitch"] = f"{self.pitches[0]!r} m"
         data["idlers"]["return"]["pitch"] = f"{self.pitches[1]!r} m"
         data["belt"] |= {"breaking_force": f"{self.breaking!r} N", "carcass": "textile"}
-        data["resistance"]["stop_factor"] = self.stop_factor
+        data["resistance"] |= {"stop_factor": self.stop_factor, "rest_factor": self.stop_factor}
         data["takeup"] |= {"permanent_elongation": self.elongation, "stroke": "1000 m"}
         data["backstop"] = {"torque": "1 N*m", "reserve": 1.5}
         return data

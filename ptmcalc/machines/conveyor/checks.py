@@ -451,7 +451,7 @@ BACKSTOP: Check[Conveyor, Hold] = Check(
     repair=lambda spec, scene: _holding_key(spec) if spec.backstop or spec.brakes else (),
     what="The pull of the load on the stopped belt is held by idler resistance, backstop and closed brakes.",
     why="A belt that runs back buries its tail and turns the motors backward.",
-    formula="(climb of the load - rest_factor x idler friction) D/2 <= (M_backstop + M_brakes)/reserve",
+    formula="(climb of the load - idler friction at rest) D/2 <= (M_backstop + M_brakes)/reserve",
     source="lecture notes Kramatorsk 2007",
 )
 

@@ -22,7 +22,7 @@ LOADS = (
     LoadInfo("slip_heat", "heat of slip", units.ENERGY),
     LoadInfo("stop_time", "time to come to rest", units.TIME, governing=True),
     LoadInfo("stop_distance", "way to come to rest", units.SPAN, governing=True),
-    LoadInfo("stop_distance_max", "way to come to rest, longest of any point of the belt", units.SPAN, governing=True),
+    LoadInfo("stop_distance_max", "way to come to rest, longest anywhere", units.SPAN, governing=True),
     LoadInfo("coast_distance", "way without brakes", units.SPAN, governing=True),
     LoadInfo("brake_torque_required", "brake torque for the allowed way, drum shaft", units.TORQUE, governing=True),
     LoadInfo("tension_overload_braking", "tension that braking in the allowed way adds", units.FORCE),
@@ -106,7 +106,7 @@ WAYS_OF_STOP = frozenset({"stop_distance", "stop_distance_max", "coast_distance"
 
 
 def ways_of(scene: ConveyorScene) -> tuple[str, ...]:
-    """The distances that a stop of this type reports: at the head, and the longest of any point of the belt."""
+    """The distances that a stop of this type reports: at the head, and the longest anywhere."""
     return ("coast_distance",) if scene.type == "coast" else ("stop_distance", "stop_distance_max")
 
 

@@ -57,7 +57,10 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
         at = {"time": time} if time is not None else {}
         if name not in apart or name in _FACTS:
             same = all(_as_good(name, value, other[name][0]) for other in compared)
-            found[name] = Found(Estimate.exact(value) if same else Estimate.unknown(value), at)
+            told = Estimate.exact(value) if same else Estimate.unknown(value)
+            if same and name in _FACTS and value not in (0.0, 1.0):  # a share of a speed that is known no better
+                told = Estimate.within(value, (_MARGIN * shares[False] + _UNSEEN) * abs(value))
+            found[name] = Found(told, at)
             continue
         size = sizes[part_of(name)]
         bar = _MARGIN * apart[name]

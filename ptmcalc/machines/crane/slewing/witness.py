@@ -29,6 +29,8 @@ from ptmcalc.witness import lumped
 FloatArray = NDArray[np.float64]
 Torque = Callable[[float, float], float]
 _PERIODS_AFTER = 3.0
+_DRAGGED = 8
+"""So many times longer, since a load that swings may drag a braked crane on."""
 _LONGEST = 2000.0
 _SAMPLES = 40
 _OUTWARDS, _AHEAD, _ROPE = range(3)
@@ -167,7 +169,8 @@ def _rotated(
     since, before = crane.time, float(crane.state[0])
     _stopped(spec, scene, crane, planned[0])
     stands = crane.time - since
-    _after(spec, scene, crane, since + max(2 * planned[0], stands) + 2 * _PERIODS_AFTER * _period(crane))
+    after = (2 + _DRAGGED) * _PERIODS_AFTER * _period(crane)
+    _after(spec, scene, crane, since + max(2 * planned[0], stands) + after)
     return crane, chain.Phases(start, (steady / spec.speed, steady), (stands, crane.farthest - before))
 
 

@@ -169,7 +169,12 @@ def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 
 def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate]) -> Estimate:
-    """Force of the ropes over the weight with the rated load, whatever is on the fork: the hoist is built for that."""
+    """Force of the ropes over the weight with the rated load, whatever is on the fork: the hoist is built for that.
+
+    **Range** any load on the fork; the weight is that of carriage and rated load.
+    **Error** that of the force, over the weight.
+    **Source** lecture notes Kramatorsk 2007, tables 11.1 and 11.2.
+    """
     one = loads["rope_force_caught"]
     rated = model.weight(spec, scene.model_copy(update={"load": "full"}))
     return Estimate(one.value / rated, one.low / rated, one.high / rated, one.numerical / rated, one.model / rated)
