@@ -46,7 +46,6 @@ MOST_EVALUATIONS = {
     "crane_slewing.yaml": 300,
     "crane_travelling.yaml": 200,
     "crane/portal_slewing.yaml": 1_000,
-    "drivetrain_winch.yaml": 10_000,
     "crane_overhead_stacker.yaml": 13_000,
     "crane_rack_stacker.yaml": 120_000,
     "crane/container_gantry.yaml": 400,
