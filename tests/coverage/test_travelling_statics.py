@@ -97,7 +97,10 @@ def test_what_is_claimed_is_what_the_witness_finds(machines: list[dict[str, Tria
     assert misses(trials, scene) == []
     for trial in trials:
         assert trial.claims[scene].keys() >= trial.truth.keys()
-        assert trial.judged & trial.claims[scene].keys() <= trial.truth.keys() | {"skid_reserve_min", "stability_reserve"}
+        assert trial.judged & trial.claims[scene].keys() <= trial.truth.keys() | {
+            "skid_reserve_min",
+            "stability_reserve",
+        }
 
 
 @pytest.mark.parametrize("scene", WAYS)
