@@ -93,7 +93,12 @@ def _window(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> float:
         return case.window
     whole = replace(case, window=case.window)
     for _ in range(_LONGER):
-        motion = _motion(whole, carried, grid)
+        try:
+            motion = _motion(whole, carried, grid)
+        except NumericsError:  # stick and slip alternate without end later: what was seen before counts
+            if whole.window == case.window:
+                raise
+            break
         apart = np.abs(motion.drum_speed - motion.belt_speed) > _STICKS * case.line.speed
         if not apart[-1]:
             last = np.flatnonzero(apart)
