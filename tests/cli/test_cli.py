@@ -327,7 +327,8 @@ def test_an_effect_is_forced_on_the_command_line(wish: str, state: str) -> None:
 
 def test_the_command_line_overrules_the_file(tmp_path: Path) -> None:
     file = tmp_path / "off.yaml"
-    file.write_text(PASSING.read_text("utf-8") + "\neffects: {belt_wave: off, slip: off}\n", encoding="utf-8")
+    text = PASSING.read_text("utf-8").replace("takeup_mass: off", "belt_wave: off, slip: off")
+    file.write_text(text, encoding="utf-8")
     effects = effects_of(checked(file, "--effects", "belt_wave=auto"))
     assert {name for name, effect in effects.items() if effect["forced"]} == {"slip"}
 
