@@ -25,7 +25,7 @@ TOO_WEAK = {
     "drivetrain": ("limit: 90 kN", "limit: 70 kN", "links.rope.limit"),
     "shaft": ("brake: {torque: 5.5 kN*m", "brake: {torque: 4 kN*m", "brake.torque"),
     "crane_slewing": ("sway: 15 deg", "sway: 10 deg", "speed"),
-    "crane_travelling": ("stroke: 150 mm", "stroke: 120 mm", "buffers.stroke"),
+    "crane_travelling": ("stroke: 180 mm", "stroke: 120 mm", "buffers.stroke"),
     "crane_overhead_stacker": ("collision_speed: 1 m/s", "collision_speed: 0.8 m/s", "bridge_travel.speed"),
     "crane_rack_stacker": ("largest_speed: 2.2 m/s", "largest_speed: 1.8 m/s", "travel.speed"),
 }
