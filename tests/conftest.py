@@ -32,17 +32,7 @@ LONGEST_FIRST = (
 """Rooms and files that take longest: begun first, none of them is left to one process at the end."""
 
 
-KNOWN_FAULTS = Path(__file__).with_name("known_faults.txt").read_text("utf-8").splitlines()
-"""Tests that fail at present: of faults that are known and not mended yet, or that still hold the values before what a
-file leaves out became an assumption. A line is a file or a test; it goes when its test is mended."""
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    known = frozenset(KNOWN_FAULTS)
-    for item in items:
-        if known & {item.nodeid, item.nodeid.partition("::")[0]}:
-            item.add_marker(pytest.mark.xfail(reason="a known fault", strict=False))
-
     def turn(item: pytest.Item) -> int:
         return next((k for k, room in enumerate(LONGEST_FIRST) if room in item.path.parts), len(LONGEST_FIRST))
 

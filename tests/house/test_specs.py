@@ -24,7 +24,7 @@ MOST_EVALUATIONS = {
     "shaft.yaml": 60_000,
     "crusher_shaft.yaml": 1_200_000,
     "short_conveyor.yaml": 10,
-    "reference/bw_02.yaml": 25_000_000,
+    "reference/bw_02.yaml": 2_000_000,
     "conveyor/decline_conveyor.yaml": 4_000_000,
     "conveyor/hollow_conveyor.yaml": 18_000_000,
     "conveyor/two_drive_conveyor.yaml": 19_000_000,
