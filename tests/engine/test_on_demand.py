@@ -19,7 +19,7 @@ from ptmcalc.report import Format, render
 
 Called = list[tuple[str, str, frozenset[str], int]]
 SIMPLE = {
-    "specs/reference/bw_02.yaml": ("coulomb_idlers", "takeup_mass", "tail_mass"),
+    "specs/reference/bw_02.yaml": ("coulomb_idlers", "tail_mass"),
     "specs/short_conveyor.yaml": ("belt_wave", "slip"),
     "specs/hoist.yaml": ("structure", "rope_mass"),
     "specs/crane_travelling.yaml": ("large_sway", "wheel_slip"),

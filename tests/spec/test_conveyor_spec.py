@@ -694,7 +694,7 @@ def test_no_number_is_found_where_there_is_none(path: str) -> None:
 
 
 def test_defaults() -> None:
-    spec = spec_of(changed(template(), name=None, route__lift=None, drive__motor__count=None))
+    spec = spec_of(changed(template(), name=None, route__lift=None, drive__motor__count=None, effects=None))
     assert (spec.name, spec.description, spec.gravity, spec.accuracy, spec.effects) == ("", "", 9.81, None, {})
     assert (spec.route.lift, spec.route.inclination) == (0.0, "exact")
     assert spec.drive.motor.count == 1

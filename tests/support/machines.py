@@ -37,7 +37,7 @@ def template() -> dict[str, Any]:
     belts whose weight has no inertia."""
     data = yaml.safe_load(load_kind("conveyor").template)
     assert isinstance(data, dict)
-    data["takeup"]["tension"] = "30 kN"
+    data["takeup"] |= {"tension": "30 kN", "mass": "6 t"}
     return data | {"effects": {"takeup_mass": "off"}}
 
 
