@@ -208,9 +208,9 @@ class TestNotes:
 
 class TestWhatIsLeftOut:
     def test_scenes(self) -> None:
-        assert [type(scene) for scene in chain_of(changed(CH_05, scenes=None)).all_scenes] == [Run]
+        assert [type(scene) for scene in chain_of(changed(CH_05, scenes=None)).all_scenes] == [Run, Run]
         driven = chain_of(changed(CH_05, scenes=None, drive=MOTOR))
-        assert [type(scene) for scene in driven.all_scenes] == [Run, Start]
+        assert [type(scene) for scene in driven.all_scenes] == [Run, Run, Start, Start]
 
     def test_the_two_layouts(self) -> None:
         assert isinstance(chain_of(CH_05).layout, ConveyorLayout)

@@ -74,7 +74,7 @@ scenes: [{type: run}]
 edited = partial(design_files.edited, MACHINE)
 
 CEMA = (
-    ("coefficient: 0.022", "cema: {roll: 6in, flexure: 0.03}"),
+    ("coefficient: 0.022", "cema: {roll: 6in, flexure: 0.03, temperature: 1}"),
     ("secondary_force: 12 kN", "secondary_force: 2 kN"),
 )
 
@@ -156,7 +156,7 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         "check both speeds",
     ),
     "cema and a coefficient": (
-        (("secondary_force: 12 kN", "secondary_force: 12 kN\ncema: {roll: 6in, flexure: 0.03}"),),
+        (("secondary_force: 12 kN", "secondary_force: 12 kN\ncema: {roll: 6in, flexure: 0.03, temperature: 1}"),),
         "resistance.coefficient",
         "coefficient:",
         "delete `coefficient`, or `cema`",

@@ -516,7 +516,8 @@ def test_defaults() -> None:
     assert (brake.at, brake.shaft, brake.delay, brake.rise_time) == ("head", "drum", 0.0, 0.0)
     assert spec.backstop is not None
     assert spec.backstop.reserve == 1.25
-    assert (spec.takeup.mass, spec.takeup.stroke, spec.takeup.permanent_elongation) == (None, None, 0.0)
+    assert spec.takeup.mass == pytest.approx(2 * 240e3 / spec.gravity)
+    assert (spec.takeup.stroke, spec.takeup.permanent_elongation) == (None, None)
     stop, jam, start, emergency = spec.all_scenes
     assert isinstance(stop, Stop)
     assert isinstance(jam, Jam)
