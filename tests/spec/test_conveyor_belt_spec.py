@@ -288,7 +288,7 @@ ASSUMED = {
         0.6,
     ),
     "load.surcharge_angle": (("surcharge_angle: 15 deg", ""), 0.2617993877991494),
-    "resistance.cema.flexure": ((CEMA[0][0], "cema: {roll: 6in}"), 0.03),
+    "resistance.cema.flexure": ((CEMA[0][0], "cema: {roll: 6in, temperature: 1}"), 0.03),
 }
 
 
