@@ -92,8 +92,8 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]. A drum that
-    slips is driven no faster than `hold` [m/s], the speed of its motor."""
+    """What the drum does: force over the static resistance [N], or speed [m/s], as a function of time [s]. A drum
+    that has reached `hold` [m/s], the speed of its motor, is held at it."""
 
     force: Callable[[FloatArray], FloatArray] | None = None
     speed: Callable[[FloatArray], FloatArray] | None = None

@@ -223,6 +223,10 @@ class _Drum:
                 self.speed, self.was_held = self.hold, True
         else:
             self.speed += step * together
+            if self.speed > self.hold:
+                rate -= (self.speed - self.hold) / step
+                on, off = on_cell + self.on_half * rate, off_cell - self.off_half * rate
+                self.speed, self.was_held = self.hold, True
         end = float(belt.speed[-1]) + step * rate
         if self.slipping and self.slipping * (self.speed - end) < 0:
             self.slipping = 0

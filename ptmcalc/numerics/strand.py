@@ -269,7 +269,7 @@ class _Drum:
 
     def _stuck(self, here: slice, n_on: FloatArray, p_off: FloatArray, belt: FloatArray) -> int:
         """Speeds of a belt that sticks, into `belt`; for how many samples it does."""
-        before = self.node.speed
+        before, free = self.node.speed, self.speeds is None
         forcing = -n_on
         if self.speeds is not None:
             belt[:] = self.speeds[here]
@@ -280,6 +280,10 @@ class _Drum:
                 forcing += p_off
             start = self.node.forcing
             belt[:] = self.node.block(forcing)
+            fast = belt > self.hold
+            if fast.any():  # from there on the motor holds its own speed
+                self.was_held, self.speeds = True, np.full(len(self.belt), self.hold)
+                belt[int(fast.argmax()) :] = self.hold
         if not self.grip:
             return len(belt)
         on, off = self._sides(n_on, p_off, belt)
@@ -287,13 +291,15 @@ class _Drum:
         if not breaks.any():
             return len(belt)
         kept = int(breaks.argmax())
+        if free and bool((belt[:kept] < self.hold).all()):
+            self.speeds = None  # it slips before it has the speed of its motor
         if self.speeds is None:
             self.node.go_on(*((float(belt[kept - 1]), float(forcing[kept - 1])) if kept else (before, start)))
         return kept
 
     def _by_steps(self, first: int, n_on: FloatArray, p_off: FloatArray, belt: FloatArray, drum: FloatArray) -> None:
         """Speeds of belt and drum, into `belt` and `drum`, where grip may change at any of the samples."""
-        if self.force is None and self.forces is not None:
+        if self.force is None and self.forces is not None and self.speeds is None:
             self.force = self.forces.tolist()
         if self.imposed is None and self.speeds is not None:
             self.imposed = self.speeds.tolist()
@@ -325,6 +331,10 @@ class _Drum:
             else:
                 decay, old, new = node.full
                 speed = decay * self.at[1] + (old * node.forcing + new * forcing) / node.impedance
+            if speed > self.hold:
+                speed = self._held(speed)
+                self.speeds = np.full(len(self.belt), self.hold)
+                self.imposed = self.speeds.tolist()
             if not self._breaks(n_on, p_off, speed):
                 node.speed, node.forcing = speed, forcing
                 return speed, speed

@@ -15,6 +15,8 @@ from ptmcalc.numerics.belt.station import Torque
 
 _CONTOURS = 2.0
 """Times a wave goes round the belt that are looked at after it has come to rest, or after a drum has jammed."""
+AFTER_START = 4.0
+"""Times a wave goes round after the drum has its speed: a period of the lowest mode of a uniform loop."""
 MOST_ROUNDS = 1000.0
 """Rounds of a wave in the time of a scene from which on simulating it takes a minute."""
 _LATE = 1.25
@@ -101,9 +103,15 @@ def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
         curves = {name: along_curve(scene, drive) for name, drive in spec.all_drives.items()}
         pulls = {name: at_rest(curve) for name, curve in curves.items()}
         time, way = rigid_curve_start(line, curves)
-        return Moving(spec, scene, line, pulls, None, 0.0, time, time, way, curves)
+        return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way, curves)
     time, way = rigid_start(spec, scene, line, pulls)
-    return Moving(spec, scene, line, pulls, None, 0.0, time, time, way)
+    return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way)
+
+
+def _until_steady(line: BeltLine, time: float) -> float:
+    """Window of a start whose rigid body has its speed at a time [s]: the torque falls there, and the waves of that
+    fall go round; 0 where the belt never moves."""
+    return time + AFTER_START * line.contour_time if time > 0 else 0.0
 
 
 def _constant(force: float) -> Callable[[FloatArray], FloatArray]:

@@ -59,7 +59,7 @@ class Drum:
     one_way: bool = False
     """held by a backstop: never turns back"""
     hold: float = math.inf
-    """speed of its motor at the pulley surface [m/s]: a drum that slips is driven no faster"""
+    """speed of its motor at the pulley surface [m/s]: once the drum has it, the motor holds it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +135,7 @@ class Station:
         shares: Sequence[float] = (),
     ) -> None:
         self.place, self.drums, self.takeup, self.imposed = place, tuple(drums), takeup, imposed
+        self.hold = max((drum.hold for drum in self.drums), default=math.inf)
         count = len(self.drums)
         self.shares = tuple(shares) or tuple(1 / count for _ in self.drums)
         self.grips = [math.exp(drum.exponent) if drum.exponent is not None else math.inf for drum in self.drums]
@@ -255,6 +256,9 @@ class Station:
             if held_by and not belt and left < 0:
                 holds, left = -left / held_by, 0.0
             acceleration = left / mass if mass > 0 else 0.0
+            if sticks and belt > self.hold:
+                belt, self.imposed = self.hold, lambda _: self.hold
+                acceleration, held = (belt - old) / step if step else 0.0, 1.0
         forces = [
             (first, force if sense else force + rate * (belt - old))
             for (first, force, rate), sense in zip(given, self.slips, strict=True)

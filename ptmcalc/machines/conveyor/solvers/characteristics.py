@@ -18,6 +18,7 @@ from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.kept import Kept
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
+from ptmcalc.machines.conveyor.moving import AFTER_START
 from ptmcalc.machines.conveyor.slipping import slip_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.numerics import loop, peaks, sagging, strand
@@ -89,9 +90,12 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 
 def _window(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> float:
     """The usual window [s]; of a drum that slips at its end, until it has gripped, up to some windows."""
-    if case.imposed_speed or "slip" not in carried or case.line.grip_exponent is None:
+    if case.imposed_speed:
         return case.window
-    whole = replace(case, window=case.window)
+    case = replace(case, window=case.window + AFTER_START * case.line.contour_time)
+    if "slip" not in carried or case.line.grip_exponent is None:
+        return case.window
+    whole = case
     for _ in range(_LONGER):
         try:
             motion = _motion(whole, carried, grid)

@@ -12,6 +12,7 @@ from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.start_loads import STATE_AFTER_START, after_start
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -49,7 +50,9 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
             "slip_utilisation_max": Found(used, at),
             "slip_reserve_min": Found(Estimate.exact(left), at),
         }
-    return Result(loads, work=1, window=(0.0, case.window))
+    later = after_start(spec, case, loads)
+    state = STATE_AFTER_START if later else ""
+    return Result(loads, work=1, window=(0.0, case.window), beyond=later, open_end=state)
 
 
 def valid(spec: Conveyor, scene: Start) -> Criterion:
