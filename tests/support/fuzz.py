@@ -19,7 +19,7 @@ from typing import Any, Union, get_args, get_origin
 
 import yaml
 
-from ptmcalc.base.diagnostic import BROKEN, Severity
+from ptmcalc.base.diagnostic import BROKEN, Severity, Verdict
 from ptmcalc.base.units import UNITS
 from ptmcalc.contract.report import FileReport, exit_status
 from ptmcalc.engine.check import Options, check
@@ -36,7 +36,7 @@ HUNG = 2.0
 """Seconds of this process after which an input counts as hung: it ends the test, no assertion looks at it."""
 BUDGET = 2e-4
 """Predicted seconds that a scene may take: what decides by closed forms does, and the first rung of the others."""
-LINE = re.compile(r"fuzz\.yaml:([1-9][0-9]*):([1-9][0-9]*): (error|warning|pass|fail|undecided|not_checked|waived) .+")
+LINE = re.compile(rf"fuzz\.yaml:([1-9][0-9]*):([1-9][0-9]*): ({'|'.join((*Severity, *Verdict))}) .+")
 TABLE = re.compile(r"fuzz\.yaml: .+")
 """A line of a kind's own table, which is about the whole file."""
 
