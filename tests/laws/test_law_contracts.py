@@ -710,6 +710,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     safety_gear.eccentric_moment: [(3e4, 0.9)],
     safety_gear.axial_shock: [(3e4,)],
     skew.skew_angle: [(x, 0.006, 4.2, 0.01, 0.001, e) for x in (0.008, 0.02) for e in ("full", *SKEW_EDITIONS)],
+    skew.skew_play: [(x, 0.006, e) for x in (0.004, 0.007, 0.02) for e in ("full", *SKEW_EDITIONS)],
     skew.skew_friction: [(0.006, 0.3)],
     skew.slip_pole: [(*PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
     skew.skew_forces: [(0.24, *PAIRS, 0.35, 22.5, rail) for rail in ("fixed", "movable")],
@@ -859,6 +860,7 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
         (ValueError, ("sudden", False, "2004")),
     ],
     skew.skew_angle: [(ValueError, (0.02, 0.006, 4.2, 0.01, 0.001, "iso_8686"))],
+    skew.skew_play: [(ValueError, (0.02, 0.006, "iso_8686"))],
     skew.slip_pole: [
         (ValueError, (*PAIRS, 0.35, 22.5, "hinged")),
         (ValueError, (np.zeros(2), *PAIRS[1:], 0.35, 22.5, "fixed")),
