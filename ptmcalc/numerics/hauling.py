@@ -34,8 +34,10 @@ _KEPT = 0.9
 """Part of its length that a stretch leaves of the rope at least: the quadrature is exact to 1e-11 from 0.25, and the
 bound of what is neglected, by the largest drift of a stretch, is at most 1.2 times its integral."""
 _MOST_TURNS = 1e6
+_LEAST_LEFT = 1e-12
+"""Part of the free rope that is left at least: below it rounding of the lengths hides where a stretch ends."""
 _MOST_MISSED = 30.0
-"""Growth of an error over a stretch, as an exponent, behind which a bar says nothing any more."""
+"""Growth of an error over all stretches, as an exponent, above which an error bar has no meaning: e^30 = 1e13."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,7 +216,9 @@ def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
         the motion.
 
     **Range** linear in the dynamic strain, which shortens the rope no further; a rope without mass.
-    **Error** told: int |r| dtheta, and half the phase that the dynamic strain left out of s' can shift.
+    **Error** reported, to first order in the dynamic strain. A stretch adds (|Y| + E)(exp(q) - 1) to the error E of Y
+        with q = int |r| dtheta + theta d/(2 s): the dynamic strain neglected in s' changes s by d <= int |e| |s'| dt,
+        k by k d/(2 s).
     **Source** module docstring.
 
     Raises:
@@ -228,7 +232,7 @@ def haul(radius: Map, drum_speed: float, rope: Rope) -> Hauled:
     steps = np.diff(times)
     taken = steps * (speeds[:-1] + speeds[1:]) / 2 / (1 + rope.static_strain)
     lengths = rope.length - np.concatenate([[0.0], np.cumsum(taken)])
-    if lengths[-1] <= 0:
+    if lengths[-1] <= _LEAST_LEFT * rope.length:
         raise NumericsError("NUM102", "the drum takes in more rope than is free")
     if (short := lengths[1:] < _KEPT * lengths[:-1]).any():
         return haul(_halved(radius, short), drum_speed, rope)
@@ -253,7 +257,7 @@ def _swung(still: Hauled, thetas: FloatArray) -> tuple[ComplexArray, FloatArray]
     missed = _missed(still, thetas)
     whole = np.exp(decay * thetas)
     amplitudes, error = np.empty(len(thetas), complex), np.empty(len(thetas))
-    e, slope, wrong, slipped = 0.0, 0.0, 0.0, 0.0
+    e, slope, wrong, slipped, grown = 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(len(thetas)):
         y = float(size[j]) * (e - float(still.offsets[j]))
         rate = float(size[j]) * slope - float(drift[j]) * y
@@ -264,7 +268,8 @@ def _swung(still: Hauled, thetas: FloatArray) -> tuple[ComplexArray, FloatArray]
         slipped += most * float(still.lengths[j] - still.lengths[j + 1])
         shifted = slipped / float(still.lengths[j + 1]) / 2
         share = float(missed[j]) + shifted * float(thetas[j])
-        if not share < _MOST_MISSED:
+        grown += share
+        if not grown < _MOST_MISSED:
             raise NumericsError("NUM102", "the drum changes the rope's length faster than the load swings on it")
         wrong = wrong + (norm + wrong) * math.expm1(share)
         amplitudes[j], error[j] = c, wrong
