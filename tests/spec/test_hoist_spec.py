@@ -75,9 +75,24 @@ class TestRopeAndDrum:
         assert "their height is missing" in found.message
         assert "flange_height: 105 mm" in found.hint
 
-    @pytest.mark.parametrize("pitch", ["10 mm", "40 mm"])
-    def test_turns_lie_side_by_side(self, pitch: str) -> None:
-        assert "pitch: 19.6 mm" in faulty(changed(PAPER, drum__pitch=pitch), "drum", "pitch").hint
+    @pytest.mark.parametrize(("pitch", "reason"), [("10 mm", "at least"), ("35 mm", "less than two"), ("40 mm", "two")])
+    def test_turns_lie_side_by_side(self, pitch: str, reason: str) -> None:
+        """Between turns two diameters apart a rope falls to the drum: (d^2 - (2 d/2)^2)^(1/2) = 0."""
+        for packing in ("nested", "square"):
+            data = changed(PAPER, drum__pitch=pitch, drum__layers=1, winding={"packing": packing})
+            found = faulty(data, "drum", "pitch")
+            assert reason in found.message
+            assert f"not {pitch}" in found.message
+            assert "pitch: 19.6 mm" in found.hint
+        assert problems(changed(PAPER, drum__pitch="34.99 mm", drum__layers=1)) == []
+
+    def test_a_third_layer_lies_clear_of_the_first(self) -> None:
+        """3^(1/2) 17.5 mm = 30.31 mm: two steps of (d^2 - (p/2)^2)^(1/2) are d then."""
+        third = changed(PAPER, drum__layers=3)
+        assert problems(changed(third, drum__pitch="30.3 mm")) == []
+        found = faulty(changed(third, drum__pitch="30.32 mm"), "drum", "pitch")
+        assert "a third nested layer" in found.message
+        assert problems(changed(PAPER, drum__layers=2, drum__pitch="30.32 mm")) == []
 
     def test_a_drum_for_no_turn(self) -> None:
         found = faulty(changed(PAPER, drum__length="20 mm"), "drum", "length")

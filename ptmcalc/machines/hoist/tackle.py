@@ -171,6 +171,23 @@ class Winding(Fragment):
             yield Conflict(("crossover",), reason, "write e.g. `crossover: 60 deg`")
 
 
+def _why_not_wound(pitch: float, d: float, layers: int, nested: bool) -> str | None:
+    """Reason why turns of a rope of diameter d cannot be wound at a pitch p; None where they can.
+
+    A nested layer is (d^2 - (p/2)^2)^(1/2) above the one below: at p = 2 d it is no layer, the rope reaches the drum.
+    The third layer is in line with the first one: two steps of at least d are p of at most 3^(1/2) d.
+    """
+    thick, found = units.show(d, units.LENGTH), units.show(pitch, units.LENGTH)
+    if pitch < d:
+        return f"turns of a rope of {thick} are at least its diameter apart, not {found}"
+    if pitch >= 2 * d:
+        return f"turns of a rope of {thick} are less than two of its diameters apart, not {found}: another fits between"
+    if nested and layers > 2 and pitch > math.sqrt(3) * d:
+        most = units.show(math.sqrt(3) * d, units.LENGTH)
+        return f"a third nested layer of a rope of {thick} needs turns at most {most} apart, not {found}"
+    return None
+
+
 def whole(given: Given, key: str) -> int | None:
     """A whole number the file writes, as far as it is one."""
     number = given.raw.get(key)
@@ -190,8 +207,7 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         yield Conflict(("drum", "diameter"), reason, f"write e.g. `diameter: {units.show(18 * d, units.LENGTH)}`")
         return
     pitch, length, layers = drum.number("pitch"), drum.number("length"), whole(drum, "layers") or 1
-    if pitch is not None and not d <= pitch <= 2 * d:
-        reason = f"turns of a rope of {thick} lie one to two of its diameters apart"
+    if pitch is not None and (reason := _why_not_wound(pitch, d, layers, nested)):
         yield Conflict(("drum", "pitch"), reason, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
         return
     if length is not None and length < 3 * (pitch or d):
