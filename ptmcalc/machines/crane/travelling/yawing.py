@@ -162,7 +162,7 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
     state: State = (0.0, 0.0, 0.0, speed, speed, speed)
     hydraulic = given.type == "hydraulic"
     ends = _SLOW * speed if hydraulic else 0.0
-    tops, left, ended = [0.0, 0.0], 0.0, True
+    tops, passed, ended = [0.0, 0.0], [0.0, 0.0], True
     hardest = [one.force(1e-300, speed)] * 2 if hydraulic else [0.0, 0.0]
     begun = one.rates((1e-300, 1e-300, 0.0, speed, speed, speed))
     deceleration = max(-begun[3], -begun[4], 0.0)
@@ -193,8 +193,8 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
             tops[side] = max(tops[side], top)
             if hydraulic:
                 hardest[side] = max(hardest[side], one.force(after[side], after[side + 3]))
-            if not left and state[side] <= given.stroke < after[side]:
-                left = max(_passing(state, after, side, step, given.stroke), 0.0)
+            if not passed[side] and state[side] <= given.stroke < after[side]:
+                passed[side] = max(_passing(state, after, side, step, given.stroke), 0.0)
         rates = one.rates(after)
         deceleration = max(deceleration, -rates[3], -rates[4])
         state = after
@@ -208,9 +208,10 @@ def _run(one: Yawing, reach: float, steps: int) -> Pressed:
         hardest = [one.force(min(top, given.stroke), 0.0) for top in tops]
     elif given.type == "constant":
         hardest = [given.hardness / 2] * 2
+    side = 0 if tops[0] >= tops[1] else 1
+    left = passed[side]  # as the stroke: the other rail may bottom out sooner, but is pressed less
     if hydraulic and left <= ends:
         left = 0.0
-    side = 0 if tops[0] >= tops[1] else 1
     return Pressed(max(hardest) / max(given.count / 2, 1.0), tops[side], left, deceleration, "AB"[side], 0.0, ended)
 
 
