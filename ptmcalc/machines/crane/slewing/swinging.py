@@ -70,13 +70,19 @@ class Rotation:
         return max((piece.farthest(name) for piece in self.pieces), key=lambda peak: peak.value)
 
     def history(self, name: str) -> tuple[list[float], list[float]]:
-        """A signal over time."""
+        """A signal over time: where the motion was looked at, and where the signal is largest and smallest."""
         times: list[float] = []
         values: list[float] = []
         for piece in self.pieces:
-            at = np.linspace(0.0, piece.lasts, 401)
-            times += [float(t) for t in piece.begins + at]
-            values += [float(x) for x in piece.motion.at(name, at)]
+            at, (seen,) = piece.motion.history((name,))
+            ends = (0.0, piece.lasts)
+            peaks = (piece.motion.largest(name, *ends), piece.motion.smallest(name, *ends))
+            at = np.concatenate([at, [one.time for one in peaks]])
+            seen = np.concatenate([seen, [one.value for one in peaks]])
+            kept = np.flatnonzero(at <= piece.lasts)
+            kept = kept[np.argsort(at[kept], kind="stable")]
+            times += (piece.begins + at[kept]).tolist()
+            values += seen[kept].tolist()
         return times, values
 
 
