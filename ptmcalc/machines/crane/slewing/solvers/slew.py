@@ -15,6 +15,8 @@ from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 from ptmcalc.machines.crane.slewing.swinging import Rotation, rotation
 
 ALWAYS = frozenset({"efficiency_direction", "load_swing", "centrifugal_offset"})
+_STEP, _EVENT = 2.5e-3, 1.5e-2
+"""Seconds of a step and of an event: a load that drags the crane through its brake stops it dozens of times."""
 _SIGNALS = {"sway_radial_max": "across", "sway_tangential_max": "along", "sway_max": "sway"}
 
 
@@ -53,13 +55,16 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     for name in _SIGNALS:
         found[name] = replace(found[name], estimate=_turning(found[name].estimate, residual.high))
     found |= _ring(spec, scene, moved)
+    steps = sum(piece.motion.steps for piece in moved.pieces)
+    events = tuple(event for piece in moved.pieces for event in piece.events())
     return Result(
         found,
-        work=sum(piece.motion.steps for piece in moved.pieces),
+        work=steps,
+        spent=_STEP * steps + _EVENT * len(events),
         window=(0.0, last.begins + last.lasts),
         health={"energy_residual": max(piece.motion.works().residual for piece in moved.pieces)},
         findings=tuple(_doubts(moved)),
-        events=tuple(event for piece in moved.pieces for event in piece.events()),
+        events=events,
         histories=lambda: _histories(moved),
     )
 
@@ -148,7 +153,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
     whole *= scene.window_factor
     if not math.isfinite(whole):
         return 0.01
-    return (0.08 + 8e-3 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)
+    return (0.15 + 1.5e-3 * (whole * omega + 40)) * (1 + spec.speed / omega) + 0.01 * len(carried)
 
 
 SLEW: Solver[SlewingCrane, SlewingScene] = Solver(
