@@ -228,7 +228,8 @@ class _Search:
         return [cache(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
 
     def _at(self, value: float, end: tuple[KeyPath, float] | None, finest: float) -> float:
-        """The worst over the scenes of the check."""
+        """The worst over the scenes of the check; a scene that does not ask for it, as one without a load, is not in
+        the way, but one at least has to."""
         before = self.loaded.spec
         measure = measure_at(before, self.path) if before is not None else None
         if measure is not None and measure.broken_by(value):
@@ -245,15 +246,15 @@ class _Search:
             for index, scene in enumerate(spec.all_scenes)
             if self.check.applies_to(scene) and (not self.scenes or scene.label in self.scenes)
         ]
-        return min((self._of_scene(spec, index, finest) for index in wanted), default=-math.inf)
+        return min((one for index in wanted for one in self._of_scene(spec, index, finest)), default=-math.inf)
 
-    def _of_scene(self, spec: MachineSpec, index: int, finest: float) -> float:
+    def _of_scene(self, spec: MachineSpec, index: int, finest: float) -> list[float]:
         kind = self.loaded.kind
         assert kind is not None
         scene = plan_scene(kind, spec, spec.all_scenes[index])
         settled = settle(kind, spec, scene, only=self.check, until=lambda rung: rung.level <= finest)
         self.purse.pay(settled.spent)
-        return min((self._of_ruling(ruling) for ruling in settled.rulings), default=-math.inf)
+        return [self._of_ruling(ruling) for ruling in settled.rulings]
 
     def _of_ruling(self, ruling: Ruling) -> float:
         if ruling.found or ruling.value is None or ruling.limit is None:
