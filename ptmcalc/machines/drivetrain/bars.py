@@ -58,7 +58,8 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
         if name not in apart or name in _FACTS:
             same = all(_as_good(name, value, other[name][0]) for other in compared)
             told = Estimate.exact(value) if same else Estimate.unknown(value)
-            if same and name in _FACTS and value not in (0.0, 1.0):  # a share of a speed that is known no better
+            # a share of a speed that is known no better; without end where the speed at the start is 0
+            if same and name in _FACTS and value not in (0.0, 1.0, math.inf):
                 told = Estimate.within(value, (_MARGIN * shares[False] + _UNSEEN) * abs(value))
             found[name] = Found(told, at)
             continue

@@ -30,9 +30,16 @@ class Ending:
     failures: tuple[Failure, ...] = ()
     loads: dict[str, Found] = field(default_factory=dict)
     state: str = ""
+    work: int = 0
 
 
-_DOUBLINGS = 2
+_LOOKS = 12
+"""Times that the rigid train is looked at, over twice the time each: 2048 windows."""
+_LONGER = 1.2
+"""Time in which an elastic train is taken to end its start or stop, over that of the rigid one, as of its window."""
+_OF_THE_END = frozenset({"start_time", "start_share", "stop_time", "stop_angle", "stop_speed_share"})
+"""Loads that are about the end of a start or stop, whenever it is."""
+DOUBLINGS = 2
 """Times that a window is doubled in which a torque has its peak in the second half."""
 _SECONDS = 5.0
 """Predicted seconds of a run up to which a window is doubled."""
@@ -40,6 +47,7 @@ _CREEP, _MORE = 0.01, 4.0
 """Growth of a peak, relative to it, up to which undamped modes that meet later are the reason; what later windows may
 add is then at most some times the last growth, as the peak of a sum of sines grows ever slower."""
 _PEAKS = frozenset({"torque_peak", "motor_torque_peak"})
+_SPEEDS = frozenset({"speed_max", "speed_min"})
 
 _OF_THE_WINDOW = frozenset({"motor_torque_rms", "speed_end", "angle_end", "torque_steady"})
 """Loads of the end or the mean of the scene: of a start or stop without `duration` they would be those of the window
@@ -47,46 +55,84 @@ that happens to be computed, but for a part at rest."""
 
 
 def steady_runs(
-    spec: Drivetrain, scene: TrainScene, case: Case, tolerance: float
+    spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float, doublings: int = DOUBLINGS
 ) -> tuple[tuple[motion.Course, ...], dict[str, Interval], str]:
-    """Runs over a window after which no torque grows, and what can still change after it.
+    """Runs over a window after which no torque and no speed grows, and what can still change after it.
 
-    A start or stop whose torque peaks lie in the second half of the window is computed over twice the time, until no
-    peak grows any more; a `duration` of the file stays as it is.
+    A start or stop whose torque peaks lie in the second half of the window, or whose extreme speeds do and grow on as
+    those of the rigid train, is computed over twice the time until none grows; a `duration` of the file stays as it is.
     """
-    end = motion.window(scene, case)
     runs = bars.played(case, end, tolerance)
     if scene.duration is not None or isinstance(scene, Run):
         return runs, {}, ""
-    grown: dict[str, float] = {}
-    for _ in range(_DOUBLINGS):
+    ahead = _speeds_ahead(spec, scene, runs[0])
+    rising = {name for name, (more, size) in ahead.items() if not more < _CREEP * size}
+    grown: dict[str, float] = dict.fromkeys(rising, math.inf)
+    for _ in range(doublings):
         before = motion.readings(spec, runs[0])
-        late = [name for name, (_, at) in before.items() if family(name) in _PEAKS and at is not None and at > end / 2]
+        late = [
+            name
+            for name, (_, at) in before.items()
+            if (name in rising or family(name) in _PEAKS) and at is not None and at > end / 2
+        ]
         if not late or motion.seconds(case, 2 * end) > _SECONDS:
             break
         known = bars.loads(spec, *runs)
         end *= 2
         runs = bars.played(case, end, tolerance)
         after = motion.readings(spec, runs[0])
-        grown = {name: after[name][0] - before[name][0] for name in late}
+        grown = {name: abs(after[name][0] - before[name][0]) for name in late}
         grown = {name: more for name, more in grown.items() if more > known[name].estimate.bar}
         if not grown:
             break
-    beyond = {
-        name: Interval(0.0, _MORE * more if more < _CREEP * motion.readings(spec, runs[0])[name][0] else math.inf)
-        for name, more in grown.items()
+    last = motion.readings(spec, runs[0])
+    beyond = {name: _outward(name, more) for name, (more, _) in ahead.items() if name not in rising}
+    beyond |= {
+        name: _outward(name, more if more < _CREEP * abs(last[name][0]) else math.inf) for name, more in grown.items()
     }
     restless = motion.chattering(runs[0])
     beyond |= {of("torque_peak", name): Interval(0.0, math.inf) for name in restless if name in spec.links}
-    named = [*(name for name in restless if name in spec.links), *grown]
+    named = [*(name for name in restless if name in spec.links), *sorted(grown)]
     return runs, beyond, f"`{named[0]}` is not steady" if named else ""
 
 
-def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motion.Course) -> Result:
+def _outward(name: str, more: float) -> Interval:
+    """What later windows may add to an extreme that has grown by so much in the last one."""
+    return Interval(-_MORE * more, 0.0) if family(name) == "speed_min" else Interval(0.0, _MORE * more)
+
+
+def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: motion.Course) -> dict[str, tuple[float, float]]:
+    """Growth of the extreme speeds of the rigid train while the time doubles, and their size, by the name of the load.
+
+    Those of a run which lie in the second half of its window: a motor above the speed that ends its start goes on to
+    the speed of no surplus. The growth is infinite where the rigid train is not computed.
+    """
+    end = course.record.time
+    found = {
+        name: (math.inf, abs(value))
+        for name, (value, at) in motion.readings(spec, course).items()
+        if family(name) in _SPEEDS and at is not None and at > end / 2
+    }
+    case = rigid(case_of(spec, scene, backlash=False))
+    if not found or motion.seconds(case, 2 * end) > motion.BESIDE:
+        return found
+    try:
+        once, twice = (
+            motion.run(case, time, _TOLERANCE, most_work=motion.most_work(case, time)) for time in (end, 2 * end)
+        )
+    except NumericsError:
+        return found
+    before, after = motion.readings(spec, once), motion.readings(spec, twice)
+    grown = {name: (abs(after[name][0] - before[name][0]), size) for name, (_, size) in found.items()}
+    return {name: (more, size) for name, (more, size) in grown.items() if more > _TOLERANCE * size}
+
+
+def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Result:
     """A result with what its run tells of the end of the start or stop.
 
-    A motion that gains nothing while its time doubles never ends: the check of it fails. One that goes on has a time
-    between the window and infinity.
+    A motion that gains nothing while its time doubles never ends: the check of it fails. One that goes on is followed
+    to its end where that takes no long run and the file gives no `duration`; else it has a time between the window and
+    infinity.
     """
     if scene.duration is None:
         stopped = course.case.stopping and math.isfinite(motion.ended(course))
@@ -96,41 +142,82 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
             name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW or name in kept
         }
         result = replace(result, loads=defined)
-    found = _ending(spec, scene, course)
+    found = _ending(spec, scene, course, tolerance)
     if found is None:
         return result
     loads = {name: found.loads.get(name, one) for name, one in result.loads.items()}
     failures = (*result.failures, *found.failures)
-    return replace(result, loads=loads, failures=failures, open_end=found.state or result.open_end)
+    work, state = result.work + found.work, found.state or result.open_end
+    return replace(result, loads=loads, failures=failures, open_end=state, work=work)
 
 
-def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course) -> Ending | None:
+def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Ending | None:
     case, end = course.case, course.record.time
     if (not case.stopping and case.until is None) or math.isfinite(motion.ended(course)):
         return None
-    whole = rigid(case_of(spec, scene, backlash=False))
-    speeds = _twice(whole, end)
-    wanted = 0.0 if case.until is None else case.until
-    if speeds is not None and not _gains(wanted, *speeds):
-        return Ending((_failure(spec, case, speeds[1]),))
+    ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end)
+    if ahead.stuck is not None:
+        return Ending((_failure(spec, case, ahead.stuck),))
+    if math.isfinite(ahead.over) and scene.duration is None:
+        followed = _followed(spec, scene, case, max(2 * end, _LONGER * ahead.over), tolerance)
+        if followed is not None:
+            return followed
     return Ending(loads=dict(_later(case, course, end)), state=_state(spec, case, motion.speeds(course, case.main)[0]))
 
 
-def _twice(case: Case, end: float) -> tuple[float, float] | None:
-    """Speed of the main inertia of the rigid train at the end of a window, and of one twice as long, from where no
-    torque changes with time any more; None where one does, or where the runs are not made."""
+@dataclass(frozen=True, slots=True)
+class _Ahead:
+    """How a rigid train goes on: when it is over, infinite where that is not known, and the speed that it keeps."""
+
+    over: float = math.inf
+    stuck: float | None = None
+
+
+def _ahead(case: Case, end: float) -> _Ahead:
+    """How the rigid train goes on after a window, looked at over twice the time again and again.
+
+    From the last change of a torque with time on its motion is that of one speed, which rises or falls for good: where
+    it comes no nearer to the one that is wanted it never has it.
+    """
     changes = _last_change(case)
     if not math.isfinite(changes):
-        return None
-    end = max(end, changes)
-    found = []
-    for time in (end, 2 * end):
+        return _Ahead()
+    end, before = max(end, changes), None
+    wanted = 0.0 if case.until is None else case.until
+    for look in range(_LOOKS):
+        if look > 1 and motion.seconds(case, end) > motion.BESIDE:
+            break
         try:
-            course = motion.run(case, time, _TOLERANCE, most_work=motion.most_work(case, time))
+            course = motion.run(case, end, _TOLERANCE, most_work=motion.most_work(case, end))
+        except NumericsError:
+            break
+        if math.isfinite(motion.ended(course)):
+            return _Ahead(over=max(motion.ended(course), changes))
+        speed = motion.speeds(course, case.main)[0]
+        if before is not None and not _gains(wanted, before, speed):
+            return _Ahead(stuck=speed)
+        end, before = 2 * end, speed
+    return _Ahead()
+
+
+def _followed(spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float) -> Ending | None:
+    """The end of a start or stop beyond its window; None where it takes a long run, or is not found."""
+    work = 0
+    for _ in range(DOUBLINGS):
+        if not motion.seconds(case, end) <= motion.BESIDE:
+            return None
+        try:
+            runs = bars.played(case, end, tolerance)
         except NumericsError:
             return None
-        found.append(motion.speeds(course, case.main)[0])
-    return found[0], found[1]
+        work += sum(course.record.steps for course in runs)
+        if motion.untrusted(spec, scene, runs[0], tolerance) is not None:
+            return None
+        if all(math.isfinite(motion.ended(course)) for course in runs):
+            loads = bars.loads(spec, *runs)
+            return Ending(loads={name: one for name, one in loads.items() if name in _OF_THE_END}, work=work)
+        end *= 2
+    return None
 
 
 def _gains(wanted: float, speed: float, later: float) -> bool:

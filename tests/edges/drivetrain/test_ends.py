@@ -1,6 +1,9 @@
 """Starts and stops: a limit is one that the file states, and a motion that never ends fails."""
 
+import json
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from support.command import ptmcalc
@@ -70,3 +73,47 @@ def test_a_start_that_goes_on_after_its_duration_is_undecided(tmp_path: Path) ->
     found = findings(path)
     assert found["DRV102"].startswith("undecided")
     assert found["DRV109"].startswith("undecided")
+
+
+@pytest.mark.parametrize(("friction", "verdict"), [(40, "fail"), (60, "undecided")])
+def test_a_load_that_pulls_back_after_the_duration_fails_a_stop(tmp_path: Path, friction: float, verdict: str) -> None:
+    """3 kg*m^2 at 100 rad/s against 50 N*m of load: after at most 6 s they stand, and 40 N*m do not hold them."""
+    path = tmp_path / "train.yaml"
+    path.write_text(
+        "kind: drivetrain\ninertias: {motor: {inertia: 3 kg*m^2}}\n"
+        "torques: {load: {at: motor, type: constant, torque: -50 N*m}}\n"
+        f"resistances: {{bearing: {{at: motor, coulomb: {friction} N*m, static_ratio: 1}}}}\n"
+        "scenes: [{type: stop, speed: 100 rad/s, duration: 0.1 s}]\n",
+        "utf-8",
+    )
+    found = findings(path)
+    assert found["DRV110"].startswith(verdict)
+
+
+def test_speeds_that_still_rise_at_the_end_of_a_start_are_bounded_by_no_window(tmp_path: Path) -> None:
+    """50 N*m beyond the speed that ends the start: 2 kg*m^2 go on by 25 rad/s a second, without end."""
+    path = tmp_path / "train.yaml"
+    path.write_text(
+        "kind: drivetrain\ninertias: {motor: {inertia: 2 kg*m^2}}\n"
+        "motors: {main: {at: motor, motor: {type: constant, torque: 50 N*m}}}\n"
+        "checks: {start_time: 11 s}\n"
+        "scenes: [{type: start, until: 100 rad/s}]\n",
+        "utf-8",
+    )
+    report = json.loads(ptmcalc("check", path, "--no-repairs", "--format", "json").out)
+    (scene,) = report["files"][0]["scenes"]
+    (speed,) = (load for load in scene["loads"] if load["name"] == "speed_max[motor]")
+    assert speed["unbounded"]
+    assert speed["low"] > 100
+    assert any(one["code"] == "NUM112" and "`speed_max[motor]` is not steady" in one["message"] for one in _all(report))
+
+
+def _all(node: Any) -> Iterator[dict[str, Any]]:
+    """Diagnostics anywhere in a report."""
+    if isinstance(node, dict):
+        if {"code", "message"} <= node.keys():
+            yield node
+        node = list(node.values())
+    if isinstance(node, list):
+        for one in node:
+            yield from _all(one)

@@ -27,7 +27,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     """
     case = case_of(spec, scene, "backlash" in carried)
     tolerance = TOLERANCES[level]
-    runs, beyond, state = ending.steady_runs(spec, scene, case, tolerance)
+    runs, beyond, state = ending.steady_runs(spec, scene, case, motion.window(scene, case), tolerance)
     fine, loads = runs[0], bars.loads(spec, *runs)
     end = fine.record.time
     findings = list(motion.remarks(scene, fine))
@@ -47,7 +47,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         beyond=beyond,
         open_end=state,
     )
-    return ending.completed(result, spec, scene, fine)
+    return ending.completed(result, spec, scene, fine, tolerance)
 
 
 def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found], end: float) -> dict[str, Found]:

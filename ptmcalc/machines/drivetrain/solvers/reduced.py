@@ -30,7 +30,10 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     """
     case = rigid(case_of(spec, scene, backlash=False))
     end = motion.window(scene, case_of(spec, scene))
-    runs = bars.played(case, end, TOLERANCES[1])
+    # what elasticity changes is known over the window only
+    doublings = ending.DOUBLINGS if spec.effects.get("elasticity") == "off" else 0
+    runs, beyond, state = ending.steady_runs(spec, scene, case, end, TOLERANCES[1], doublings)
+    end = runs[0].record.time
     fine, loads = runs[0], bars.loads(spec, *runs)
     for name in (*spec.links, *spec.gears):
         index = fine.torque(name)
@@ -48,8 +51,10 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         findings=(broken,) if broken else (),
         events=motion.events(fine),
         histories=lambda: motion.histories(spec, case, end, TOLERANCES[1]),
+        beyond=beyond,
+        open_end=state,
     )
-    return ending.completed(result, spec, scene, fine)
+    return ending.completed(result, spec, scene, fine, TOLERANCES[1])
 
 
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
