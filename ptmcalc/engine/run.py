@@ -327,7 +327,8 @@ def _open_ends(settled: Settled) -> Iterator[Finding]:
     """Windows that end before the motion is steady, of the runs behind the loads that can still change."""
     ends = dict.fromkeys(best.open_end for name, best in settled.loads.items() if name in best.result.beyond)
     for end in ends:
-        yield Finding("NUM112", f"scene `{settled.plan.scene.label}`: {end}")
+        if end:
+            yield Finding("NUM112", f"scene `{settled.plan.scene.label}`: {end}")
 
 
 def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str, Estimate]) -> list[str]:

@@ -45,7 +45,7 @@ def _of_nothing(kind: AnyKind, spec: MachineSpec, settled: Settled, name: str) -
 def _of_best(kind: AnyKind, spec: MachineSpec, settled: Settled, known: Best, name: str) -> Iterator[str]:
     """A load of a run without a bound."""
     solver, found = known.rung.solver, known.result.loads[name]
-    if name in known.result.beyond:
+    if name in known.result.beyond and known.open_end:
         yield f"can still change: {known.open_end}"
         return
     if not found.estimate.bounded:

@@ -305,6 +305,60 @@ def speed_stray(loop: LoopMasses, strand: int, x: ArrayLike) -> FloatArray:
     return np.asarray(np.sqrt(pushed * give(loop, strand, x)))
 
 
+def held_swing(loop: LoopMasses, strand: int, x: ArrayLike, energy: ArrayLike) -> FloatArray:
+    """Most dynamic tension at a section once the drum is held at its speed, by the energy of the rates of the waves.
+
+        |S(s)| <= integral |v'| dm <= sqrt(2 E m(s)),    E = 1/2 integral v'^2 dm + 1/2 integral S'^2 ds/EA
+
+    The rates v' and S' obey the equations of the waves themselves, and a drum of constant speed and a take-up of
+    constant tension do no work on them: E never grows. Of a fixed loop the tension is that of the running belt at some
+    section, but at an unknown one: m(s) is then the larger of the masses on both sides.
+
+    Args:
+        loop: the loop.
+        strand: RETURN or CARRY.
+        x: fraction of the strand's length [1].
+        energy: E, of belt and tail drum [J/s^2].
+
+    Returns:
+        largest deviation from the tension of the evenly running belt [N].
+
+    **Range** linear strands whose resistance does not change; damping only lowers E; no slip.
+    **Error** a bound; exact at the run-on where all of the belt is braked from one acceleration.
+    **Source** Schwarz's inequality; derived here, checked against masses on springs.
+    """
+    mass = mass_behind(loop, strand, x)
+    if loop.fixed_length:
+        mass = np.maximum(mass, loop.belt_mass - mass)
+    return np.asarray(np.sqrt(2 * np.asarray(energy, float) * mass))
+
+
+def energy_of_rates(loop: LoopMasses, share: float) -> float:
+    """Largest energy of the rates of belt and tail drum in a start by a force, per unit of its acceleration squared.
+
+        2 E <= M (1 + p^2 (M/m - 1)),    2 E <= (sqrt(M_belt) + p sqrt(M (M/m - 1)))^2
+
+    The rigid body gives M a^2; the waves of a step give F^2 (1/m - 1/M), those of a force that rises a share p of their
+    amplitude. The first counts the drum, the second adds both parts as if they were in step everywhere.
+
+    Args:
+        loop: the loop.
+        share: p, amplitude of the waves relative to those of a step [1].
+
+    Returns:
+        E/a^2, to be multiplied by the acceleration squared for `held_swing` [kg].
+
+    **Range** p from 0 to 1; infinite for a drive without mass and p > 0.
+    **Error** a bound.
+    **Source** derived here: completeness at the drum, sum phi_n(0)^2 = 1/m - 1/M.
+    """
+    whole = loop.total_mass
+    if loop.drive_mass <= 0:
+        return float("inf") if share > 0 else loop.belt_mass / 2
+    waves = share**2 * whole * (whole / loop.drive_mass - 1)
+    return float(min(whole + waves, (np.sqrt(loop.belt_mass) + np.sqrt(waves)) ** 2)) / 2
+
+
 def lowest_frequency_bound(loop: LoopMasses) -> float:
     """A lower bound of every natural frequency of the loop.
 

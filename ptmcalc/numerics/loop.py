@@ -151,6 +151,9 @@ class Motion:
     reversed: bool
     energy_residual: float
     cell_updates: int
+    rate_energy: float
+    """energy of the rates of the waves at the end, of belt, tail and a drum that no speed is imposed on: half the
+    integrals of v'^2 dm and S'^2 ds/EA [J/s^2]"""
 
     def largest(self, values: FloatArray) -> tuple[float, float]:
         """Largest value of a sampled history and its time."""

@@ -414,7 +414,21 @@ def _motion(
         reversed=slowest < -BACKWARD * fastest,
         energy_residual=residual,
         cell_updates=len(belt.static) * (len(times) - 1),
+        rate_energy=_rate_energy(loop, grid.step, belt, drum, history.last),
     )
+
+
+def _rate_energy(loop: Loop, step: float, belt: _Belt, drum: _Drum, last: "_Speeds") -> float:
+    """Energy of the rates of the waves at the last sample [J/s^2], by differences over the last step and the
+    compliance of the spans as they hang then."""
+    mass, rates = belt.mass.copy(), (last.after - last.before) / step
+    free = not (drum.imposed or drum.was_held)
+    mass[-1] = (belt.half[1] + loop.drum_mass) if free else 0.0
+    if loop.fixed_length:
+        mass[0] = belt.half[0] if free else 0.0
+    gives = (1 + belt.twice_lump / belt.tension**3) * belt.size / belt.stiffness
+    pulls = (belt.tension - belt.last) / step
+    return float(mass @ rates**2 + gives @ pulls**2) / 2
 
 
 def _balance(loop: Loop, step: float, belt: _Belt, drum: _Drum, forces: FloatArray, history: _History) -> float:

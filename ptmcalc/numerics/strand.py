@@ -589,6 +589,14 @@ class _Delays:
                 total += energy.work(one**2, self.grid.step) / (4 * z)
         return total
 
+    def rate_energy(self) -> float:
+        """The same of the rates of the waves [J/s^2]."""
+        total = 0.0
+        for waves, cells, z in zip((self.carry, self.back), self.cells, self.loop.impedances, strict=True):
+            for one in waves[:, self.steps : self.steps + cells + 1]:
+                total += float((np.diff(one) ** 2).sum()) / self.grid.step / (4 * z)
+        return total
+
 
 def envelopes(loop: Loop, motion: Motion, window: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Places along the belt from the head's run-off [m], and the largest and the smallest tension there [N].
@@ -715,7 +723,17 @@ class _Marched:
             reversed=bool(min(belt.min(), tail.min()) < -BACKWARD * max(belt.max(), rim.max())),
             energy_residual=residual,
             cell_updates=interior.cell_updates,
+            rate_energy=interior.rate_energy() + self._masses_rates(),
         )
+
+    def _masses_rates(self) -> float:
+        """Energy of the rates of tail and drum at the end [J/s^2]."""
+        before, last, step = self.steps - 1, self.steps, self.grid.step
+        tail, drum = self.interior.tail_speed, self.drum
+        total = self.loop.tail_mass * float((tail[last] - tail[before]) / step) ** 2
+        if drum.speeds is None:
+            total += self.loop.drum_mass * float((drum.drum[last] - drum.drum[before]) / step) ** 2
+        return total / 2
 
 
 def _balance(

@@ -152,8 +152,10 @@ def _scaled(node: Any, path: KeyPath, factor: float) -> Any:
 
 
 def settled(spec: MachineSpec, kind: AnyKind, scene: Scene, *, budget: float = SECONDS) -> Settled:
-    """A scene as the engine computes it."""
-    return settle(kind, spec, plan_scene(kind, spec, scene), budget=budget)
+    """A scene as the engine computes it: one of the machine's own, or in its place."""
+    scenes = tuple(scene if one.label == scene.label else one for one in spec.all_scenes)
+    whole = spec.model_copy(update={"scenes": scenes})
+    return settle(kind, whole, plan_scene(kind, whole, scene), budget=budget)
 
 
 def longer(scene: Scene, factor: float) -> Scene:

@@ -95,12 +95,13 @@ def enclose(case: StartCase, softening: float) -> Enclosure:
     """Intervals of a start for a belt whose stiffness is nowhere below EA/(1 + softening)."""
     slowest = lowest_frequency(case) / math.sqrt(1 + softening)
     leak = 1.0
-    steady = case.window - case.rise
+    phases = case.phases(slowest)
+    steady = case.window - _ahead(case, phases, softening) - case.rise
     if not case.imposed_speed and steady > 0 and not case.damped:
         leak = loop_bounds.window_leak(slowest, steady)
-    phases = case.phases(slowest)
-    reach = _reach(case, phases, _nearness(phases, leak), softening)
-    on, on_together = _at_run_on(case, reach, leak, softening)
+    near = _nearness(phases, leak) if case.imposed_speed or steady >= 0 else math.inf
+    reach = _reach(case, phases, near, softening)
+    on, on_together = _at_run_on(case, reach, leak, softening, slowest)
     off, off_together = _at_run_off(reach)
     over = case.acceleration * (case.masses.total_mass / case.masses.drive_mass - 1) / slowest
     return Enclosure(
@@ -110,6 +111,20 @@ def enclose(case: StartCase, softening: float) -> Enclosure:
         together=(on_together, off_together),
         belt_speed=case.line.speed + (0.0 if case.imposed_speed else over),
     )
+
+
+def _amplitude(phases: tuple[start_profile.Phase, ...]) -> float:
+    """Largest amplitude of the rates of waves relative to those of a step [1]: while a force still rises, twice what
+    the tension strays by."""
+    return min(1.0, 2 * max(phase.stray for phase in phases))
+
+
+def _ahead(case: StartCase, phases: tuple[start_profile.Phase, ...], softening: float) -> float:
+    """How much earlier than the rigid body the drum may have its speed [s]: it runs ahead of the belt it stretches."""
+    if case.imposed_speed or not case.moves or case.masses.drive_mass <= 0:
+        return 0.0 if case.imposed_speed or not case.moves else math.inf
+    stray = float(loop_bounds.speed_stray(case.masses, CARRY, 1.0)) * math.sqrt(1 + softening)
+    return stray * max(phase.stray for phase in phases)
 
 
 @kept_for(64)
@@ -158,8 +173,12 @@ def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float
         first, last, waves = phase.low * part.rigid, phase.high * part.rigid, part.stray * phase.stray
         low = np.minimum(low, np.minimum(first, last) - waves)
         high = np.maximum(high, np.maximum(first, last) + waves)
+    if not case.imposed_speed and case.moves:  # the force falls once the drum has its speed; waves of that go on
+        swing = _swing_once_held(case, loop_bounds.energy_of_rates(case.masses, _amplitude(phases)))
+        low, high = np.minimum(low, -swing), np.maximum(high, swing)
     plateau = part.static + case.acceleration * part.rigid
-    slack = case.acceleration * part.stray * near + shift
+    strays = case.acceleration * part.stray
+    slack = np.where(strays > 0, near, 0.0) * strays + shift
     return _Reach(
         low=part.static + case.acceleration * low - shift,
         high=part.static + case.acceleration * high + shift,
@@ -168,6 +187,12 @@ def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float
         plateau=plateau,
         slack=slack,
     )
+
+
+def _swing_once_held(case: StartCase, energy: float) -> FloatArray:
+    """Most that waves can change the tension once the drum is held, at the places `_X`, shape (2, n), per unit of
+    acceleration or, with an energy in J/s^2, in newton."""
+    return np.array([loop_bounds.held_swing(case.masses, strand, _X, energy) for strand in _STRANDS])
 
 
 def _softened_shift(case: StartCase, softening: float) -> float:
@@ -217,7 +242,7 @@ def _at_run_off(reach: _Reach) -> tuple[Range, float]:
     return ends, float(reach.plateau[at] + reach.slack[at])
 
 
-def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float) -> tuple[Range, float]:
+def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float, slowest: float) -> tuple[Range, float]:
     """Range of the tension at the run-on of the drum, and a lower bound of what it comes to together with the
     run-off."""
     at = CARRY, -1
@@ -225,7 +250,9 @@ def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float) ->
     low, high = float(reach.low[at]), float(reach.high[at])
     below, above = float(reach.surest_low[at]), float(reach.surest_high[at])
     if not case.line.fixed_length and not case.imposed_speed:
-        low = static  # driving point: every mode starts with the force, none pulls against it
+        # driving point: every mode starts with the force, none pulls against it until the drum is held
+        swing = _swing_once_held(case, loop_bounds.energy_of_rates(case.masses, _amplitude(case.phases(slowest))))
+        low = static - case.acceleration * float(swing[at])
         if case.shape == "step" and leak < 1:
             above = max(above, float(reach.plateau[at]))
     above = min(max(above, static + _first_wave_reached(case, softening)), high)
@@ -247,7 +274,7 @@ def _first_wave_reached(case: StartCase, softening: float) -> float:
         share = against / (against + line.impedance(RETURN))
         against += line.impedance(RETURN) / slower
     reached = wave.first_wave_force(case.excess, against, line.drive_mass, min(quiet, case.window))
-    return share * float(reached)
+    return share * min(float(reached), against * line.speed)  # the drum is held at its speed
 
 
 def rigid_loads(case: StartCase) -> dict[str, float]:

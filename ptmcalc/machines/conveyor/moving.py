@@ -14,7 +14,9 @@ from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, Emerg
 from ptmcalc.numerics.belt.station import Torque
 
 _CONTOURS = 2.0
-"""Times a wave goes round the belt that are looked at after it has come to rest, or after a drum has jammed."""
+"""Times a wave goes round the belt that are looked at after it has come to rest."""
+_AFTER_JAM = 4.0
+"""The same after a drum has jammed: a period of the lowest mode of a uniform loop; friction then damps."""
 AFTER_START = 4.0
 """Times a wave goes round after the drum has its speed: a period of the lowest mode of a uniform loop."""
 MOST_ROUNDS = 1000.0
@@ -74,7 +76,9 @@ def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
     if isinstance(scene, Jam):
         there = [name for name in names if spec.all_drives[name].at != scene.at]
         pulls = {name: _constant(held[name] if name in there else 0.0) for name in names}
-        return Moving(spec, scene, line, pulls, None, spec.speed, scene.duration or _CONTOURS * line.contour_time, 0, 0)
+        return Moving(
+            spec, scene, line, pulls, None, spec.speed, scene.duration or _AFTER_JAM * line.contour_time, 0, 0
+        )
     assert isinstance(scene, Stop | EmergencyStop | Coast)
     time, way = rigid_stop(spec, scene, line)
     window = (_LATE * time if math.isfinite(time) else 2 * line.contour_time) + _CONTOURS * line.contour_time

@@ -1,19 +1,18 @@
 """What a start does besides pulling at the belt: heat in the motors, swings it leaves, a control that pulsates."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from ptmcalc.base import units
-from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.drive import Motor
-from ptmcalc.contract.result import Found, LoadInfo, family, of
+from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.forces import filled
-from ptmcalc.machines.conveyor.loads import OF_BELT, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, StartCase, lowest_frequency, natural_frequencies, start_case
 from ptmcalc.machines.conveyor.moving import Moving, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
@@ -26,7 +25,6 @@ START_LOADS = (
 """Loads of a start besides those of `loads.LOADS`."""
 
 OF_STARTING = frozenset(info.name for info in START_LOADS)
-STATE_AFTER_START = "the waves of the torque that falls at rated speed are not followed"
 _STEPS = 4000
 _X = np.linspace(0.0, 1.0, 65)
 
@@ -212,16 +210,3 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
         if asked > 0:
             allowed = min(allowed, (off * grip - (on - off)) / asked)
     return max(allowed, 0.0)
-
-
-def after_start(spec: Conveyor, case: StartCase, found: Iterable[str]) -> dict[str, Interval]:
-    """Offsets by which the waves of the fall of the torque at the end of a start can still change loads of the belt.
-
-    **Range** a start by torque; a speed that is imposed ends without a jump, and a belt without waves has none.
-    **Error** none: no bound is claimed.
-    **Source** the torque falls from the starting to the running one once the motor has its speed.
-    """
-    if case.imposed_speed or not case.moves or spec.effects.get("belt_wave") == "off":
-        return {}
-    names = [name for name in found if family(name) in OF_BELT | PER_DRIVE]
-    return {name: Interval(-math.inf, 0.0) if "_min" in name else Interval(0.0, math.inf) for name in names}

@@ -141,6 +141,12 @@ class Give:
         return self.spans.stored + float(rubber.sum())
 
     @property
+    def compliance(self) -> FloatArray:
+        """What the spans at the nodes give per tension as they hang now, 2 k/S^3 [m/N]."""
+        compliance: FloatArray = 2 * self.spans.sags * self.spans.slackness**3
+        return compliance
+
+    @property
     def length(self) -> float:
         """What they give now [m]; of the spans less than nothing."""
         return float(self.retarded.sum()) + self.spans.length

@@ -57,6 +57,11 @@ class Drawn:
     """smallest tension on return and carry strand in every step, shape (steps, 2) [N]"""
     longest_way: Extreme
     """largest displacement of any point between the stations [m], its time and place"""
+    ending: FloatArray
+    """tension of every cell at the end, gravity's part included [N]"""
+    rate_energy: float
+    """energy of the rates of the waves at the end, of belt, weight and drums that no speed is imposed on: half the
+    integrals of v'^2 dm and S'^2 ds/EA [J/s^2]"""
 
 
 def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
@@ -210,7 +215,40 @@ def march(
         highest=tops.best / 2 + course.climb_within,
         lows=np.concatenate(lows),
         longest_way=ways.longest(),
+        ending=block[(filled - 1) % _BLOCK] / 2 + course.climb_within,
+        rate_energy=_rate_energy(course, (head, seen_head), (tail, seen_tail), (block, speeds, filled), give),
     )
+
+
+def _rate_energy(
+    course: Course,
+    head: tuple[Station, list[Seen]],
+    tail: tuple[Station, list[Seen]],
+    rows: tuple[FloatArray, FloatArray, int],
+    give: Give | None,
+) -> float:
+    """Energy of the rates of the waves at the end [J/s^2], by differences over the last step; `rows` are the blocks of
+    twice the tensions and of the speeds, which go round, and how many of their rows are filled."""
+    (top, histories), step = head, course.step
+    if len(histories) < 3:
+        return float("inf")
+    doubled, speeds, filled = rows
+    now, then = (filled - 1) % _BLOCK, (filled - 2) % _BLOCK
+    pulls, rates = (doubled[now] - doubled[then]) / 2 / step, (speeds[now] - speeds[then]) / step
+    nodes = (course.before[1:-1] + course.after[1:-1]) / 2 * step
+    total = float((step / course.cell_impedance) @ pulls**2 + nodes @ rates**2)
+    if give:
+        total += float(give.compliance @ (pulls[1:] + pulls[:-1]) ** 2) / 4
+    last, before = histories[-1], histories[-2]
+    total += float(course.after[0]) / 2 * step * ((last.behind - before.behind) / step) ** 2
+    if top.takeup:
+        apart = (last.belt - last.behind - before.belt + before.behind) / step
+        total += top.takeup.mass / 4 * apart**2
+    for station, seen in (head, tail):
+        if station.imposed is None:
+            mass = sum(drum.mass for drum in station.drums)
+            total += mass * ((seen[-1].belt - seen[-2].belt) / step) ** 2
+    return total / 2
 
 
 def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float, give: Give | None) -> float:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
@@ -16,6 +16,7 @@ from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.kept import Kept
+from ptmcalc.machines.conveyor.later import ending, still_to_come
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
 from ptmcalc.machines.conveyor.moving import AFTER_START
@@ -67,6 +68,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads |= {of(name, only): loads[name] for name in PER_DRIVE & loads.keys()}
     belt, drum = float(fine.belt_speed[-1]), float(fine.drum_speed[-1])
     slips = fine.slipped and abs(drum - belt) > _STICKS * case.line.speed
+    end, open_end = ending(case.line, min(belt, drum), fine.rate_energy, slips)
     if case.line.grip_exponent is not None:
         loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
@@ -83,8 +85,8 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         },
         findings=tuple(findings),
         histories=lambda: _histories(case, only, fine, "sag" in carried),
-        beyond={name: Interval(0.0, math.inf) for name in loads if slips and family(name) in SLIPS},
-        open_end=f"belt at {belt:.3g} of {case.line.speed:.3g} m/s, the pulley slips" if slips else "",
+        beyond=still_to_come(spec, case.line, end, loads),
+        open_end=open_end,
     )
 
 

@@ -23,6 +23,7 @@ from ptmcalc.machines.conveyor.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.kept import Kept
+from ptmcalc.machines.conveyor.later import AT_SPEED, ending, still_to_come
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import (
     FloatArray,
@@ -76,7 +77,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, open_end = tuple(_failures(case, drawn, ready)), _open_end(case, drawn, slipping)
+    failures, open_end = tuple(_failures(case, drawn, ready)), _open_end(case, drawn, ready, slipping)
     if _unfinished(case, drawn):
         loads = _so_far(case, loads, runs)
     return Result(
@@ -88,9 +89,31 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         events=tuple(_events(drawn, ready)),
         histories=lambda: _histories(case, drawn, ready),
         failures=failures,
-        beyond={name: Interval(0.0, math.inf) for name in loads if slipping and family(name) in SLIPS},
+        beyond=_later(case, drawn, ready, slipping, loads),
         open_end=open_end,
     )
+
+
+def _later(
+    case: Moving, drawn: Drawn, ready: Set, slipping: bool, loads: Mapping[str, Found]
+) -> Mapping[str, Interval]:
+    """Offsets by which loads can still change after the window."""
+    if not isinstance(case.scene, Start) or case.scene.aborted is not None:
+        return {}
+    course, line = ready.course, case.line
+    slowest = min(drawn.head[-1].belt, *drawn.head[-1].drums)
+    end, _ = ending(line, slowest, drawn.rate_energy, slipping)
+    carry = slice(course.tail, course.cells)
+    lengths = np.diff(course.places)[carry]
+    static = line.static(CARRY, (course.middles[carry] - line.back.length) / line.carry.length)
+    offset = float(lengths @ (drawn.ending[carry] - static)) / line.carry.length
+    drifts = ready.travel is not None and _both_held(ready)
+    return still_to_come(case.spec, line, replace(end, carry_offset=offset, drifts=drifts), loads)
+
+
+def _both_held(ready: Set) -> bool:
+    """Whether drives hold the speed of the belt at head and tail."""
+    return ready.head.imposed is not None and ready.tail.imposed is not None
 
 
 def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
@@ -276,9 +299,12 @@ def _way_so_far(drawn: Drawn) -> float:
     return float((belt[1:] + belt[:-1]).sum()) / 2 * float(drawn.times[1])
 
 
-def _open_end(case: Moving, drawn: Drawn, slipping: bool) -> str:
+def _open_end(case: Moving, drawn: Drawn, ready: Set, slipping: bool) -> str:
     """How a scene stands whose window ends before its motion does."""
-    if not slipping and not _unfinished(case, drawn):
+    slow = isinstance(case.scene, Start) and drawn.head[-1].belt < AT_SPEED * case.line.speed
+    if isinstance(case.scene, Start) and not slipping and not slow and ready.travel and _both_held(ready):
+        return f"belt at {case.line.speed:.3g} m/s, the load still shifts between the drives at head and tail"
+    if not slipping and not slow and not _unfinished(case, drawn):
         return ""
     how = ", a pulley slips" if slipping or any(drawn.head[-1].slips) else ""
     return f"belt at {drawn.head[-1].belt:.3g} of {case.line.speed:.3g} m/s{how}"

@@ -12,7 +12,7 @@ from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, OF_START, PER_DRIVE,
 from ptmcalc.machines.conveyor.model import is_plain, natural_frequencies, start_case
 from ptmcalc.machines.conveyor.moving import moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_loads import OF_STARTING, STATE_AFTER_START, after_start, start_loads
+from ptmcalc.machines.conveyor.start_loads import OF_STARTING, start_loads
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -41,9 +41,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         loads[of("natural_frequency", str(number))] = frequency
     window = (0.0, case.held + case.window)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
-    later = after_start(spec, case, found)
-    state = STATE_AFTER_START if later else ""
-    return Result(found | start_loads(spec, scene, case), work=1, window=window, beyond=later, open_end=state)
+    return Result(found | start_loads(spec, scene, case), work=1, window=window)
 
 
 def _of_the_drive(name: str, loads: dict[str, float]) -> dict[str, float]:

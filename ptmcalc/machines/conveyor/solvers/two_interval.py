@@ -2,17 +2,16 @@
 
 import math
 
-from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
-from ptmcalc.machines.conveyor import effects
+from ptmcalc.machines.conveyor import bounds, effects
 from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.start_loads import STATE_AFTER_START, after_start
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -50,9 +49,19 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
             "slip_utilisation_max": Found(used, at),
             "slip_reserve_min": Found(Estimate.exact(left), at),
         }
-    later = after_start(spec, case, loads)
-    state = STATE_AFTER_START if later else ""
-    return Result(loads, work=1, window=(0.0, case.window), beyond=later, open_end=state)
+    return Result(loads, work=1, window=(0.0, case.window), beyond=_once_held(case, loads))
+
+
+def _once_held(case: StartCase, loads: dict[str, Found]) -> dict[str, Interval]:
+    """Offsets of a drum that has its speed before the rigid body has, and of the waves that the fall of the torque then
+    leaves: the loads stay within the enclosure of the whole start."""
+    enclosed = bounds.enclosed_loads(case, bounds.enclose(case, 0.0))
+    return {
+        name: Interval(
+            min(enclosed[name].low - found.estimate.low, 0.0), max(enclosed[name].high - found.estimate.high, 0.0)
+        )
+        for name, found in loads.items()
+    }
 
 
 def valid(spec: Conveyor, scene: Start) -> Criterion:
