@@ -312,7 +312,7 @@ def guided_frequencies(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[
 def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Interval]:
     """What the swing of the column, with its weights, may make of the time of a start or a stop.
 
-    **Range** every start and stop; without end where something holds the head.
+    **Range** every start and stop; without end where something holds the head, or the base may slip again.
     **Error** a bound: `starts.time` takes the softer of the columns with weights and without.
     **Source** momentum; `starts.time`.
     """
@@ -324,6 +324,8 @@ def time_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> dict[str, Int
             told[name] = Interval(
                 0.0 if low <= ends.low else ends.low - low, 0.0 if high >= ends.high else ends.high - high
             )
+    if "brake_time" in told and not starts.stands_at_once(spec, scene):
+        told["brake_time"] = Interval(told["brake_time"].low, math.inf)
     return told
 
 

@@ -169,7 +169,8 @@ BRAKE_TIME: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _drive_key(spec, scene),
     repair=_drive_repair,
-    what="Bridge, trolley, column or base come to rest in the time allowed.",
+    what="Bridge, trolley, column or base come to rest in the time allowed, and for good: a column that swings may pull"
+    " its base through the brake again.",
     why="A weak brake saves the column and costs the way to the next buffer.",
     formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
     source="momentum; handbooks of lifting machines",

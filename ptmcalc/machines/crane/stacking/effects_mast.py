@@ -7,7 +7,7 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import mast as law
 from ptmcalc.laws import mast_modes
-from ptmcalc.machines.crane.stacking import bounds_mast, model
+from ptmcalc.machines.crane.stacking import bounds_mast, model, starts
 from ptmcalc.machines.crane.stacking.mast import Swinging, swinging
 from ptmcalc.machines.crane.stacking.model import Push
 from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS, MODES
@@ -210,6 +210,22 @@ def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     return Criterion("F/P", value, HOLDING_THRESHOLD, meaning, "laws.mast")
 
 
+def holding_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
+    """Nothing is known of a column's motion without this; nor until when a base that may slip again is braked.
+
+        t_first <= t < infinity   where the column may pull its base through the brake
+
+    **Range** every load of the column's motion, and the time of a stop by a force.
+    **Error** unbounded, but for the time of a stop whose base stands at once: nothing.
+    **Source** there is no run that leaves it out; `starts.slips_again`.
+    """
+    told = dict(anything_bound(spec, scene, loads))
+    assert isinstance(scene, Start | Brake)
+    if "brake_time" in loads and not starts.stands_at_once(spec, scene):
+        told["brake_time"] = Interval(0.0, math.inf)
+    return told
+
+
 def guided(spec: Stacker) -> bool:
     """Whether something holds the head of the column."""
     guide = spec.column.top_guide
@@ -250,6 +266,6 @@ EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
     Effect(MODES, "higher modes of the column", DRIVEN, modes_criterion, modes_bound, calibrated=True),
     Effect(GRAVITY, "weights on the bent column", BENT | {Stand}, gravity_criterion, gravity_bound, calibrated=True),
     Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
-    Effect(HOLDING, "what holds the base after the stop", DRIVEN, holding_criterion, anything_bound),
+    Effect(HOLDING, "what holds the base after the stop", DRIVEN, holding_criterion, holding_bound),
     Effect(GUIDE, "guide at the head of the column", DRIVEN, guide_criterion, guide_bound),
 )

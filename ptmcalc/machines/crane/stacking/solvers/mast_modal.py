@@ -1,7 +1,7 @@
 """The column in finite elements and modes, marched through drive, brake, standstill and contact."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +10,7 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
-from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result, of
+from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.crane.stacking import march, model
 from ptmcalc.machines.crane.stacking.derived import DERIVED, with_derived
@@ -20,7 +20,7 @@ from ptmcalc.machines.crane.stacking.names_mast import CONTACT, FLEXIBLE, GRAVIT
 from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
-from ptmcalc.machines.crane.stacking.spec import MECHANISMS, Stacker
+from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import travels
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.parts import Column
@@ -110,7 +110,6 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
         window=(0.0, course.record.time),
         health={"energy_residual": residual, "steps": float(course.record.steps)},
         findings=tuple(findings),
-        failures=tuple(_failures(spec, scene, (course, other))),
         events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
         histories=lambda: _histories(spec, scene, moves, level, course.record.time),
     )
@@ -227,15 +226,49 @@ def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str
     if fine.moves.follows:
         found[name] = Found(Estimate.exact(fine.moves.lasts))
         return found
-    word = "at speed" if isinstance(scene, Start) else "at rest"
-    time, other = (one.course.first("base", word) for one in (fine, coarse))
+    if not isinstance(scene, Start):
+        found[name] = _standstill(fine, coarse)
+        return found
+    time, other = (one.course.first("base", "at speed") for one in (fine, coarse))
     if math.isfinite(time) and math.isfinite(other):
-        found[name] = Found(_first_time(fine, word, time, other))
+        found[name] = Found(_first_time(fine, "at speed", time, other))
     elif math.isinf(time) and math.isinf(other):
         found[name] = Found(Estimate.exact(math.inf))
     else:
         found[name] = Found(Estimate.unknown(time))
     return found
+
+
+def _standstill(fine: Played, coarse: Played) -> Found:
+    """When the base stands for good: with its first standstill, or where the column pulls it through its brake again
+    with the last one.
+
+    The last one of a base that slips again lies where the runs beside it put it too, and has no later end where
+    something may still wake it: a column without damping pulls for ever. Before its first standstill it does not stand.
+    """
+    first, other = (one.course.first("base", "at rest") for one in (fine, coarse))
+    if math.isinf(first) or math.isinf(other):
+        return Found(Estimate.exact(math.inf) if first == other else Estimate.unknown(first))
+    begun = _first_time(fine, "at rest", first, other)
+    runs = [fine.course, coarse.course, *(one for one in fine.nudged if one is not None)]
+    lasts = [one.held_since for one in runs]
+    if all(one.stays and _at_once(one) for one in runs):
+        return Found(begun)
+    if math.isinf(lasts[0]):
+        note = f"by {fine.course.record.time:.3g} s the base does not stand for good"
+        return Found(Estimate(math.inf, begun.low, math.inf, model=math.inf), note=note)
+    apart = _MARGIN * abs(lasts[0] - lasts[1])
+    low = max(begun.low, min(*lasts, lasts[0] - apart))
+    high = max(begun.high, *lasts, lasts[0] + apart) if all(one.stays for one in runs) else math.inf
+    note = "the column pulls the base through its brake after the first standstill"
+    if math.isinf(high):
+        return Found(Estimate(lasts[0], low, high, model=math.inf), note=f"{note}, and may do so again")
+    return Found(Estimate(lasts[0], low, high, numerical=max(lasts[0] - low, high - lasts[0])), note=note)
+
+
+def _at_once(course: Course) -> bool:
+    """Whether the first standstill of a base is its last."""
+    return course.held_since <= course.first("base", "at rest") * (1 + 1e-9)
 
 
 def _first_time(fine: Played, word: str, time: float, other: float) -> Estimate:
@@ -378,33 +411,14 @@ def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
             Finding("NUM103", f"scene `{scene.label}`: by {course.record.time:.3g} s the base does not {what} for good")
         )
     first = course.first("base", "at rest") if isinstance(scene, Brake) and not fine.moves.follows else math.inf
-    if math.isfinite(first) and math.isfinite(course.held_since) and course.held_since > first * (1 + 1e-9):
-        said.append(
-            Finding(
-                "NUM110",
-                f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at"
-                f" {first:.3g} s, for good at {course.held_since:.3g} s",
-            )
+    if math.isfinite(first) and math.isfinite(course.held_since) and not _at_once(course):
+        text = (
+            f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at {first:.3g} s,"
+            f" for good at {course.held_since:.3g} s"
         )
+        damps = "" if course.stays else "damping of the column, `column.log_decrement`, tells when it ends"
+        said.append(Finding("NUM110", text, hint=damps))
     return said
-
-
-def _failures(spec: Stacker, scene: StackerScene, courses: tuple[Course, Course]) -> Iterator[Failure]:
-    """A stop that is within the time allowed only until the column pulls the base through its brake again."""
-    if not isinstance(scene, Brake):
-        return
-    first, last = (max(pick(one) for one in courses) for pick in (_first_rest, lambda one: one.held_since))
-    soonest = min(one.held_since for one in courses)
-    if math.isfinite(last) and first < soonest and soonest > spec.checks.brake_time:
-        message = f"the swinging column pulls the base through its brake: at rest for good at {last:.3g} s only"
-        key = "braking_force" if model.travel(spec, scene).drive is None else "drive"
-        path = (MECHANISMS[model.mechanism(spec, scene)], key)
-        yield Failure("CRN205", message, path, "a stronger brake, or one that comes up slowly, holds the base")
-
-
-def _first_rest(course: Course) -> float:
-    """When the base first stands [s]."""
-    return course.first("base", "at rest")
 
 
 def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int, end: float) -> Mapping[str, History]:
