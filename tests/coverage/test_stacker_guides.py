@@ -101,7 +101,7 @@ def trial_of(index: int) -> Trial:
     found = {
         "mast_deflection_max": seen.swing,
         "mast_force_max": seen.swing * free,
-        "start_time" if starts else "brake_time": seen.first,
+        "start_time" if starts else "brake_time": seen.first if starts else seen.last,
     }
     truth = {load: Estimate.within(value, KNOWN[load] * value) for load, value in found.items()}
     weighed, other = (mast(count, guide=0.0).tip_stiffness() for count in (2 * COUNT, COUNT))

@@ -20,10 +20,12 @@ Phase = tuple[int, int, bool]
 
 @dataclass
 class Seen:
-    """Largest swing of the far end beside the base [m], and when the base first had the wanted speed [s]."""
+    """Largest swing of the far end beside the base [m], when the base first had the wanted speed, and since when it
+    has it up to the end [s]."""
 
     swing: float = 0.0
     first: float = math.inf
+    last: float = math.inf
 
 
 @dataclass
@@ -107,7 +109,9 @@ class March:
             if fired:
                 if which == 0 and phase[0]:
                     z[n], seen.first = self.wanted, min(seen.first, float(z[-1]))
-                phase = self.after(phase, z, which)
+                slipped, phase = phase[0], self.after(phase, z, which)
+                if which == 0 and bool(slipped) != bool(phase[0]):
+                    seen.last = math.inf if phase[0] else float(z[-1])
             if phase[2] and z[-1] >= self.rise * (1 - 1e-12):
                 phase = (phase[0], phase[1], False)
         return seen

@@ -6,12 +6,17 @@ from typing import Any
 
 import pytest
 import yaml
+from support.bars import claim_of
 from support.command import ROOT
-from support.machines import changed, load_of, report_of, scene_of
+from support.machines import changed, load_of, loaded, report_of, scene_of
 
+from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import FileReport
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
+from ptmcalc.engine.plan import plan_scene
+from ptmcalc.engine.run import settle
+from ptmcalc.machines.crane.stacking.solvers.drive_times import DRIVE_TIMES
 from ptmcalc.numerics import record
 
 HERE = Path(__file__).parent
@@ -128,11 +133,41 @@ class TestMemory:
 
 
 class TestPulledThroughItsBrake:
-    """The base first stands at 3.25 s; the column pulls it through its brake again until 9.98 s."""
+    """The base first stands at 3.25 s; the column pulls it through its brake again until some 9 s."""
 
-    DATA = changed(_file("modal_bar"), accuracy="1 %", effects__mast_gravity="off", trolley_travel__braking_delay="0 s")
+    DATA = changed(_file("modal_bar"), effects__mast_gravity="off", trolley_travel__braking_delay="0 s")
 
     def test_a_stop_of_five_seconds_is_not_kept(self) -> None:
         """A run with modes finds it; one by momentum, at the ends of assumed values, does not: never a pass."""
-        report = _checked(changed(self.DATA, checks={"brake_time": "5 s"}))
-        assert set(_verdicts(report, "CRN205").values()) <= {"fail", "undecided"}
+        report = _checked(changed(self.DATA, checks={"brake_time": "5 s"}), repairs=False)
+        assert set(_verdicts(report, "CRN205").values()) == {"fail"}
+
+    def test_momentum_alone_lets_no_stop_pass(self) -> None:
+        """Asked for this check alone, as a repair is: the column is followed all the same."""
+        data = loaded(changed(self.DATA, checks={"brake_time": "5 s"}))
+        assert data.kind is not None
+        assert data.spec is not None
+        (check,) = (one for one in data.kind.checks if one.code == "CRN205")
+        scene = plan_scene(data.kind, data.spec, data.spec.all_scenes[0])
+        (ruling,) = settle(data.kind, data.spec, scene, only=check).rulings
+        assert ruling.verdict is Verdict.FAIL
+        momentum = claim_of(scene, data.spec, DRIVE_TIMES)["brake_time"]
+        assert momentum.low < 3.25 < momentum.high == math.inf
+
+    def test_without_damping_no_stop_is_the_last(self) -> None:
+        """It has not pulled for some swings, but a column without damping swings for ever."""
+        report = _checked(changed(self.DATA, checks={"brake_time": "30 s"}), repairs=False)
+        assert set(_verdicts(report, "CRN205").values()) == {"undecided"}
+        assert any(one.code == "NUM110" and "column.log_decrement" in one.hint for one in report.diagnostics)
+
+    def test_with_damping_it_stands_at_once(self) -> None:
+        report = _checked(changed(self.DATA, checks={"brake_time": "5 s"}, column__log_decrement=0.05), repairs=False)
+        assert set(_verdicts(report, "CRN205").values()) == {"pass"}
+
+    def test_a_light_column_never_wakes_its_base(self) -> None:
+        """What swings, 1.5 t, is lighter than the 1.6 t that are braked: momentum is enough."""
+        data = loaded(changed(self.DATA, trolley__mass="1600 kg", column__mass="500 kg"))
+        assert data.kind is not None
+        assert data.spec is not None
+        scene = plan_scene(data.kind, data.spec, data.spec.all_scenes[0])
+        assert claim_of(scene, data.spec, DRIVE_TIMES)["brake_time"].bounded
