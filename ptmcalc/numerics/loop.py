@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
+from ptmcalc.numerics.free_waves import Row
 from ptmcalc.numerics.peaks import largest, smallest
 
 FloatArray = NDArray[np.float64]
@@ -151,9 +152,10 @@ class Motion:
     reversed: bool
     energy_residual: float
     cell_updates: int
-    rate_energy: float
-    """energy of the rates of the waves at the end, of belt, tail and a drum that no speed is imposed on: half the
-    integrals of v'^2 dm and S'^2 ds/EA [J/s^2]"""
+    ending: Row
+    """the belt at the end from run-off to run-on, its speeds over that of the belt at the drum"""
+    tail: int
+    """which of its masses is at the tail"""
 
     def largest(self, values: FloatArray) -> tuple[float, float]:
         """Largest value of a sampled history and its time."""

@@ -31,6 +31,7 @@ import numpy as np
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
+from ptmcalc.numerics.free_waves import Row
 from ptmcalc.numerics.loop import (
     BACKWARD,
     Drive,
@@ -414,21 +415,25 @@ def _motion(
         reversed=slowest < -BACKWARD * fastest,
         energy_residual=residual,
         cell_updates=len(belt.static) * (len(times) - 1),
-        rate_energy=_rate_energy(loop, grid.step, belt, drum, history.last),
+        ending=_ending(loop, grid.step, belt, drum, history.last),
+        tail=belt.split,
     )
 
 
-def _rate_energy(loop: Loop, step: float, belt: _Belt, drum: _Drum, last: "_Speeds") -> float:
-    """Energy of the rates of the waves at the last sample [J/s^2], by differences over the last step and the
-    compliance of the spans as they hang then."""
-    mass, rates = belt.mass.copy(), (last.after - last.before) / step
+def _ending(loop: Loop, step: float, belt: _Belt, drum: _Drum, last: _Speeds) -> Row:
+    """The belt at the last sample as a row of masses, with the compliance of its spans as they hang then."""
+    masses, rates = belt.mass.copy(), (last.after - last.before) / step
     free = not (drum.imposed or drum.was_held)
-    mass[-1] = (belt.half[1] + loop.drum_mass) if free else 0.0
-    if loop.fixed_length:
-        mass[0] = belt.half[0] if free else 0.0
+    masses[-1] = belt.half[1] + loop.drum_mass * free
+    held = (0, -1) if loop.fixed_length else (-1,)
     gives = (1 + belt.twice_lump / belt.tension**3) * belt.size / belt.stiffness
     pulls = (belt.tension - belt.last) / step
-    return float(mass @ rates**2 + gives @ pulls**2) / 2
+    moving = masses.copy()
+    if not free:
+        moving[list(held)] = 0.0
+    rate_energy = float(moving @ rates**2 + gives @ pulls**2) / 2
+    speeds = (last.before + last.after) / 2
+    return Row(masses, gives, speeds - speeds[-1], belt.tension - belt.static, held, rate_energy)
 
 
 def _balance(loop: Loop, step: float, belt: _Belt, drum: _Drum, forces: FloatArray, history: _History) -> float:

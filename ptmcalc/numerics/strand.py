@@ -33,6 +33,7 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics import energy
 from ptmcalc.numerics.collocation import gauss
+from ptmcalc.numerics.free_waves import Row
 from ptmcalc.numerics.loop import BACKWARD, Drive, Extreme, FloatArray, Grid, Loop, Motion, Strand, at_end, steps_of
 
 _EVENTS_PER_STEP = 8
@@ -44,6 +45,8 @@ _Values = TypeVar("_Values", float, FloatArray)
 _GAUSS, _FADED = 32, 40.0
 _SHOWN = 60
 """Stretches of a strand whose ends are shown."""
+_ENDING = 64
+"""Stretches of a strand by which the waves at the end are told."""
 
 
 def march(loop: Loop, drive: Drive, window: float, grid: Grid) -> Motion:
@@ -589,13 +592,29 @@ class _Delays:
                 total += energy.work(one**2, self.grid.step) / (4 * z)
         return total
 
-    def rate_energy(self) -> float:
-        """The same of the rates of the waves [J/s^2]."""
-        total = 0.0
-        for waves, cells, z in zip((self.carry, self.back), self.cells, self.loop.impedances, strict=True):
-            for one in waves[:, self.steps : self.steps + cells + 1]:
-                total += float((np.diff(one) ** 2).sum()) / self.grid.step / (4 * z)
-        return total
+    def ending(self, masses_rates: float, drum: float) -> Row:
+        """The belt at the end as a row of masses: `masses_rates` is the energy of the rates of tail and drum [J/s^2],
+        `drum` the speed that both ends of the belt have there [m/s]."""
+        loop, rates = self.loop, masses_rates
+        masses, compliances, speeds, pulls = [0.0], [], [], []
+        strands = ((self.back, self.cells[1], 0), (self.carry, self.cells[0], 1))
+        for (towards_start, towards_end), cells, which in strands:
+            z = loop.impedances[1 - which]
+            going = slice(self.steps, self.steps + cells + 1)
+            p, n = towards_start[going], towards_end[going][::-1]
+            for one in (p, n):
+                rates += float((np.diff(one) ** 2).sum()) / self.grid.step / (4 * z)
+            nodes = np.unique(np.rint(np.linspace(0, cells, min(cells, _ENDING) + 1)).astype(int))
+            sums = np.concatenate([[0.0], np.cumsum((p[1:] + n[1:] + p[:-1] + n[:-1]) / 4)])
+            part = np.diff(nodes)
+            half = z * part * self.grid.step / 2
+            masses[-1] += half[0] + loop.tail_mass * which
+            masses += (half + np.append(half[1:], 0.0)).tolist()
+            compliances += (part * self.grid.step / z).tolist()
+            pulls += (np.diff(sums[nodes]) / part).tolist()
+            speeds += ((p - n)[nodes[which:]] / (2 * z) - drum).tolist()
+        held = (0, -1) if loop.fixed_length else (-1,)
+        return Row(np.array(masses), np.array(compliances), np.array(speeds), np.array(pulls), held, rates)
 
 
 def envelopes(loop: Loop, motion: Motion, window: float) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -723,7 +742,8 @@ class _Marched:
             reversed=bool(min(belt.min(), tail.min()) < -BACKWARD * max(belt.max(), rim.max())),
             energy_residual=residual,
             cell_updates=interior.cell_updates,
-            rate_energy=interior.rate_energy() + self._masses_rates(),
+            ending=interior.ending(self._masses_rates(), float(drum.belt[self.steps])),
+            tail=min(self.grid.back, _ENDING),
         )
 
     def _masses_rates(self) -> float:

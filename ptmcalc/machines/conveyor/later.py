@@ -16,93 +16,75 @@ from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.static_loads import hollows
-from ptmcalc.numerics import lanes
+from ptmcalc.numerics.free_waves import Row, swings
 
 _STRANDS = (RETURN, CARRY)
 _X = np.linspace(0.0, 1.0, 129)
+_ALL, _HALVINGS = 8.0, 40
+"""Grip in use above which no more of it is told, and halvings of that until it is known."""
+Place = tuple[int, int]
+"""A strand, and its first (0) or last place (-1)."""
 _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_reserve"})
 """Families of loads that are worst when smallest."""
-
-
-@dataclass(frozen=True, slots=True)
-class Ending:
-    """A belt at the end of the window of a start, whose drums are held at their speed.
-
-    `energy` is that of the rates of its waves [J/s^2], `slips` whether a drum slips, and `carry_offset` the mean
-    tension of the carry strand over the static one where drives hold both of its ends [N]. It `drifts` where the belt
-    carries its strain along: speeds held at both ends then leave ever less of the load to one of the drives.
-    """
-
-    energy: float
-    slips: bool
-    carry_offset: float = 0.0
-    drifts: bool = False
 
 
 AT_SPEED = 0.99
 """Part of its speed from which on a drum counts as having it."""
 
 
-def ending(line: BeltLine, drum: float, energy: float, slips: bool) -> tuple[Ending, str]:
-    """The end of a start whose slowest drum has a speed [m/s], and what is to be said where it is none: drums that are
-    too slow or slip are not held, and nothing bounds what follows."""
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """A belt at the end of the window of a start, whose drums are held at their speed.
+
+    `row` are its masses and springs, `tail` which of the masses is at the tail; None where drums are too slow or slip:
+    nothing then bounds what follows, and `state` says how the belt stands. It `drifts` where the belt carries its
+    strain along: speeds held at head and tail then leave ever less of the load to one of the drives.
+    """
+
+    row: Row | None
+    tail: int
+    state: str = ""
+    slips: bool = False
+    drifts: bool = False
+
+
+def ending(line: BeltLine, drum: float, slips: bool, row: Row, tail: int) -> Ending:
+    """The end of a start whose slowest drum has a speed [m/s]."""
     slow = drum < AT_SPEED * line.speed
     how = ", the pulley slips" if slips else ""
     state = f"belt at {drum:.3g} of {line.speed:.3g} m/s{how}" if slow or slips else ""
-    return Ending(math.inf if state else energy, slips), state
+    return Ending(None if state else row, tail, state, slips)
 
 
-def still_to_come(spec: Conveyor, line: BeltLine, ending: Ending, loads: Mapping[str, Found]) -> dict[str, Interval]:
+def still_to_come(spec: Conveyor, line: BeltLine, end: Ending, loads: Mapping[str, Found]) -> dict[str, Interval]:
     """Offsets by which loads of a start can still change after its window, once the drums are held at their speed.
 
-        |T(s, t) - T_even(s)| <= sqrt(2 E m(s))
+        |T(s, t) - T_even(s)| <= sum_k A_k |psi_k(s)|
 
-    with E the energy of the rates of the waves at the end of the window, and m(s) the mass between the take-up and the
-    section, a quarter of that of its weight included. Of a strand of which both ends are held, at a fixed take-up or
-    between two drives, m is the larger of the masses to both sides.
+    over the natural modes of the belt whose drums are held, with the amplitudes that the waves have at the end.
 
     **Range** a start whose drums have their speed at the end; resistances as during the start.
     **Error** a bound for a straight belt; of one that sags the stiffness of the end holds.
-    **Source** `laws.loop_bounds.held_swing`; derived there.
+    **Source** `numerics.free_waves.swings`; derived there.
     """
-    after = _After(spec, line, ending).loads
+    after = _After(spec, line, end)
     offsets = {}
     for name, found in loads.items():
         kind = family(name)
         if kind in SLIPS:
-            used = after.get("slip_utilisation_max" + name[len(kind) :], math.inf)
-            offset = Interval(0.0, math.inf if ending.slips or used >= 1 else 0.0)
+            used = after.loads.get("slip_utilisation_max" + name[len(kind) :], math.inf)
+            offset = Interval(0.0, math.inf if end.slips or used >= 1 else 0.0)
         elif kind == "takeup_movement":
-            reach = _stretch(line, ending.energy)
-            offset = Interval(0.0, max(reach, 2 * reach - found.estimate.high))
-        elif name not in after:
+            offset = Interval(0.0, max(after.way, 2 * after.way - found.estimate.high))
+        elif name not in after.loads:
             continue
         elif kind in _FALL:
-            offset = Interval(min(after[name] - found.estimate.low, 0.0), 0.0)
+            offset = Interval(min(after.loads[name] - found.estimate.low, 0.0), 0.0)
         else:
-            offset = Interval(0.0, max(after[name] - found.estimate.high, 0.0))
+            offset = Interval(0.0, max(after.loads[name] - found.estimate.high, 0.0))
         if offset.low < 0 or offset.high > 0:
             offsets[name] = offset
     return offsets
-
-
-def _masses(line: BeltLine, weight: float) -> FloatArray:
-    """Mass between the take-up and the sections at the places `_X` of both strands, shape (2, n) [kg]."""
-    found = []
-    before = weight / 4
-    for strand in _STRANDS:
-        part = line.strand(strand)
-        sums = np.concatenate([[0.0], np.cumsum(np.diff(part.marks) * np.array(part.masses))])
-        found.append(before + lanes.interpolated(_X * part.length, part.marks, sums))
-        before += float(sums[-1]) + line.tail_mass
-    return np.array(found)
-
-
-def _swing(energy: float, mass: FloatArray) -> FloatArray:
-    """sqrt(2 E m), 0 where no mass is [N]."""
-    swing = np.zeros_like(mass)
-    swing[mass > 0] = np.sqrt(2 * energy * mass[mass > 0])
-    return swing
 
 
 def _part(shares: FloatArray, most: float) -> FloatArray:
@@ -110,28 +92,32 @@ def _part(shares: FloatArray, most: float) -> FloatArray:
     return np.asarray(shares * most) if math.isfinite(most) else np.where(shares > 0, most, 0.0)
 
 
-def _stretch(line: BeltLine, energy: float) -> float:
-    """Most by which the elongation of the belt strays from that of even running [m]."""
-    swing = _swing(energy, _masses(line, 0.0))
-    return sum(float(swing[strand].mean()) * line.strand(strand).length for strand in _STRANDS) / line.stiffness
-
-
 class _After:
-    """The belt once its drums are held: the least and the most tension at the places `_X` of both strands."""
+    """The belt once its drums are held: the least and the most tension at the places `_X` of both strands, and the most
+    by which its run-off strays from where it is in even running [m]."""
 
-    def __init__(self, spec: Conveyor, line: BeltLine, ending: Ending) -> None:
+    def __init__(self, spec: Conveyor, line: BeltLine, end: Ending) -> None:
         self.spec, self.line = spec, line
-        mass = _masses(line, spec.takeup_weight)
         even = np.array([line.static(strand, _X) for strand in _STRANDS])
-        if has_tail_drive(spec):
-            even[CARRY] += ending.carry_offset
-            mass[CARRY] = float(mass[CARRY, -1] - mass[CARRY, 0])
-        if line.fixed_length:
-            mass = np.maximum(mass, mass[CARRY, -1] - mass)
-        swing = _swing(ending.energy, mass)
-        self.least, self.most = even - swing, even + swing
-        if ending.drifts:
-            side, sense = (self.most, 1) if ending.carry_offset > 0 else (self.least, -1)
+        swing, self.way, self.tail = np.full(even.shape, math.inf), math.inf, end.tail
+        self.swings = None if end.row is None or end.drifts else swings(end.row)
+        offset = 0.0
+        if end.row is not None:
+            found, cells = self.swings or swings(end.row), np.cumsum(end.row.compliances) - end.row.compliances / 2
+            parts = (slice(0, end.tail), slice(end.tail, None))
+            for strand, part in zip(_STRANDS, parts, strict=True):
+                ends = np.cumsum(end.row.compliances)[[part.start - 1, (part.stop or 0) - 1]] * [part.start > 0, 1]
+                swing[strand] = np.interp(_X, (cells[part] - ends[0]) / (ends[1] - ends[0]), found.pulls[part])
+            self.way = float(found.ways[0])
+            if end.tail in end.row.held:
+                own = end.row.compliances[end.tail :]
+                offset = float(own @ end.row.pulls[end.tail :]) / float(own.sum())
+        if not line.fixed_length and not spec.takeup_weight:
+            swing[RETURN, 0] = 0.0
+        even[CARRY] += offset
+        self.even, self.least, self.most = even, even - swing, even + swing
+        if end.drifts:
+            side, sense = (self.most, 1) if offset > 0 else (self.least, -1)
             side[CARRY] = sense * math.inf
 
     @cached_property
@@ -148,7 +134,7 @@ class _After:
             "tension_min": min(lows),
         }
         worst |= bounds.derived_loads(line, high, lows)
-        needed = on - off + line.tail_pull
+        needed = line.tail_pull + self._together((CARRY, -1), (RETURN, 0), (1.0, -1.0))
         worst["starting_force_needed"] = needed
         worst["starting_reserve"] = starting_force(self.spec) / needed if needed > 0 else math.inf
         for curve in hollows(self.spec):
@@ -173,9 +159,9 @@ class _After:
                 yield of("tension_run_off_min", name), float(least[index + 1])
                 if name not in friction:
                     continue
-                pairs = [(float(most[a]), float(least[b])) for a, b in ((index, index + 1), (index + 1, index))]
-                grip = max(float(capstan.slip_utilisation(*pair, lift, friction[name])) for pair in pairs)
-                bare = max(float(capstan.slip_utilisation(*pair, 0.0, friction[name])) for pair in pairs)
+                sides = shares[index], shares[index + 1]
+                grip = max(self._used(first, last, pair, lift, friction[name]) for pair in (sides, sides[::-1]))
+                bare = max(self._used(first, last, pair, 0.0, friction[name]) for pair in (sides, sides[::-1]))
                 used.append(grip)
                 left.append(float(capstan.slip_reserve_ratio(bare, friction[name])))
                 yield of("slip_utilisation_max", name), grip
@@ -184,7 +170,41 @@ class _After:
             yield "slip_utilisation_max", max(used)
             yield "slip_reserve_min", min(left)
 
+    def _used(self, first: Place, last: Place, shares: tuple[float, float], lift: float, exponent: float) -> float:
+        """Most of a drum's grip that is ever in use, where its tight and its slack side lie between two sides of the
+        drums of its place.
 
-def has_tail_drive(spec: Conveyor) -> bool:
-    """Whether a drive turns the tail drum."""
-    return any(drive.at == "tail" for drive in spec.all_drives.values())
+            T_tight - rho v^2 <= u exp(mu alpha) (T_slack - rho v^2)   at all times for any u above it
+        """
+        tight, slack = ((1 - share, share) for share in shares)
+
+        def exceeds(used: float) -> bool:
+            asks = used * math.exp(exponent)
+            weights = tight[0] - asks * slack[0], tight[1] - asks * slack[1]
+            return self._together(first, last, weights) > (1 - asks) * lift
+
+        if self.swings is None or exceeds(_ALL):
+            return math.inf
+        low, high = 0.0, _ALL
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if exceeds(middle) else (low, middle)
+        return high
+
+    def _together(self, first: Place, last: Place, weights: tuple[float, float]) -> float:
+        """The most that a weighted sum of the tensions at two places ever comes to [N]."""
+        if self.swings is None:
+            return math.inf
+        springs = {self._spring(first): weights[0], self._spring(last): weights[1]}
+        if not self.line.fixed_length and not self.spec.takeup_weight:
+            springs = {spring: weight for spring, weight in springs.items() if spring > 0}  # its tension is kept
+        even = weights[0] * self.even[first] + weights[1] * self.even[last]
+        return float(even) + self.swings.together(springs)
+
+    def _spring(self, place: Place) -> int:
+        """The spring at an end of a strand."""
+        strand, end = place
+        if strand == RETURN:
+            return 0 if end == 0 else self.tail - 1
+        assert self.swings is not None
+        return self.tail if end == 0 else len(self.swings.bent) - 1

@@ -17,8 +17,8 @@ _CONTOURS = 2.0
 """Times a wave goes round the belt that are looked at after it has come to rest."""
 _AFTER_JAM = 4.0
 """The same after a drum has jammed: a period of the lowest mode of a uniform loop; friction then damps."""
-AFTER_START = 4.0
-"""Times a wave goes round after the drum has its speed: a period of the lowest mode of a uniform loop."""
+AFTER_START = 2.0
+"""Times a wave goes round after the drum has its speed: half a period of the lowest mode of a uniform loop."""
 MOST_ROUNDS = 1000.0
 """Rounds of a wave in the time of a scene from which on simulating it takes a minute."""
 _LATE = 1.25

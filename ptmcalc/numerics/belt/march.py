@@ -18,6 +18,7 @@ from ptmcalc.numerics.belt.course import Course, FloatArray
 from ptmcalc.numerics.belt.give import Give
 from ptmcalc.numerics.belt.station import Place, Seen, Station
 from ptmcalc.numerics.belt.travel import Travel
+from ptmcalc.numerics.free_waves import Row
 
 MOST_UPDATES = 4_000_000_000
 _BLOCK = 64
@@ -57,11 +58,9 @@ class Drawn:
     """smallest tension on return and carry strand in every step, shape (steps, 2) [N]"""
     longest_way: Extreme
     """largest displacement of any point between the stations [m], its time and place"""
-    ending: FloatArray
-    """tension of every cell at the end, gravity's part included [N]"""
-    rate_energy: float
-    """energy of the rates of the waves at the end, of belt, weight and drums that no speed is imposed on: half the
-    integrals of v'^2 dm and S'^2 ds/EA [J/s^2]"""
+    row: Row
+    """the belt at the end from the head's run-off to its run-on, its pulls whole and its speeds over that at the head;
+    a station that no speed is imposed on moves with its drums"""
 
 
 def place_at(course: Course, node: int, belt_line_mass: float) -> Place:
@@ -215,40 +214,47 @@ def march(
         highest=tops.best / 2 + course.climb_within,
         lows=np.concatenate(lows),
         longest_way=ways.longest(),
-        ending=block[(filled - 1) % _BLOCK] / 2 + course.climb_within,
-        rate_energy=_rate_energy(course, (head, seen_head), (tail, seen_tail), (block, speeds, filled), give),
+        row=_row(course, (head, seen_head), tail, (block, speeds, filled), give),
     )
 
 
-def _rate_energy(
+def _row(
     course: Course,
     head: tuple[Station, list[Seen]],
-    tail: tuple[Station, list[Seen]],
+    low: Station,
     rows: tuple[FloatArray, FloatArray, int],
     give: Give | None,
-) -> float:
-    """Energy of the rates of the waves at the end [J/s^2], by differences over the last step; `rows` are the blocks of
+) -> Row:
+    """The belt at the end as a row of masses, its rates by differences over the last step; `rows` are the blocks of
     twice the tensions and of the speeds, which go round, and how many of their rows are filled."""
-    (top, histories), step = head, course.step
-    if len(histories) < 3:
-        return float("inf")
-    doubled, speeds, filled = rows
+    (top, top_seen), step = head, course.step
+    doubled, inside, filled = rows
     now, then = (filled - 1) % _BLOCK, (filled - 2) % _BLOCK
-    pulls, rates = (doubled[now] - doubled[then]) / 2 / step, (speeds[now] - speeds[then]) / step
-    nodes = (course.before[1:-1] + course.after[1:-1]) / 2 * step
-    total = float((step / course.cell_impedance) @ pulls**2 + nodes @ rates**2)
+
+    def speeds(back: int, row: int) -> FloatArray:
+        seen = top_seen[-min(back, len(top_seen))]
+        return np.concatenate([[seen.behind], inside[row], [seen.belt]])
+
+    masses = (course.before + course.after) / 2 * step
+    masses[0], masses[-1] = course.after[0] / 2 * step, course.before[-1] / 2 * step
+    compliances = step / course.cell_impedance
     if give:
-        total += float(give.compliance @ (pulls[1:] + pulls[:-1]) ** 2) / 4
-    last, before = histories[-1], histories[-2]
-    total += float(course.after[0]) / 2 * step * ((last.behind - before.behind) / step) ** 2
-    if top.takeup:
-        apart = (last.belt - last.behind - before.belt + before.behind) / step
-        total += top.takeup.mass / 4 * apart**2
-    for station, seen in (head, tail):
-        if station.imposed is None:
-            mass = sum(drum.mass for drum in station.drums)
-            total += mass * ((seen[-1].belt - seen[-2].belt) / step) ** 2
-    return total / 2
+        compliances[1:] += give.compliance / 2
+        compliances[:-1] += give.compliance / 2
+    masses[0] += top.takeup.mass / 4 if top.takeup else 0.0
+    held = [-1] if top.takeup else [0, -1]
+    if low.imposed is None:
+        masses[course.tail] += sum(drum.mass for drum in low.drums)
+    else:
+        held.append(course.tail)
+    pulls, rates = (doubled[now] - doubled[then]) / 2 / step, (speeds(1, now) - speeds(2, then)) / step
+    moving = masses.copy()
+    moving[held] = 0.0
+    if top.imposed is None:
+        moving[-1] = masses[-1] + sum(drum.mass for drum in top.drums)
+    rate_energy = float(compliances @ pulls**2 + moving @ rates**2) / 2
+    last = speeds(1, now)
+    return Row(masses, compliances, last - last[-1], doubled[now] / 2 + course.climb_within, tuple(held), rate_energy)
 
 
 def _energy(against: FloatArray, along: FloatArray, impedance: FloatArray, step: float, give: Give | None) -> float:

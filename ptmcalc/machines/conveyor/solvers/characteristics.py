@@ -68,7 +68,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads |= {of(name, only): loads[name] for name in PER_DRIVE & loads.keys()}
     belt, drum = float(fine.belt_speed[-1]), float(fine.drum_speed[-1])
     slips = fine.slipped and abs(drum - belt) > _STICKS * case.line.speed
-    end, open_end = ending(case.line, min(belt, drum), fine.rate_energy, slips)
+    end = ending(case.line, min(belt, drum), slips, fine.ending, fine.tail)
     if case.line.grip_exponent is not None:
         loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
@@ -86,7 +86,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         findings=tuple(findings),
         histories=lambda: _histories(case, only, fine, "sag" in carried),
         beyond=still_to_come(spec, case.line, end, loads),
-        open_end=open_end,
+        open_end=end.state,
     )
 
 

@@ -23,7 +23,7 @@ from ptmcalc.machines.conveyor.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.kept import Kept
-from ptmcalc.machines.conveyor.later import AT_SPEED, ending, still_to_come
+from ptmcalc.machines.conveyor.later import Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import (
     FloatArray,
@@ -45,6 +45,8 @@ _MORE = 1.25
 """Factor by which a window that was too short grows at least."""
 _CONTOURS_AT_REST = 3.0
 """Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
+_MODES = 320
+"""Most cells of a belt whose modes are looked for."""
 _HOUR = 3600.0
 """Time in which a belt must have come to rest to count as stopped [s], as in the check of the stopping time."""
 _MOST_SECONDS = 2.5
@@ -77,7 +79,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, open_end = tuple(_failures(case, drawn, ready)), _open_end(case, drawn, ready, slipping)
+    failures, end = tuple(_failures(case, drawn, ready)), _ending(case, runs, slipping)
     if _unfinished(case, drawn):
         loads = _so_far(case, loads, runs)
     return Result(
@@ -89,31 +91,25 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         events=tuple(_events(drawn, ready)),
         histories=lambda: _histories(case, drawn, ready),
         failures=failures,
-        beyond=_later(case, drawn, ready, slipping, loads),
-        open_end=open_end,
+        beyond=still_to_come(spec, case.line, end, loads) if end else {},
+        open_end=end.state if end else _open_end(case, drawn),
     )
 
 
-def _later(
-    case: Moving, drawn: Drawn, ready: Set, slipping: bool, loads: Mapping[str, Found]
-) -> Mapping[str, Interval]:
-    """Offsets by which loads can still change after the window."""
+def _ending(case: Moving, runs: "Sequence[_March]", slipping: bool) -> Ending | None:
+    """The end of a start that goes on to even running."""
     if not isinstance(case.scene, Start) or case.scene.aborted is not None:
-        return {}
-    course, line = ready.course, case.line
-    slowest = min(drawn.head[-1].belt, *drawn.head[-1].drums)
-    end, _ = ending(line, slowest, drawn.rate_energy, slipping)
-    carry = slice(course.tail, course.cells)
-    lengths = np.diff(course.places)[carry]
-    static = line.static(CARRY, (course.middles[carry] - line.back.length) / line.carry.length)
-    offset = float(lengths @ (drawn.ending[carry] - static)) / line.carry.length
-    drifts = ready.travel is not None and _both_held(ready)
-    return still_to_come(case.spec, line, replace(end, carry_offset=offset, drifts=drifts), loads)
-
-
-def _both_held(ready: Set) -> bool:
-    """Whether drives hold the speed of the belt at head and tail."""
-    return ready.head.imposed is not None and ready.tail.imposed is not None
+        return None
+    run = next((one for one in reversed(runs) if one.ready.course.cells <= _MODES), runs[0])
+    course, line, row = run.ready.course, case.line, run.drawn.row
+    middles = course.middles[: course.tail], course.middles[course.tail :] - line.back.length
+    statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
+    slowest = min(run.drawn.head[-1].belt, *run.drawn.head[-1].drums)
+    end = ending(line, slowest, slipping, replace(row, pulls=row.pulls - np.concatenate(statics)), course.tail)
+    if end.state or run.ready.travel is None or run.ready.head.imposed is None or run.ready.tail.imposed is None:
+        return end
+    shifts = f"belt at {slowest:.3g} m/s, the load still shifts between the drives at head and tail"
+    return replace(end, drifts=True, state=shifts)
 
 
 def _grids(scene: ConveyorScene, level: int) -> tuple[int, int, int]:
@@ -299,14 +295,11 @@ def _way_so_far(drawn: Drawn) -> float:
     return float((belt[1:] + belt[:-1]).sum()) / 2 * float(drawn.times[1])
 
 
-def _open_end(case: Moving, drawn: Drawn, ready: Set, slipping: bool) -> str:
-    """How a scene stands whose window ends before its motion does."""
-    slow = isinstance(case.scene, Start) and drawn.head[-1].belt < AT_SPEED * case.line.speed
-    if isinstance(case.scene, Start) and not slipping and not slow and ready.travel and _both_held(ready):
-        return f"belt at {case.line.speed:.3g} m/s, the load still shifts between the drives at head and tail"
-    if not slipping and not slow and not _unfinished(case, drawn):
+def _open_end(case: Moving, drawn: Drawn) -> str:
+    """How a stop stands whose window ends before its motion does."""
+    if not _unfinished(case, drawn):
         return ""
-    how = ", a pulley slips" if slipping or any(drawn.head[-1].slips) else ""
+    how = ", a pulley slips" if any(drawn.head[-1].slips) else ""
     return f"belt at {drawn.head[-1].belt:.3g} of {case.line.speed:.3g} m/s{how}"
 
 
