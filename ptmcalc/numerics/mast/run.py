@@ -74,6 +74,13 @@ class Course:
         """Whether the base is held for good at the end of the run, and nothing is touched: nothing can wake it."""
         return _stays(self)
 
+    def most_later(self, what: str, index: int = 0) -> float:
+        """What a watched signal never exceeds after the end of a run whose base stays held: all its modes in phase."""
+        system, z = self.system, self.record.state
+        row = system.motion(self.record.mode).watch[system.watched[what, index]]
+        steady = abs(float(row[:2] @ z[:2])) + abs(float(row[system.own :] @ z[system.own :]))
+        return steady + _swing(system, z, row)
+
 
 def play(case: Case, end: float, refined: float = 1.0, *, keep: bool = False, most_work: float = math.inf) -> Course:
     """One run of a case from a straight mast on.

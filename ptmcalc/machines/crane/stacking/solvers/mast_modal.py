@@ -75,7 +75,8 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
 
     **Range** small deflections of slender columns; a drive or brake whose force depends on time alone.
     **Error** numerical: three times the difference to half as many elements and modes, and the bound of what modes left
-    out could add to a load that comes at once.
+    out could add to a load that comes at once. Of a largest value upward too what all modes come to that meet in phase
+    after the run, once the base is held for good.
     **Source** `numerics.mast`; lecture notes Kramatorsk 2007 for the two-mass equations it refines.
     """
     gravity = GRAVITY in carried
@@ -199,12 +200,22 @@ def _deflection(fine: Played, coarse: Played) -> Found:
     other = coarse.course.largest("deflection")[0]
     mast, kept = course.case.mast, course.system.count
     rest = left_out(mast, moves.rolling, fine.place, kept, moves.rise, moves.jump)
-    return Found(_bar(value, other, rest + _nudge(fine, "deflection", value) + _beats(fine)[0]), {"time": time})
+    known = _bar(value, other, rest + _nudge(fine, "deflection", value) + _beats(fine)[0])
+    return Found(_ringing(fine, "deflection", known), {"time": time})
+
+
+def _ringing(fine: Played, what: str, known: Estimate) -> Estimate:
+    """A largest value of a column that rings on: without damping its modes meet in phase some time after the run."""
+    if not fine.course.stays:
+        return known
+    most = fine.course.most_later(what) + known.high - known.value
+    return replace(known, high=most, model=most - known.high) if most > known.high else known
 
 
 def _times(one: Found, factor: float) -> Found:
     e = one.estimate
-    return Found(Estimate(e.value * factor, e.low * factor, e.high * factor, e.numerical * factor), one.at)
+    ends = e.low * factor, e.high * factor
+    return Found(Estimate(e.value * factor, *ends, e.numerical * factor, e.model * factor), one.at)
 
 
 def _moment(fine: Played, coarse: Played) -> Found:
@@ -212,7 +223,8 @@ def _moment(fine: Played, coarse: Played) -> Found:
     value, time = course.largest("moment")
     rest = moment_left_out(course.case.mast, moves.rolling, course.system.count, moves.rise, moves.jump)
     rest += _nudge(fine, "moment", value) + _beats(fine)[1]
-    return Found(_bar(value, coarse.course.largest("moment")[0], rest), {"time": time})
+    known = _bar(value, coarse.course.largest("moment")[0], rest)
+    return Found(_ringing(fine, "moment", known), {"time": time})
 
 
 def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
