@@ -173,9 +173,8 @@ def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float
         first, last, waves = phase.low * part.rigid, phase.high * part.rigid, part.stray * phase.stray
         low = np.minimum(low, np.minimum(first, last) - waves)
         high = np.maximum(high, np.maximum(first, last) + waves)
-    if not case.imposed_speed and case.moves:  # the force falls once the drum has its speed; waves of that go on
-        swing = _swing_once_held(case, loop_bounds.energy_of_rates(case.masses, _amplitude(phases)))
-        low, high = np.minimum(low, -swing), np.maximum(high, swing)
+    swing = np.array([once_held(case, phases, strand, _X) for strand in _STRANDS])
+    low, high = np.minimum(low, -swing), np.maximum(high, swing)
     plateau = part.static + case.acceleration * part.rigid
     strays = case.acceleration * part.stray
     slack = np.where(strays > 0, near, 0.0) * strays + shift
@@ -189,10 +188,13 @@ def _reach(case: StartCase, phases: tuple[start_profile.Phase, ...], near: float
     )
 
 
-def _swing_once_held(case: StartCase, energy: float) -> FloatArray:
-    """Most that waves can change the tension once the drum is held, at the places `_X`, shape (2, n), per unit of
-    acceleration or, with an energy in J/s^2, in newton."""
-    return np.array([loop_bounds.held_swing(case.masses, strand, _X, energy) for strand in _STRANDS])
+def once_held(case: StartCase, phases: tuple[start_profile.Phase, ...], strand: int, x: FloatArray) -> FloatArray:
+    """Most that waves can change the tension after the force has fallen at the drum's speed, per unit of the start's
+    acceleration, at fractions x of a strand [kg]; nothing falls at the end of an imposed speed."""
+    if case.imposed_speed or not case.moves:
+        return np.zeros_like(x)
+    energy = loop_bounds.energy_of_rates(case.masses, _amplitude(phases))
+    return loop_bounds.held_swing(case.masses, strand, x, energy)
 
 
 def _softened_shift(case: StartCase, softening: float) -> float:
@@ -251,8 +253,8 @@ def _at_run_on(case: StartCase, reach: _Reach, leak: float, softening: float, sl
     below, above = float(reach.surest_low[at]), float(reach.surest_high[at])
     if not case.line.fixed_length and not case.imposed_speed:
         # driving point: every mode starts with the force, none pulls against it until the drum is held
-        swing = _swing_once_held(case, loop_bounds.energy_of_rates(case.masses, _amplitude(case.phases(slowest))))
-        low = static - case.acceleration * float(swing[at])
+        fall = once_held(case, case.phases(slowest), CARRY, np.ones(1))
+        low = static - case.acceleration * float(fall[0])
         if case.shape == "step" and leak < 1:
             above = max(above, float(reach.plateau[at]))
     above = min(max(above, static + _first_wave_reached(case, softening)), high)

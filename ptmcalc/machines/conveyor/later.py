@@ -28,6 +28,8 @@ _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_res
 """Families of loads that are worst when smallest."""
 
 
+MODES = 256
+"""Most springs of a belt whose modes are looked for: the time that takes grows with the cube of it."""
 AT_SPEED = 0.99
 """Part of its speed from which on a drum counts as having it."""
 

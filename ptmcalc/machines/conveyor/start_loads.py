@@ -11,6 +11,7 @@ from ptmcalc.components.drive import Motor
 from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.model import FloatArray, StartCase, lowest_frequency, natural_frequencies, start_case
@@ -173,10 +174,11 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
     """Largest acceleration with which grip and tension surely last, waves included [m/s^2]; None where no bound is
     known.
 
-        grip:   (S_off + a l_off)(exp(mu alpha) - 1)/k_T >= S_on + a h_on - S_off - a l_off
-        slack:  S(s) + a l(s) >= w l/(8 h_slack)
+        grip:   (S_off - a l_off)(exp(mu alpha) - 1)/k_T >= S_on + a h_on - S_off + a l_off, and with on for off
+        slack:  S(s) - a l(s) >= w l/(8 h_slack)
 
-    with a l and a h the bounds of the dynamic tension, `l = r low - b stray` and `h = r high + b stray`.
+    with -a l and a h the bounds of the dynamic tension: r low - b stray and r high + b stray while the force acts, and
+    what waves can do once it has fallen at the speed of the drum.
 
     **Range** one drive, both strands of even mass, a belt that starts from its running state; the reserve on the force.
     **Error** on the safe side: the waves' largest swings are taken to come together.
@@ -198,15 +200,16 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
         span = line.strand(strand).span_weight
         slack = sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0
         static = line.static(strand, _X)
-        ends[strand] = static, np.minimum(low, 0.0), np.maximum(high, 0.0)
-        falls = low < 0
-        if falls.any():
-            allowed = min(allowed, float(np.min((static[falls] - slack) / -low[falls])))
+        swing = bounds.once_held(case, phases, strand, _X)
+        falls, rises = np.maximum(-low, swing), np.maximum(high, swing)
+        ends[strand] = static, falls, rises
+        if (falls > 0).any():
+            allowed = min(allowed, float(np.min((static - slack)[falls > 0] / falls[falls > 0])))
     if line.grip_exponent is not None:
         grip = math.expm1(line.grip_exponent) / spec.checks.slip.reserve
-        off, least = (float(part[0]) for part in ends[RETURN][:2])
-        on, most = float(ends[CARRY][0][-1]), float(ends[CARRY][2][-1])
-        asked = most - least * (1 + grip)
-        if asked > 0:
-            allowed = min(allowed, (off * grip - (on - off)) / asked)
+        off, on = (tuple(float(part[at]) for part in ends[strand]) for strand, at in ((RETURN, 0), (CARRY, -1)))
+        for slack_side, tight in ((off, on), (on, off)):
+            asked = tight[2] + slack_side[1] * (1 + grip)
+            if asked > 0:
+                allowed = min(allowed, (slack_side[0] * grip - (tight[0] - slack_side[0])) / asked)
     return max(allowed, 0.0)

@@ -16,7 +16,7 @@ from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.kept import Kept
-from ptmcalc.machines.conveyor.later import ending, still_to_come
+from ptmcalc.machines.conveyor.later import MODES, ending, still_to_come
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
 from ptmcalc.machines.conveyor.moving import AFTER_START
@@ -68,12 +68,14 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     loads |= {of(name, only): loads[name] for name in PER_DRIVE & loads.keys()}
     belt, drum = float(fine.belt_speed[-1]), float(fine.drum_speed[-1])
     slips = fine.slipped and abs(drum - belt) > _STICKS * case.line.speed
-    end = ending(case.line, min(belt, drum), slips, fine.ending, fine.tail)
+    known = next((one for one in reversed(motions) if len(one.ending.pulls) <= MODES), motions[0])
+    end = ending(case.line, min(belt, drum), slips, known.ending, known.tail)
     if case.line.grip_exponent is not None:
         loads |= slip_loads(case, only, case.line.grip_exponent, motions, (bars.on, bars.off))
     findings = _findings(case, fine, "sag" in carried)
     if any(finding.code == "NUM102" for finding in findings):
-        loads = {name: _beyond_range(name, found) for name, found in loads.items()}
+        sure = _surely_as_low(case, motions)
+        loads = {name: _beyond_range(name, found, sure) for name, found in loads.items()}
     return Result(
         loads,
         work=sum(motion.cell_updates for motion in motions),
@@ -123,11 +125,22 @@ def _motion(case: StartCase, carried: frozenset[str], grid: loop.Grid) -> loop.M
     return _KEPT.of(causes, lambda: march(_loop(case, carried), _drive(case), case.window, grid))
 
 
-def _beyond_range(name: str, found: Found) -> Found:
+def _surely_as_low(case: StartCase, motions: list[loop.Motion]) -> dict[str, float]:
+    """Smallest tensions that a belt surely came down to before it left the range of its run [N]: the highest that any
+    of the grids finds, and as much above it as they differ."""
+    off = [motion.smallest(motion.run_off)[0] for motion in motions]
+    lows = [[min(low, motion.back_min.value) for low, motion in zip(off, motions, strict=True)]]
+    lows.append([motion.carry_min.value for motion in motions])
+    back, carry = (2 * max(values) - min(values) for values in lows)
+    return {"tension_min": min(back, carry)} | bounds.derived_loads(case.line, math.inf, (back, carry))
+
+
+def _beyond_range(name: str, found: Found, sure: dict[str, float]) -> Found:
     """A load of a run that left its range: not known any more, but that the belt came so low is certain."""
     estimate = found.estimate
     if name in ("tension_min", "slack_margin_min"):
-        return Found(Estimate(estimate.value, -math.inf, estimate.high, estimate.numerical, math.inf), found.at)
+        high = max(estimate.value, min(estimate.high, sure[name]))
+        return Found(Estimate(estimate.value, -math.inf, high, estimate.numerical, math.inf), found.at)
     if family(name) in SLIPS:
         return Found(Estimate(estimate.value, 0.0, math.inf, estimate.numerical, math.inf), found.at)
     return Found(Estimate.unknown(estimate.value), found.at)

@@ -23,7 +23,7 @@ from ptmcalc.machines.conveyor.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.cells import Set, rubber_of, set_up
 from ptmcalc.machines.conveyor.driving import moving_mass
 from ptmcalc.machines.conveyor.kept import Kept
-from ptmcalc.machines.conveyor.later import Ending, ending, still_to_come
+from ptmcalc.machines.conveyor.later import MODES, Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import (
     FloatArray,
@@ -45,8 +45,6 @@ _MORE = 1.25
 """Factor by which a window that was too short grows at least."""
 _CONTOURS_AT_REST = 3.0
 """Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
-_MODES = 320
-"""Most cells of a belt whose modes are looked for."""
 _HOUR = 3600.0
 """Time in which a belt must have come to rest to count as stopped [s], as in the check of the stopping time."""
 _MOST_SECONDS = 2.5
@@ -100,7 +98,7 @@ def _ending(case: Moving, runs: "Sequence[_March]", slipping: bool) -> Ending | 
     """The end of a start that goes on to even running."""
     if not isinstance(case.scene, Start) or case.scene.aborted is not None:
         return None
-    run = next((one for one in reversed(runs) if one.ready.course.cells <= _MODES), runs[0])
+    run = next((one for one in reversed(runs) if one.ready.course.cells <= MODES), runs[0])
     course, line, row = run.ready.course, case.line, run.drawn.row
     middles = course.middles[: course.tail], course.middles[course.tail :] - line.back.length
     statics = [line.static(which, at / line.strand(which).length) for which, at in zip((0, 1), middles, strict=True)]
