@@ -38,6 +38,7 @@ def template() -> dict[str, Any]:
     data = yaml.safe_load(load_kind("conveyor").template)
     assert isinstance(data, dict)
     data["takeup"] |= {"tension": "30 kN", "mass": "6 t"}
+    data["drive"]["motor"]["mean_starting_torque"] = "900 N*m"
     return data | {"effects": {"takeup_mass": "off"}}
 
 
