@@ -60,6 +60,8 @@ class Roller:
     one_way: bool = False
     share: float = 1.0
     """of the whole force where the speed of all drums there is imposed, as a number beside those of the others"""
+    rated: float = math.inf
+    """speed at which the motor holds the drum once it has it [m/s], while it is on"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +116,7 @@ class _Place:
     ) -> None:
         self.rollers, self.imposed, self.line_mass = tuple(rollers), imposed, line_mass
         n = len(self.rollers)
+        self.rated, self.at_rated = max((roller.rated for roller in self.rollers), default=math.inf), False
         self.speeds = [speed] * n
         self.drives: list[float] = []
         self.ahead = [speed] * n  # speeds at the time of the forces, half a step on
@@ -138,8 +141,12 @@ class _Place:
         """
         lift = self.line_mass * belt**2
         self.drives = [roller.pull(time, ahead) for roller, ahead in zip(self.rollers, self.ahead, strict=True)]
+        on_mains = any(drive > 0 for drive in self.drives)
+        self.at_rated = self.at_rated and on_mains
         for senses, way in self._states(time):
             found = self._try(senses, way, time, dt, masses, belt, on, off, weight, lift)
+            if found is not None and found[0] > self.rated and not all(senses) and on_mains and not self.at_rated:
+                break
             if found is not None:
                 new, behind, drums, pulls, tensions = found
                 for j, sense in enumerate(senses):
@@ -155,10 +162,13 @@ class _Place:
                 self.ahead = [b + (b - a) / 2 for a, b in zip(self.speeds, drums, strict=True)]
                 self.speeds, self.state = drums, (senses, way)
                 return new, behind
+        if on_mains and not self.at_rated and math.isfinite(self.rated):  # no state below rated speed is left
+            self.at_rated = True
+            return self.step(time, dt, masses, belt, on, off, weight)
         raise NumericsError("NUM101", f"elements: no state of the drums holds at {time:.6g} s")
 
     def _states(self, time: float) -> list[tuple[tuple[int, ...], str]]:
-        if self.imposed is not None:
+        if self.imposed is not None or self.at_rated:
             ways = ["imposed"]
         elif any(r.hold(time) > 0 for r in self.rollers):
             ways = ["forward", "held", "backward"] + (["stopped"] if any(r.one_way for r in self.rollers) else [])
@@ -168,7 +178,7 @@ class _Place:
             ways = ["free"]
         choices = [(0,) if r.exponent is None else (0, 1, -1) for r in self.rollers]
         states = [(senses, way) for senses in product(*choices) for way in ways]
-        if self.state in states:
+        if self.state in states and not self.at_rated:
             states.remove(self.state)
             states.insert(0, self.state)
         return states
@@ -188,7 +198,7 @@ class _Place:
     ) -> tuple[float, float | None, list[float], list[float], list[float]] | None:
         n = len(self.rollers)
         stuck = [j for j in range(n) if not senses[j]]
-        if way in ("forward", "backward", "held", "stopped") and not stuck:
+        if (way in ("forward", "backward", "held", "stopped") or self.at_rated) and not stuck:
             way = "free"  # what holds a drum does not hold the belt
         at_v, at_h, at_r, at_t, at_w, at_f = 0, 1, 2, 3, 4, 4 + n
         a, b = np.zeros((4 + 2 * n, 4 + 2 * n)), np.zeros(4 + 2 * n)
@@ -206,7 +216,9 @@ class _Place:
             a[1, at_v], a[1, at_r], b[1] = heavy / 4 / dt, -heavy / 4 / dt, tension + heavy / 4 / dt * (belt - back)
             a[2, at_r], a[2, at_t], b[2] = node / dt, 1.0, off + node * back / dt
         # how what holds works: h is the share of the brakes, the backstop's force, or the whole driving force
-        if way == "imposed":
+        if way == "imposed" and self.at_rated:
+            a[3, at_v], b[3] = 1.0, self.rated
+        elif way == "imposed":
             assert self.imposed is not None
             a[3, at_v], b[3] = 1.0, self.imposed(time + dt / 2)
         elif way in ("held", "stopped"):
@@ -219,7 +231,9 @@ class _Place:
             # drum: m w'/dt + f + what holds = F + m w/dt
             a[row, w], a[row, f] = roller.mass / dt, 1.0
             b[row] = self.drives[j] + roller.mass * self.speeds[j] / dt
-            if way == "imposed":
+            if way == "imposed" and self.at_rated and not sense:
+                b[row] -= self.drives[j]
+            if way == "imposed" and not (self.at_rated and sense):
                 a[row, at_h] = -roller.share / sum(one.share for one in self.rollers)
             elif way == "stopped":
                 a[row, at_h] = -1.0 if j == first_way else 0.0
@@ -240,6 +254,8 @@ class _Place:
         drums, pulls = [float(v) for v in x[at_w : at_w + n]], [float(f) for f in x[at_f : at_f + n]]
         if way in ("held", "stopped"):
             new = 0.0
+        if way == "imposed" and self.at_rated:
+            new = self.rated
         if (way == "forward" and new < 0) or (way == "backward" and new > 0):
             return None
         if (way == "held" and abs(held) > 1 + _ROUNDING) or (way == "stopped" and held < -_ROUNDING):
@@ -254,6 +270,8 @@ class _Place:
                 free = self.speeds[j] + dt / roller.mass * (self.drives[j] - pulls[j])
                 drums[j] = math.copysign(max(abs(free) - dt * roller.hold(time) / roller.mass, 0.0), free)
                 drums[j] = max(drums[j], 0.0) if roller.one_way else drums[j]
+                drums[j] = min(drums[j], roller.rated) if self.drives[j] > 0 else drums[j]
+                drums[j] = self.rated if self.at_rated else drums[j]
                 if sense * (drums[j] - new) < 0:
                     return None
             else:

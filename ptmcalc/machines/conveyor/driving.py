@@ -72,7 +72,8 @@ def pull(scene: Start, drive: PlacedDrive, rise: float) -> Callable[[FloatArray]
 def rigid_start(
     spec: Conveyor, scene: Start, line: BeltLine, pulls: dict[str, Callable[[FloatArray], FloatArray]]
 ) -> tuple[float, float]:
-    """When the mean speed of all that moves is the rated one, and the way by then, by the trapezium rule.
+    """When the mean speed of all that moves is the rated one, and the way by then, by the trapezium rule; of a start
+    that is broken off, when it is that after the drives came back.
 
     v = x - min(x so far),  x = integral of (F - W)/M dt: the mean of all that moves, whatever waves there are
     """
@@ -81,16 +82,33 @@ def rigid_start(
     if full <= resistance:
         return 0.0, 0.0
     latest = max(drive.delay for drive in spec.all_drives.values()) + scene.profile.rise_time
-    latest += (scene.aborted.run + scene.aborted.pause) if scene.aborted else 0.0
+    again = (scene.aborted.run + scene.aborted.pause) if scene.aborted else 0.0
+    latest += again
     end = latest + mass * line.speed / (full - resistance)
     times = np.linspace(0.0, end, 20_001)
     force = sum((pull(times) for pull in pulls.values()), np.zeros_like(times)) - resistance
     gained = np.concatenate([[0.0], np.cumsum(force[1:] + force[:-1])]) * (times[1] / 2 / mass)
     speed = gained - np.minimum.accumulate(gained)  # it never turns back: what would pull it back is held
-    fast = int(np.argmax(speed >= line.speed)) or len(times) - 1
+    if again > 0:
+        speed = _between(gained, line.speed)
+    first = int(np.searchsorted(times, again))
+    fast = max(first + int(np.argmax(speed[first:] >= line.speed)) or len(times) - 1, 1)
+    if speed[fast - 1] >= line.speed:  # it never lost its speed
+        return float(times[fast]), float((speed[1 : fast + 1] + speed[:fast]).sum()) * times[1] / 2
     part = min((line.speed - speed[fast - 1]) / (speed[fast] - speed[fast - 1]), 1.0) * times[1]
     way = float((speed[1:fast] + speed[: fast - 1]).sum()) * times[1] / 2
     return float(times[fast - 1] + part), way + float((speed[fast - 1] + line.speed) / 2 * part)
+
+
+def _between(gained: FloatArray, top: float) -> FloatArray:
+    """Speed that gains so much, but stays at rest where it would fall below, and at the motors' where it would rise
+    above."""
+    speed = 0.0
+    found = [speed]
+    for more in np.diff(gained).tolist():
+        speed = min(max(speed + more, 0.0), top)
+        found.append(speed)
+    return np.array(found)
 
 
 def along_curve(scene: Start, drive: PlacedDrive) -> Torque:

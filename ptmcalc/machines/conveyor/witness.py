@@ -179,7 +179,9 @@ def _rollers(case: Moving, carried: frozenset[str], at: str, pulled: float) -> t
         slips = "slip" in carried and grip is not None and grip < 700
         hold = _sum([held, *brakes]) if index == len(drives) - 1 else held
         one_way = at == "head" and spec.backstop is not None
-        found.append(Roller(mass, pulls[index], hold, grip if slips else None, one_way, drive_force(drive)))
+        pulls_evenly = isinstance(case.scene, Start) and case.imposed is None and name not in case.curves
+        rated = line.speed if pulls_evenly else math.inf
+        found.append(Roller(mass, pulls[index], hold, grip if slips else None, one_way, drive_force(drive), rated))
     return tuple(found)
 
 

@@ -59,7 +59,7 @@ class Drum:
     one_way: bool = False
     """held by a backstop: never turns back"""
     hold: float = math.inf
-    """speed of its motor at the pulley surface [m/s]: once the drum has it, the motor holds it"""
+    """speed of its motor at the pulley surface [m/s]: once the drum has it, the motor holds it while it is on"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +136,8 @@ class Station:
     ) -> None:
         self.place, self.drums, self.takeup, self.imposed = place, tuple(drums), takeup, imposed
         self.hold = max((drum.hold for drum in self.drums), default=math.inf)
+        self.held = False
+        """whether motors hold their speed now"""
         count = len(self.drums)
         self.shares = tuple(shares) or tuple(1 / count for _ in self.drums)
         self.grips = [math.exp(drum.exponent) if drum.exponent is not None else math.inf for drum in self.drums]
@@ -166,6 +168,8 @@ class Station:
             return self._carried(n_on, p_off)
         old, drums, slips = self.belt, tuple(self.speeds), tuple(self.slips)
         self.lifts = old
+        if self.held and not any(drum.force(time, old)[0] for drum in self.drums):  # the motors are off
+            self.held, self.imposed = False, None
         for _ in range(_ALTERNATIONS):
             slack = self._slack(p_off, step)
             move = self._moved(time, n_on, slack, old, step)
@@ -185,6 +189,8 @@ class Station:
             move = self._caught(j, move, speeds[j], (old, drums[j]), time, n_on, slack, step)
         if caught:
             tensions = self._tensions(time, n_on, slack, move)
+            if self.imposed is not None:
+                tensions = self._at_its_limit(caught, tensions, time, n_on, slack, move)
             speeds = [move.belt if not sense else speed for speed, sense in zip(speeds, self.slips, strict=True)]
         self._account(time, tensions, move, forces, speeds, (old, drums), step)
         self.belt, self.speeds, self.arrived = move.belt, speeds, (n_on, p_off)
@@ -256,8 +262,8 @@ class Station:
             if held_by and not belt and left < 0:
                 holds, left = -left / held_by, 0.0
             acceleration = left / mass if mass > 0 else 0.0
-            if sticks and belt > self.hold:
-                belt, self.imposed = self.hold, lambda _: self.hold
+            if sticks and belt > self.hold and any(force > 0 for _, force, _ in given):
+                belt, self.held, self.imposed = self.hold, True, lambda _: self.hold
                 acceleration, held = (belt - old) / step if step else 0.0, 1.0
         forces = [
             (first, force if sense else force + rate * (belt - old))
@@ -394,8 +400,8 @@ class Station:
             brakes = drum.brake(time - step if step else time), drum.brake(time)
             new = _velocity(before[j], drum.mass, -rate, brakes, (pulled, force - rate * before[j] - pull), step)
             new = 0.0 if new < 0 and drum.one_way else new
-            held = new > drum.hold
-            new = min(new, drum.hold)
+            held = new > drum.hold and force > 0
+            new = drum.hold if held else new
             forces[j] = first, pull if held else force + rate * (new - before[j])
             speeds.append(new)
         return speeds, forces
@@ -418,6 +424,19 @@ class Station:
         meets = before[1] + share * (drum - before[1])
         self.slips[j] = 0
         return self._moved(time, n_on, slack, meets, (1 - share) * step, share)
+
+    def _at_its_limit(
+        self, caught: list[int], tensions: tuple[float, ...], time: float, n_on: float, slack: _Slack, move: _Move
+    ) -> tuple[float, ...]:
+        """Tensions where drums that have come to the speed of others that stick cannot give their share of the force:
+        these give all that their grip allows, at that speed."""
+        for _ in caught:
+            change = self._breaks_loose(tensions, move.belt)
+            if change is None or change[0] not in caught or self.slips.count(0) < 2:
+                break
+            self.slips[change[0]] = change[1]
+            tensions = self._tensions(time, n_on, slack, move)
+        return tensions
 
     def _account(
         self,

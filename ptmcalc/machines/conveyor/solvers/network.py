@@ -96,7 +96,7 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
 def _ending(case: Moving, runs: "Sequence[_March]", slipping: bool) -> Ending | None:
     """The end of a start that goes on to even running."""
-    if not isinstance(case.scene, Start) or case.scene.aborted is not None:
+    if not isinstance(case.scene, Start):
         return None
     run = next((one for one in reversed(runs) if one.ready.course.cells <= MODES), runs[0])
     course, line, row = run.ready.course, case.line, run.drawn.row
@@ -318,14 +318,19 @@ def _until_it_grips(case: Moving, usual: float) -> Callable[[float, Seen], bool]
 
     def ends(time: float, head: Seen) -> bool:
         kept(time, head)
-        return time >= usual and not any(head.slips)
+        return time >= usual and not _slides(head)
 
     return ends
 
 
 def _slips_on(case: Moving, drawn: Drawn) -> bool:
     """Whether a start ends with a drum that slips."""
-    return isinstance(case.scene, Start) and any(drawn.head[-1].slips)
+    return isinstance(case.scene, Start) and _slides(drawn.head[-1])
+
+
+def _slides(seen: Seen) -> bool:
+    """Whether a drum turns at another speed than the belt; one that gives all its grip at the belt's speed does not."""
+    return any(sense and drum != seen.belt for sense, drum in zip(seen.slips, seen.drums, strict=True))
 
 
 def _still(case: Moving) -> Callable[[float, Seen], bool]:
