@@ -45,13 +45,19 @@ class Length:
 
 @dataclass(frozen=True)
 class Roller:
-    """A drum: rim mass, rim force over time and speed, brake over time, grip exponent, and whether it may turn back."""
+    """A drum: rim mass, rim force over time and speed, brake over time, grip exponent, and whether it may turn back.
+
+    Its motor holds it at `rated` speed once it has it, for as long as it is switched on; motors of one place, whose
+    drums stick, then share what the belt asks as their `strength`.
+    """
 
     mass: float
     pull: Callable[[float, float], float] = no_pull
     hold: Callable[[float], float] = no_hold
     exponent: float | None = None
     one_way: bool = False
+    rated: float = math.inf
+    strength: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -107,7 +113,10 @@ class _Place:
         self, rollers: Sequence[Roller], speed: float, imposed: Callable[[float], float] | None, line_mass: float
     ) -> None:
         self.rollers, self.imposed, self.line_mass = tuple(rollers), imposed, line_mass
-        n = len(self.rollers)
+        n, whole = len(self.rollers), sum(roller.strength for roller in rollers)
+        self.shares = [roller.strength / whole for roller in self.rollers]
+        self.rated = max((roller.rated for roller in self.rollers), default=math.inf)
+        self.at_rated = False
         self.speeds = [speed] * n
         self.drives: list[float] = []
         self.ahead = [speed] * n  # speeds at the time of the forces, half a step on
@@ -127,8 +136,12 @@ class _Place:
         """Belt speed after the step, and that behind the take-up: `weight` is (tension, mass, node's mass, speed)."""
         lift = self.line_mass * belt**2
         self.drives = [roller.pull(time, ahead) for roller, ahead in zip(self.rollers, self.ahead, strict=True)]
+        on_mains = any(drive > 0 for drive in self.drives)
+        self.at_rated = self.at_rated and on_mains
         for senses, way in self._states(time):
             found = self._try(senses, way, time, dt, mass, belt, on, off, weight, lift)
+            if found is not None and found[0] > self.rated and not all(senses) and on_mains and not self.at_rated:
+                break
             if found is not None:
                 new, behind, drums, pulls, tensions = found
                 for j, sense in enumerate(senses):
@@ -144,10 +157,13 @@ class _Place:
                 self.ahead = [b + (b - a) / 2 for a, b in zip(self.speeds, drums, strict=True)]
                 self.speeds, self.state = drums, (senses, way)
                 return new, behind
+        if on_mains and not self.at_rated and math.isfinite(self.rated):  # no state below rated speed is left
+            self.at_rated = True
+            return self.step(time, dt, mass, belt, on, off, weight)
         raise RuntimeError(f"no state of the drums holds at {time:.6g} s")
 
     def _states(self, time: float) -> list[tuple[tuple[int, ...], str]]:
-        if self.imposed is not None:
+        if self.imposed is not None or self.at_rated:
             ways = ["imposed"]
         elif any(r.hold(time) > 0 for r in self.rollers):
             ways = ["forward", "held", "backward"] + (["stopped"] if any(r.one_way for r in self.rollers) else [])
@@ -157,7 +173,7 @@ class _Place:
             ways = ["free"]
         choices = [(0,) if r.exponent is None else (0, 1, -1) for r in self.rollers]
         states = [(senses, way) for senses in product(*choices) for way in ways]
-        if self.state in states:
+        if self.state in states and not self.at_rated:
             states.remove(self.state)
             states.insert(0, self.state)
         return states
@@ -177,7 +193,7 @@ class _Place:
     ) -> tuple[float, float | None, list[float], list[float], list[float]] | None:
         n = len(self.rollers)
         stuck = [j for j in range(n) if not senses[j]]
-        if way in ("forward", "backward", "held", "stopped") and not stuck:
+        if (way in ("forward", "backward", "held", "stopped") or self.at_rated) and not stuck:
             way = "free"  # what holds a drum does not hold the belt
         V, H, R, T, W, F = 0, 1, 2, 3, 4, 4 + n
         a, b = np.zeros((4 + 2 * n, 4 + 2 * n)), np.zeros(4 + 2 * n)
@@ -194,7 +210,9 @@ class _Place:
             a[1, V], a[1, R], b[1] = heavy / 4 / dt, -heavy / 4 / dt, tension + heavy / 4 / dt * (belt - back)
             a[2, R], a[2, T], b[2] = node / dt, 1.0, off + node * back / dt
         # how what holds works: h is the share of the brakes, the backstop's force, or the whole driving force
-        if way == "imposed":
+        if way == "imposed" and self.at_rated:
+            a[3, V], b[3] = 1.0, self.rated
+        elif way == "imposed":
             assert self.imposed is not None
             a[3, V], b[3] = 1.0, self.imposed(time + dt / 2)
         elif way in ("held", "stopped"):
@@ -207,7 +225,10 @@ class _Place:
             # drum: m w'/dt + f + what holds = F + m w/dt
             a[row, w], a[row, f] = roller.mass / dt, 1.0
             b[row] = self.drives[j] + roller.mass * self.speeds[j] / dt
-            if way == "imposed":
+            if way == "imposed" and self.at_rated:
+                a[row, H] = 0.0 if sense else -self.shares[j]
+                b[row] -= 0.0 if sense else self.drives[j]
+            elif way == "imposed":
                 a[row, H] = -1.0 / n
             elif way == "stopped":
                 a[row, H] = -1.0 if j == first_way else 0.0
@@ -228,6 +249,8 @@ class _Place:
         drums, pulls = [float(v) for v in x[W : W + n]], [float(f) for f in x[F : F + n]]
         if way in ("held", "stopped"):
             new = 0.0
+        if way == "imposed" and self.at_rated:
+            new = self.rated
         if (way == "forward" and new < 0) or (way == "backward" and new > 0):
             return None
         if (way == "held" and abs(held) > 1 + _ROUNDING) or (way == "stopped" and held < -_ROUNDING):
@@ -242,6 +265,8 @@ class _Place:
                 free = self.speeds[j] + dt / roller.mass * (self.drives[j] - pulls[j])
                 drums[j] = math.copysign(max(abs(free) - dt * roller.hold(time) / roller.mass, 0.0), free)
                 drums[j] = max(drums[j], 0.0) if roller.one_way else drums[j]
+                drums[j] = min(drums[j], roller.rated) if self.drives[j] > 0 else drums[j]
+                drums[j] = self.rated if self.at_rated else drums[j]
                 if sense * (drums[j] - new) < 0:
                     return None
             else:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from support.belt_fem import Length, Motion, Plan, Roller, simulate
+from support.belt_fem import Length, Motion, Plan, Roller, no_pull, simulate
 
 _FAST = 1e30
 
@@ -227,14 +227,18 @@ class Rig:
         pulls: dict[str, Callable[[float, float], float]] | None = None,
         brakes: tuple[Brake, ...] = (),
         holds: dict[str, Callable[[float], float]] | None = None,
+        rated: float = math.inf,
     ) -> Plan:
-        """Drums, brakes and take-up for the finite elements; `holds` are brakes besides, on the last drum of an end."""
+        """Drums, brakes and take-up for the finite elements; `holds` are brakes besides, on every drum of an end.
+
+        Motors hold their drums at the `rated` speed once these have it.
+        """
         ends: dict[str, list[Roller]] = {"head": [], "tail": []}
         for name, drive in self.drives.items():
             grip = drive.friction * drive.wrap if drive.friction is not None else None
-            pull = {} if pulls is None or name not in pulls else {"pull": pulls[name]}
+            pull = no_pull if pulls is None else pulls.get(name, no_pull)
             extra = self.tail_mass if drive.at == "tail" and not ends["tail"] else 0.0
-            ends[drive.at].append(Roller(drive.mass + extra, exponent=grip, **pull))
+            ends[drive.at].append(Roller(drive.mass + extra, pull, exponent=grip, rated=rated, strength=drive.force))
         radii = {"head": [d.diameter / 2 for d in self.drives.values() if d.at == "head"][-1]}
         radii["tail"] = self.tail_diameter / 2
         if not ends["tail"]:
@@ -243,14 +247,16 @@ class Rig:
             radii["tail"] = [d.diameter / 2 for d in self.drives.values() if d.at == "tail"][-1]
         for at in ends:
             acting = [brake.capacity(radii[at]) for brake in brakes if brake.at == at]
-            if holds is not None and at in holds:
-                acting.append(holds[at])
-            if acting:
+            held = [] if holds is None or at not in holds else [holds[at]]
+            last = len(ends[at]) - 1
+            for number, roller in enumerate(ends[at]):
+                there = [*held, *(acting if number == last else ())]
+                if there:
 
-                def together(time: float, acting: list[Callable[[float], float]] = acting) -> float:
-                    return sum(one(time) for one in acting)
+                    def together(time: float, acting: list[Callable[[float], float]] = there) -> float:
+                        return sum(one(time) for one in acting)
 
-                ends[at][-1] = replace(ends[at][-1], hold=together)
+                    ends[at][number] = replace(roller, hold=together)
         takeup = None if self.rigid else (self.tension, self.weight or 0.0)
         return Plan(
             lengths, len(lengths) // 2, tuple(ends["head"]), tuple(ends["tail"]), takeup, belt_line_mass=self.belt
@@ -286,7 +292,8 @@ class Rig:
     ) -> Motion:
         """The drives come up by `rise` (0 to 1 over time), broken off once where `aborted` gives run and pause.
 
-        Until they pull harder than the belt does, the drums of an end are held.
+        Until they pull harder than the belt does, the drums of an end are held; once a drum has rated speed, its motor
+        keeps it there.
         """
         lengths = self.lengths(loaded, self.start_factor)
         tension = self.relaxed(lengths, elements) if relaxed else self.running(lengths, elements)
@@ -312,7 +319,8 @@ class Rig:
         if relaxed:
             pulled = {"head": float(tension[-1] - tension[0]) + climbs, "tail": 0.0}
         holds = {at: self._held(pulls, at, pulled[at]) for at in ("head", "tail") if forces[at]}
-        return simulate(self.plan(lengths, pulls, holds=holds), elements, window, tension, 0.0)
+        plan = self.plan(lengths, pulls, holds=holds, rated=self.speed)
+        return simulate(plan, elements, window, tension, 0.0)
 
     def _held(
         self, pulls: dict[str, Callable[[float, float], float]], at: str, pulled: float

@@ -28,8 +28,8 @@ LATE = replace(HILL, brakes=(Brake(14e3, delay=1.0, rise=1.5),))
 HEAVY = replace(HILL, weight=2 * 120e3 / 9.81, brakes=(Brake(30e3, delay=0.2, rise=0.3),))
 SCREW = replace(HILL, rigid=True, tension=190e3, brakes=(Brake(14e3, delay=0.5, rise=1.0),))
 STARTED = replace(HILL, start_factor=1.2)
-PAIR = {"primary": Drive(torque=2200.0, count=2), "secondary": Drive(torque=2200.0)}
-TWO = replace(HILL, drives=PAIR, tension=30e3)
+PAIR = {"primary": Drive(torque=800.0, count=2), "secondary": Drive(torque=800.0, friction=0.08)}
+TWO = replace(HILL, drives=PAIR, tension=80e3)
 BOTH_ENDS = replace(HILL, drives={"head": Drive(torque=3200.0), "booster": Drive(torque=1000.0, at="tail")})
 RAMP_TIME = 3.0
 COARSE, FINE = 200, 400
@@ -121,7 +121,8 @@ def known(load: LoadReport) -> str:
 
 @pytest.mark.parametrize("case", CASES, ids=" ".join)
 def test_every_load_is_that_of_finite_elements(case: tuple[str, str]) -> None:
-    """Within the bar of the tool and the own error of the elements, and within 1 % of the largest of its kind."""
+    """In the interval of the tool, which also has what waves can still do after the window, but for the own error of
+    the elements; and the value within 1 % of the largest of its kind."""
     coarse, fine = witness(*case)
     seen = 0
     for load in told(*case).loads:
@@ -132,7 +133,8 @@ def test_every_load_is_that_of_finite_elements(case: tuple[str, str]) -> None:
         own = 2 * abs(fine[name] - coarse[name])
         apart = abs(fine[name] - load.estimate.value)
         size = fine["tension_max"] if name.startswith("tension") else abs(fine[name])
-        assert apart <= load.estimate.bar + own + 1e-9 * size, (name, fine[name], load.estimate)
+        slack = own + 1e-9 * size
+        assert load.estimate.low - slack <= fine[name] <= load.estimate.high + slack, (name, fine[name], load.estimate)
         grip = name.startswith("slip")
         assert apart <= (0.05 if grip else 0.01) * size + own, (name, fine[name], load.estimate)
     assert seen >= 7
@@ -285,7 +287,7 @@ def test_the_slipping_drum_passes_on_what_eytelwein_allows() -> None:
 
 
 def test_the_running_chain_shares_the_pull_as_the_torques_do() -> None:
-    rig = replace(TWO, tension=80e3)
+    rig = TWO
     scene = scene_of(report_of(rig.data({"type": "run"})))
     pull = rig.resistance()
     expected = {
