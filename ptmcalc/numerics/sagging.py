@@ -201,22 +201,30 @@ class _Drum:
         self.slipping = 0
         self.slipped = False
         self.hold, self.was_held = drive.hold, False
+        self.keeps = False  # the belt has come to the speed that the motor holds
 
     def advance(self, force: float, half_speed: float, pull: FloatArray, share: float) -> tuple[float, float]:
         """Move drum and end nodes on by a share of a step; dynamic tensions at run-on and run-off."""
         step, belt = share * self.step, self.belt
         on_cell, off_cell = float(pull[-1]), float(pull[0]) if self.fixed else 0.0
         ends = self.on_half + self.off_half
-        if self.imposed:
+        if self.keeps:
+            half_speed = self.hold
+        if self.imposed or self.keeps:
             together = (half_speed - self.speed) / step
         else:
             together = (force + off_cell - on_cell) / (self.mass + ends)
+        reaches = self.speed + step * together > self.hold
+        if reaches:
+            together = (self.hold - self.speed) / step
         if not self.slipping:
             self.slipping = self._breaks(on_cell, off_cell, together)
             self.slipped |= bool(self.slipping)
+        if reaches and not self.slipping:
+            self.keeps = self.was_held = True
         rate = self._dragged(on_cell, off_cell, step) if self.slipping else together
         on, off = on_cell + self.on_half * rate, off_cell - self.off_half * rate
-        if self.imposed:
+        if self.imposed or (self.keeps and self.slipping):
             self.speed = half_speed
         elif self.slipping:
             self.speed += step * (force - on + off) / self.mass
@@ -224,21 +232,19 @@ class _Drum:
                 self.speed, self.was_held = self.hold, True
         else:
             self.speed += step * together
-            if self.speed > self.hold:
-                rate -= (self.speed - self.hold) / step
-                on, off = on_cell + self.on_half * rate, off_cell - self.off_half * rate
-                self.speed, self.was_held = self.hold, True
         end = float(belt.speed[-1]) + step * rate
         if self.slipping and self.slipping * (self.speed - end) < 0:
             self.slipping = 0
-            end = self.speed = end if self.mass == 0 else self._common(end, ends)
+            end = self.speed = end if self.mass == 0 and not self.keeps else self._common(end, ends)
         belt.speed[-1] = end if self.slipping else self.speed
         belt.speed[0] = belt.speed[-1] if self.fixed else belt.speed[0] + step * float(pull[0]) / belt.mass[0]
         return on, off
 
     def _common(self, end: float, ends: float) -> float:
         """Speed after drum and belt have caught each other."""
-        return self.speed if self.imposed else (self.mass * self.speed + ends * end) / (self.mass + ends)
+        if self.imposed or self.keeps:
+            return self.speed
+        return min((self.mass * self.speed + ends * end) / (self.mass + ends), self.hold)
 
     def _lift(self) -> float:
         assert self.grip is not None

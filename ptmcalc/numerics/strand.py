@@ -24,7 +24,7 @@ a step; while slipping the belt speed follows from the friction law and the drum
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property, partial
 from typing import TypeVar
 
@@ -336,8 +336,7 @@ class _Drum:
                 speed = decay * self.at[1] + (old * node.forcing + new * forcing) / node.impedance
             if speed > self.hold:
                 speed = self._held(speed)
-                self.speeds = np.full(len(self.belt), self.hold)
-                self.imposed = self.speeds.tolist()
+                self._holds()
             if not self._breaks(n_on, p_off, speed):
                 node.speed, node.forcing = speed, forcing
                 return speed, speed
@@ -351,14 +350,21 @@ class _Drum:
         belt, drum, at = *self.at, 0.0
         for _ in range(_EVENTS_PER_STEP):
             if not self.slipping:
-                stuck = partial(self._stuck_at, cell, at, drum)
-                speed = stuck(1.0)
-                sense = self._breaks(n_on, p_off, speed)
+                if drum >= self.hold and not self.imposed:  # the belt has come to the speed that the motor holds
+                    cell = replace(cell, imposed=self._holds())
+                stuck, end = partial(self._stuck_at, cell, at, drum), 1.0
+                speed = stuck(end)
+                if speed > self.hold and not self.imposed:
+                    end, speed = _root(partial(self._over_hold, stuck), at, 1.0), self.hold
+                sense = self._breaks(*cell.waves(end)[:2], speed)
+                if not sense and end < 1:
+                    belt, drum, at = self.hold, self.hold, end
+                    continue
                 if not sense:
                     self.node.speed = speed
                     self.node.forcing = forces[1] - n_on + (p_off if self.fixed else 0.0)
                     return speed, speed
-                breaks = _root(partial(self._excess_at, cell, stuck, sense), at, 1.0)
+                breaks = _root(partial(self._excess_at, cell, stuck, sense), at, end)
                 belt = drum = stuck(breaks) if breaks > at else drum
                 at, self.slipping, self.slipped = breaks, sense, True
             slid = partial(self._slid_at, cell, at, belt, drum)
@@ -389,12 +395,21 @@ class _Drum:
         push = f0 + f1 - self._pull(n0, p0, belt) - self._pull(n1, p1, slipping)
         return slipping, self._held(drum + (x - at) * self.step_size * push / (2 * self.mass))
 
+    def _holds(self) -> tuple[float, float]:
+        """The motor holds its own speed from now on: that speed, at both ends of a step."""
+        self.was_held, self.speeds = True, np.full(len(self.belt), self.hold)
+        self.imposed = self.speeds.tolist()
+        return self.hold, self.hold
+
     def _held(self, drum: float) -> float:
         """Speed of a slipping drum whose motor turns it no faster than its own speed."""
         if drum <= self.hold:
             return drum
         self.was_held = True
         return self.hold
+
+    def _over_hold(self, stuck: Callable[[float], float], x: float) -> float:
+        return stuck(x) - self.hold
 
     def _excess_at(self, cell: "_Cell", stuck: Callable[[float], float], sense: int, x: float) -> float:
         n_on, p_off, _ = cell.waves(x)

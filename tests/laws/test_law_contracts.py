@@ -291,6 +291,8 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     loop_bounds.stray: SECTIONS,
     loop_bounds.give: SECTIONS,
     loop_bounds.speed_stray: SECTIONS,
+    loop_bounds.held_swing: [(*section, 37.0) for section in SECTIONS],
+    loop_bounds.energy_of_rates: [(loop, share) for loop in LOOPS for share in (0.0, 0.3, 1.0)],
     loop_bounds.lowest_frequency_bound: [(loop,) for loop in LOOPS],
     loop_bounds.window_leak: [(3.0, 2.5), (0.1, 2.5)],
     pendulum.swing_frequency: [(7.0, 9.81)],
