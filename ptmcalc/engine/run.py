@@ -325,10 +325,9 @@ def _contradictions(settled: Settled) -> Iterator[Finding]:
 
 def _open_ends(settled: Settled) -> Iterator[Finding]:
     """Windows that end before the motion is steady, of the runs behind the loads that can still change."""
-    ends = dict.fromkeys(best.open_end for name, best in settled.loads.items() if name in best.result.beyond)
-    for end in ends:
-        if end:
-            yield Finding("NUM112", f"scene `{settled.plan.scene.label}`: {end}")
+    open_ones = (best for name, best in settled.loads.items() if name in best.result.beyond and best.result.open_end)
+    for end in dict.fromkeys(best.open_end for best in open_ones):
+        yield Finding("NUM112", f"scene `{settled.plan.scene.label}`: {end}")
 
 
 def _learnt(settled: Settled, rung: Rung, result: Result, estimates: Mapping[str, Estimate]) -> list[str]:
@@ -392,7 +391,7 @@ def _wanted(kind: AnyKind, spec: MachineSpec, settled: Settled, *, whole: bool) 
             continue
         for name in ruling.check.loads:
             known = settled.loads.get(name)
-            if ruling.verdict is Verdict.UNDECIDED or known is None or not _accurate(known.estimate, spec.accuracy):
+            if ruling.verdict is Verdict.UNDECIDED or known is None or not _accurate(known, name, spec.accuracy):
                 wanted.add(name)
     return wanted.union(_inaccurate(kind, spec, settled))
 
@@ -418,7 +417,7 @@ def _inaccurate(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[str]
     if spec.accuracy is None:
         return []
     known = [info.name for info in kind.loads_of(spec) if info.headline and info.name in settled.loads]
-    return [name for name in known if not _accurate(settled.loads[name].estimate, spec.accuracy)]
+    return [name for name in known if not _accurate(settled.loads[name], name, spec.accuracy)]
 
 
 def _unreached(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[Finding]:
@@ -433,8 +432,8 @@ def _unreached(kind: AnyKind, spec: MachineSpec, settled: Settled) -> list[Findi
 
 def _closest(asked: float, settled: Settled, names: list[str]) -> str:
     """Loads that are not as accurate as asked, and how close the one stands that is known least closely."""
-    known = [settled.loads[name].estimate for name in names]
-    wide = max(one.bar / abs(one.value) if one.value else math.inf for one in known)
+    known = [(settled.loads[name].estimate.value, _bar_within(settled.loads[name], name)) for name in names]
+    wide = max(bar / abs(value) if value else math.inf for value, bar in known)
     how = f"the widest bar is {show(wide, SHARE, 2)}" if math.isfinite(wide) else "one has no bound"
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     return f"{', '.join(f'`{name}`' for name in names[:_NAMED])}{more} to {show(asked, SHARE)}: {how}"
@@ -460,10 +459,22 @@ def _too_dear(
     return Finding("NUM103", said)
 
 
-def _accurate(estimate: Estimate, asked: float | None) -> bool:
+def _accurate(known: Best, name: str, asked: float | None) -> bool:
+    """Whether a load is as accurate as asked within the window of its run; what comes later no finer run knows."""
+    estimate = known.estimate
     if asked is None or estimate.low == estimate.high:
         return True
-    return estimate.bar <= asked * abs(estimate.value)
+    return _bar_within(known, name) <= asked * abs(estimate.value)
+
+
+def _bar_within(known: Best, name: str) -> float:
+    """Error bar of a load without what can still change after the window."""
+    estimate, later = known.estimate, known.result.beyond.get(name, NOTHING)
+    if not math.isfinite(estimate.value):
+        return estimate.bar
+    down = estimate.value - estimate.low + later.low if math.isfinite(later.low) else 0.0
+    up = estimate.high - estimate.value - later.high if math.isfinite(later.high) else 0.0
+    return max(down, up, known.result.loads[name].estimate.bar if name in known.result.loads else 0.0)
 
 
 def _next(settled: Settled, spec: MachineSpec, waiting: Iterable[Rung], wanted: set[str]) -> Rung | None:

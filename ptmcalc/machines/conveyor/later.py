@@ -176,14 +176,14 @@ class _After:
         """Most of a drum's grip that is ever in use, where its tight and its slack side lie between two sides of the
         drums of its place.
 
-            T_tight - rho v^2 <= u exp(mu alpha) (T_slack - rho v^2)   at all times for any u above it
+            exp(-mu alpha) (T_tight - rho v^2) <= u (T_slack - rho v^2)   at all times for any u above it
         """
         tight, slack = ((1 - share, share) for share in shares)
+        squeeze = math.exp(-exponent)
 
         def exceeds(used: float) -> bool:
-            asks = used * math.exp(exponent)
-            weights = tight[0] - asks * slack[0], tight[1] - asks * slack[1]
-            return self._together(first, last, weights) > (1 - asks) * lift
+            weights = squeeze * tight[0] - used * slack[0], squeeze * tight[1] - used * slack[1]
+            return self._together(first, last, weights) > (squeeze - used) * lift
 
         if self.swings is None or exceeds(_ALL):
             return math.inf
