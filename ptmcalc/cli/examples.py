@@ -62,7 +62,7 @@ def _examples() -> Iterator[tuple[str, Example]]:
     yield "NUM104", Example("ptmcalc check specs/hoist.yaml --scene winding_loaded --format table", "warning NUM104")
     yield "NUM105", Example(f"{_CHECK} --accuracy 1e-12", "warning NUM105", _SLIPPING_MOTOR)
     yield "NUM106", Example(_CHECK, "warning NUM106", _CHATTERING)
-    yield "NUM107", Example("ptmcalc check specs/conveyor.yaml --scene start_loaded --format table", "note NUM107")
+    yield "NUM107", Example("ptmcalc check specs/chain_drive.yaml --format table", "note NUM107")
     yield "NUM108", Example(f"{_CHECK} --format table", "NUM108", _with("length: 40 m", "length: 25 m", chain))
     yield "NUM109", Example(_CHECK, "design.yaml:15:8: warning NUM109", _with("1.31 m/s", "0.95 m/s", chain))
     swinging = "tests/stability/specs/travelling_brake_beside_a_heavy_load.yaml"

@@ -46,7 +46,7 @@ LONG = [
     ("specs/hoist.yaml", "lower_brake_loaded", "dormand_prince"),
     ("specs/shaft.yaml", "run_out", "runge_kutta_out"),
     ("specs/conveyor/decline_conveyor.yaml", "stop_empty", "elements"),
-    ("specs/conveyor/overland_conveyor.yaml", "emergency_stop_loaded", "elements"),
+    ("specs/conveyor/overland_conveyor.yaml", "e_stop", "elements"),
     ("specs/conveyor/grain_conveyor.yaml", "stop_loaded", "elements"),
     ("specs/conveyor/two_drive_conveyor.yaml", "start_loaded", "elements"),
     ("specs/conveyor/two_drive_conveyor.yaml", "coast_loaded", "elements"),

@@ -207,8 +207,8 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         yield Conflict(("drum", "diameter"), reason, f"write e.g. `diameter: {units.show(18 * d, units.LENGTH)}`")
         return
     pitch, length, layers = drum.number("pitch"), drum.number("length"), whole(drum, "layers") or 1
-    if pitch is not None and (reason := _why_not_wound(pitch, d, layers, nested)):
-        yield Conflict(("drum", "pitch"), reason, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
+    if pitch is not None and (unwound := _why_not_wound(pitch, d, layers, nested)):
+        yield Conflict(("drum", "pitch"), unwound, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
         return
     if length is not None and length < 3 * (pitch or d):
         reason = "it does not take three turns of the rope side by side"
