@@ -366,12 +366,11 @@ def _enclosed_slip(line: BeltLine, enclosure: Enclosure) -> dict[str, Interval]:
         Sides(enclosure.run_on.largest.high, enclosure.run_off.smallest.low, lift),
         Sides(enclosure.run_on.smallest.low, enclosure.run_off.largest.high, lift),
     ]
-    surely = [
-        Sides(line.run_on, line.run_off, 0.0),
-        Sides(*enclosure.together, 0.0),
-    ]
+    surely = [Sides(line.run_on, line.run_off, 0.0)]
+    reached = [enclosure.together]
     if not line.fixed_length:
-        surely.append(Sides(enclosure.run_on.largest.low, line.run_off, 0.0))
+        reached.append((enclosure.run_on.largest.low, line.run_off))
+    surely += [Sides(on, off, 0.0) for on, off in reached if on > off]  # else either may be the tight side
     high, low = slip_loads(line.grip_exponent, worst), slip_loads(line.grip_exponent, surely)
     return {name: Interval(min(high[name], low[name]), max(high[name], low[name])) for name in high}
 
