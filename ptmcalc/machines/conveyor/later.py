@@ -187,6 +187,8 @@ class _After:
 
         if self.swings is None or exceeds(_ALL):
             return math.inf
+        if not exceeds(0.0):  # a rope of so many turns holds anything
+            return 0.0
         low, high = 0.0, _ALL
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
