@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from support.bars import THIRD, WIDEST, Trial, claim_of, misses, near, opposites, wide
-from support.conveyors import random_conveyor
+from support.conveyors import random_conveyor, text
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
@@ -29,6 +29,7 @@ SOME = (*range(60), 155)
 """A bounded part, and a machine whose first wave meets a belt that sags: its bound was once that of a straight one."""
 JUDGED = {load for check in KIND.checks for load in check.loads}
 SLOW = {"moving_belt": "off", "takeup_mass": "off"}  # what they change has tests of its own
+TAUT = 2.5
 MOST_CONTOURS = 20  # longer starts cost more and say no more
 
 
@@ -43,8 +44,11 @@ class Case:
 
 
 def _machine(rng: np.random.Generator) -> Conveyor:
+    """A machine whose take-up keeps most belts taut and most drums in grip when the torque falls at rated speed."""
     while True:
-        spec = Conveyor.model_validate(random_conveyor(rng) | {"effects": SLOW})
+        data = random_conveyor(rng) | {"effects": SLOW}
+        data["takeup"]["tension"] = text(TAUT * float(data["takeup"]["tension"].split()[0]), "N")
+        spec = Conveyor.model_validate(data)
         case = start_case(spec, spec.all_scenes[0])
         if case.moves and case.window < MOST_CONTOURS * case.line.contour_time:
             return spec
@@ -91,7 +95,8 @@ def cases(request: pytest.FixtureRequest) -> list[Case]:
         always = spec.model_copy(update={"effects": {effect.name: "on" for effect in KIND.effects} | SLOW})
         exact = settle(KIND, always, plan_scene(KIND, always, scene))
         ladder, judged = settle(KIND, spec, plan), frozenset(JUDGED)
-        trial = Trial(index, moved, spec, judged, claims, exact.estimates, ladder.rulings, exact.rulings)
+        truth = {name: best.result.loads[name].estimate for name, best in exact.loads.items()}  # in the window it has
+        trial = Trial(index, moved, spec, judged, claims, truth, ladder.rulings, exact.rulings)
         found.append(Case(trial, spec.takeup.type, exact, ladder))
     return found
 

@@ -12,7 +12,7 @@ for which a third of one means nothing, in `WITHOUT_BARS`. `tests/house/test_bar
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -125,6 +125,15 @@ def claim_of(
     rung = Rung(solver, frozenset(carried), level, 0.0)
     result: Result = solver.run(spec, plan.scene, rung.carried, level)
     return widen(plan, spec, rung, result)
+
+
+def claim_within(
+    plan: ScenePlan, spec: MachineSpec, solver: AnySolver, carried: Iterable[str] = (), level: int = 0
+) -> dict[str, Estimate]:
+    """The same of what happens in the window of the run: what another run of that window is held against."""
+    rung = Rung(solver, frozenset(carried), level, 0.0)
+    result: Result = solver.run(spec, plan.scene, rung.carried, level)
+    return widen(plan, spec, rung, replace(result, beyond={}))
 
 
 def tried(
