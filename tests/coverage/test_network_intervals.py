@@ -27,7 +27,7 @@ LIMITS = (
     Limit("slip_reserve_min", ("checks", "slip", "reserve"), least=1.0),
 )
 FINER = 16
-MOST_CONTOURS = 8  # longer scenes cost more and say no more
+MOST_CONTOURS = 10  # longer scenes cost more and say no more
 EFFECTS = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "coulomb_idlers"})
 SEEDS = range(42)
 
