@@ -578,10 +578,9 @@ class TestOnceTheDrumIsHeld:
             loop = masses_of(belt, FORCE)
             for share in (0.0, 0.4, 1.0):
                 most, x, energy = self._held(belt, share, rng)
-                sections = np.split(x, 2)
-                bounds = [
-                    loop_bounds.held_swing(loop, strand, at, energy) for strand, at in zip((CARRY, RETURN), sections)
-                ]
+                carry, back = np.split(x, 2)
+                bounds = [loop_bounds.held_swing(loop, CARRY, carry, energy)]
+                bounds.append(loop_bounds.held_swing(loop, RETURN, back, energy))
                 whole = np.concatenate(bounds)
                 assert np.all(most <= whole * (1 + 1e-6) + 2e-2 * whole.max())
                 nearest = max(nearest, float((most / whole).max()))

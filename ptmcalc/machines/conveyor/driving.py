@@ -92,7 +92,10 @@ def rigid_start(
     if again > 0:
         speed = _between(gained, line.speed)
     first = int(np.searchsorted(times, again))
-    fast = max(first + int(np.argmax(speed[first:] >= line.speed)) or len(times) - 1, 1)
+    has_it = speed[first:] >= line.speed
+    fast = (
+        max(first + int(has_it.argmax()), 1) if has_it.any() else len(times) - 1
+    )  # but for rounding it has at the end
     if speed[fast - 1] >= line.speed:  # it never lost its speed
         return float(times[fast]), float((speed[1 : fast + 1] + speed[:fast]).sum()) * times[1] / 2
     part = min((line.speed - speed[fast - 1]) / (speed[fast] - speed[fast - 1]), 1.0) * times[1]
