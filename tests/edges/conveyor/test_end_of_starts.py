@@ -1,4 +1,4 @@
-"""A start goes on after its drive has reached its speed: the torque falls there, and relief waves run through the belt."""
+"""A start goes on after its drive has its speed: the torque falls there, and relief waves run through the belt."""
 
 import numpy as np
 import pytest
