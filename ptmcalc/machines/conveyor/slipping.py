@@ -99,17 +99,18 @@ def _within(case: StartCase, exponent: float, motion: Motion, bars: tuple[float,
     ):
         lags = (squeeze * (tight + tight_bar) - (slack - slack_bar)) / (squeeze * ahead + behind)
         mass = math.inf if case.imposed_speed else line.drive_mass
-        found += _runs_away(lags, (carry + back) / mass, motion.grid.step)
+        free = motion.drum_speed < line.speed  # else the motor holds the drum, whatever the belt does
+        found += _runs_away(lags, np.where(free, (carry + back) / mass, 0.0), motion.grid.step)
     return found
 
 
-def _runs_away(lags: FloatArray, rate: float, step: float) -> FloatArray:
+def _runs_away(lags: FloatArray, rates: FloatArray, step: float) -> FloatArray:
     """u = w + d with d' = rate w, from where w rises above 0 until u is back at 0."""
     found = np.zeros_like(lags)
     if not (lags > 0).any():
         return found
     ahead = 0.0
-    for k, lag in enumerate(lags.tolist()):
+    for k, (lag, rate) in enumerate(zip(lags.tolist(), rates.tolist(), strict=True)):
         if ahead + lag > 0:
             found[k] = ahead + lag
             ahead += step * rate * lag
