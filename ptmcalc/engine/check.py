@@ -377,12 +377,15 @@ class _Assembly:
             )
 
     def _histories(self) -> Mapping[str, History]:
-        """Courses of loads over time, each from the richest run that knows it."""
+        """Courses of loads over time, each from the run whose value is told, else from the richest that knows it."""
         found: dict[str, History] = {}
+        told: set[str] = set()
+        best = self.settled.loads
         asked = self.options.histories or self.options.courses or self.options.figures
         for run in self.settled.runs if asked else ():
             with suppress(NumericsError, MemoryError):  # given up, as the run itself was not
-                found |= run.result.histories()
+                found |= {name: one for name, one in run.result.histories().items() if name not in told}
+                told |= {name for name in found if name in best and best[name].result is run.result}
         return found
 
     def _textbooks(self) -> Mapping[str, Mapping[str, History]]:

@@ -54,6 +54,8 @@ class Drawn:
     updates: int
     highest: FloatArray
     """largest tension of every cell, gravity's part included [N]"""
+    lowest: FloatArray
+    """smallest tension of every cell, gravity's part included [N]"""
     lows: FloatArray
     """smallest tension on return and carry strand in every step, shape (steps, 2) [N]"""
     longest_way: Extreme
@@ -212,6 +214,7 @@ def march(
         stretched=_length(against, along, impedance, step, give) - first,
         updates=k * cells,
         highest=tops.best / 2 + course.climb_within,
+        lowest=course.climb_within - bottoms.best / 2,
         lows=np.concatenate(lows),
         longest_way=ways.longest(),
         row=_row(course, (head, seen_head), tail, (block, speeds, filled), give),

@@ -364,7 +364,7 @@ def _keeps_its_grip(case: Moving) -> Callable[[float, Seen], None]:
 
 
 def _histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
-    """Tensions and grip of every drive over time, and the largest tension over the way round the loop."""
+    """Tensions and grip of every drive over time, and the extreme tensions over the way round the loop."""
     times = drawn.times.tolist()
 
     def over_time(values: FloatArray, quantity: units.Quantity = units.FORCE) -> History:
@@ -374,7 +374,7 @@ def _histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
         "tension_run_on_max": over_time(np.array([seen.tensions[0] for seen in drawn.head])),
         "tension_run_off_min": over_time(np.array([seen.tensions[-1] for seen in drawn.head])),
     }
-    names = case.spec.all_drives
+    names, grips = case.spec.all_drives, []
     for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
         belt = np.array([seen.belt for seen in history])
         for index, drum in enumerate(station.drums):
@@ -392,8 +392,12 @@ def _histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
                 slips = np.array([bool(seen.slips[index]) for seen in history])
                 used = np.where(slips, np.maximum(used, 1.0), used)
                 found[of("slip_utilisation_max", drum.name)] = over_time(used, units.RATIO)
+                grips.append(used)
+    if grips:
+        found["slip_utilisation_max"] = over_time(np.max(grips, axis=0), units.RATIO)
     middle = (ready.course.places[1:] + ready.course.places[:-1]) / 2
     found["tension_max"] = History(units.FORCE, middle.tolist(), drawn.highest.tolist(), units.SPAN)
+    found["tension_min"] = History(units.FORCE, middle.tolist(), drawn.lowest.tolist(), units.SPAN)
     return found
 
 
