@@ -701,3 +701,19 @@ def test_the_ledger_of_a_taut_loop_closes_however_few_steps_it_has(
         assert motion.drum_speed[1:] == pytest.approx(0.3 * motion.times[1:], rel=1e-12)
     if grip is not None and steps > 3:
         assert motion.slipped
+
+
+@pytest.mark.parametrize("method", [strand.march, sagging.march])
+def test_a_drum_that_slips_at_the_speed_of_its_motor_grips_the_belt_there(method: Callable[..., Motion]) -> None:
+    """The belt comes to the held speed while the motor could pull much harder than friction holds: held, it asks for
+    little, so that belt and drum go on as one."""
+    part = Strand(200.0, 40.0, 20e6, 30e3, 30e3)
+    line = Loop(carry=part, back=part, drum_mass=800.0, tail_mass=0.0, fixed_length=False, grip=Grip(0.5, 0.0))
+    drive = Drive(force=lambda times: np.full_like(times, 60e3), hold=1.0)
+    motion = method(line, drive, 40 * part.transit, match(part.transit, part.transit, 40, 1e-6, at_most=1000))
+    apart = np.abs(motion.drum_speed - motion.belt_speed)
+    assert motion.slipped
+    assert float(motion.drum_speed.max()) == 1.0
+    assert apart.max() > 0.3
+    assert apart[len(apart) // 4 :].max() < 1e-9
+    assert motion.drum_speed[len(apart) // 4 :] == pytest.approx(1.0, abs=1e-9)
