@@ -364,7 +364,7 @@ def test_hard_case(name: str) -> None:
 
 CALLED: dict[Callable[..., Any], str] = {
     DecayPulse.at: "specs/hoist.yaml",
-    wave.first_wave_force: "specs/conveyor.yaml",
+    wave.first_wave_force: "specs/reference/bw_02.yaml",
     wave.first_wave_time: "specs/conveyor.yaml",
     wave.impedance: "specs/conveyor.yaml",
     strand.march: "specs/conveyor.yaml",

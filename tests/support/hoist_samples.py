@@ -39,7 +39,7 @@ def absurd_hoist(rng: np.random.Generator) -> dict[str, Any]:
         "drum": {
             "diameter": f"{d * _even(rng, 1.01, 1e4)!r} m",
             "length": f"{d * _even(rng, 6, 1e4)!r} m",
-            "pitch": f"{d * rng.uniform(1, 1.9)!r} m",
+            "pitch": f"{d * rng.uniform(1, 1.7)!r} m",
             "layers": layers,
             "flange_height": f"{d * (layers + 3)!r} m",
             "dead_wraps": float(rng.integers(0, 101)),

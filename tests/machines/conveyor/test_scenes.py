@@ -92,6 +92,11 @@ CASES: dict[tuple[str, str], tuple[Any, dict[str, Any], Callable[[Rig, float, in
         {"type": "start", "profile": RAMP, "aborted": {"run": "2 s", "pause": "1 s"}},
         start_of(aborted=(2.0, 1.0)),
     ),
+    ("hill", "cut off at speed"): (
+        STARTED,
+        {"type": "start", "profile": RAMP, "aborted": {"run": "12 s", "pause": "2 s"}},
+        start_of(aborted=(12.0, 2.0)),
+    ),
     ("hill", "uphill"): (STARTED, {"type": "start", "load": "uphill", "profile": RAMP}, start_of(loaded="uphill")),
     ("hill", "downhill"): (
         STARTED,
