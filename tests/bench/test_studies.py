@@ -14,7 +14,8 @@ from ptmcalc.machines.conveyor.solvers import statics
 
 
 def test_a_hundred_thousand_machines_are_a_few_runs_for_each_block() -> None:
-    """The closed forms of the overland conveyor, five keys varied: the runs grow with the blocks, not the machines."""
+    """The closed forms of the overland conveyor, five keys varied, what nobody gave at both ends:
+    the runs grow with the blocks, not the machines."""
     loaded = load_file(Path(ROOT / "specs" / "conveyor.yaml"), "conveyor.yaml")
     chance, runs, solve = np.random.default_rng(1), [0], statics._of_running
     ranges = {
@@ -38,4 +39,4 @@ def test_a_hundred_thousand_machines_are_a_few_runs_for_each_block() -> None:
         assert study.by_lanes == count
         assert study.points.notes == []
         blocks = -(-count // BLOCK)
-        assert blocks <= runs[0] <= 24 + 25 * blocks
+        assert blocks <= runs[0] <= 24 + 37 * blocks

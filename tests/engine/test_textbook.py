@@ -33,7 +33,8 @@ def test_nothing_is_said_where_no_formula_is_far_off(scene: dict[str, object]) -
 
 
 def test_one_note_a_scene_and_no_verdict_changes() -> None:
-    data = changed(template(), scenes=[START, START | {"load": "empty", "name": "empty"}], accuracy="1 %")
+    scenes = [START, START | {"load": "empty", "name": "empty"}]
+    data = changed(template(), takeup__tension="120 kN", belt__strength="2000 N/mm", scenes=scenes, accuracy="1 %")
     report = report_of(data)
     assert len(notes(report)) <= 2
     assert report.verdict == "pass"

@@ -209,11 +209,11 @@ def test_the_worst_check_stands_first_with_its_line_and_its_repair(short: tuple[
 
 
 def test_the_textbook_stands_beside_what_was_simulated() -> None:
-    (scene,) = (one for one in reported(KINDS["conveyor"]).scenes if one.name == "start_loaded")
-    (load,) = (one for one in scene.loads if one.info.name == "tension_run_on_max")
+    (scene,) = (one for one in reported(KINDS["chain_drive"]).scenes if one.name == "start_loaded")
+    (load,) = (one for one in scene.loads if one.info.name == "tension_start")
     assert load.formula is not None
     table = next(
-        one for one in elements(page_of(KINDS["conveyor"]), "table") if one.attributes["id"] == "summary-table"
+        one for one in elements(page_of(KINDS["chain_drive"]), "table") if one.attributes["id"] == "summary-table"
     )
     (row,) = (one for one in table.all("tr") if one.words.startswith(load.info.title))
     assert f"textbook {load.formula.value / 1e3:.4g} kN, ×{load.formula.ratio:.3f}" in row.words
