@@ -521,7 +521,8 @@ def _helps(settled: Settled, spec: MachineSpec, rung: Rung, name: str, share: fl
         return not same and _promises_less(settled.plan, spec, rung, name, best)
     ran = {effect for run in settled.runs if name in run.estimates for effect in run.rung.carried}
     bar = best.estimate
-    model = not bar.bounded or bar.bar - bar.numerical >= share * bar.bar
+    left_out = _bar_within(best, name) - bar.numerical
+    model = not bar.bounded or (left_out > 0 and left_out >= share * bar.bar)
     coarser = [run for run in same if run.rung.level < rung.level and name in run.estimates]
     finer = any(_worth_refining(run, rung, name, bar, share) for run in coarser)
     richer = rung.carried - best.rung.carried

@@ -62,7 +62,8 @@ def swing(
     relaxed: bool = False,
     retardation: float = 0.0,
 ) -> Swing:
-    """A stop from full speed, or with `force` (rim force over time [N]) a start from rest, of one drive at the head.
+    """A stop from full speed, or with `force` (rim force over time [N]) a start from rest, of one drive at the head,
+    which holds its drum at rated speed once it has it.
 
     With a retardation time the belt between the spans is of Kelvin and Voigt, S = EA (e + t e'): over a step its
     strain e = (S dt/EA + t e_old)/(dt + t), which makes it stiffer by t/dt for the step.
@@ -97,7 +98,7 @@ def swing(
     speed = 0.0 if force else rig.speed
     u, v, s = np.zeros(len(mass)), np.full(len(mass), speed), start.copy()
     held = pull[-1] + start[-1] - (start[0] if rig.rigid else rig.tension)
-    high, low, on, loose = -math.inf, math.inf, -math.inf, False
+    high, low, on, loose, at_rated = -math.inf, math.inf, -math.inf, False, False
     for step in range(math.ceil(window / dt)):
         time = step * dt
         stretch = strain + np.diff(u) / h
@@ -120,6 +121,9 @@ def swing(
         friction[-1] += sum(brake(time) for brake in brakes)
         free = v + dt / mass * net
         v = np.copysign(np.maximum(np.abs(free) - dt / mass * friction, 0.0), free)
+        at_rated = force is not None and (at_rated or v[-1] >= rig.speed)
+        if at_rated:
+            v[-1] = rig.speed
         if rig.rigid:
             v[0] = v[-1]
         u = u + dt * v
