@@ -86,6 +86,10 @@ class Flow:
         """Whether a panel is short enough for the slowest component of all, seen or not."""
         return panel * self._slowest <= self.resolved
 
+    def resolves(self, panel: float) -> bool:
+        """Whether a panel is short enough for the fastest component of all, seen or not."""
+        return panel * self._largest <= self.resolved
+
     @property
     def finest(self) -> float:
         """A panel that resolves every component: a power of two in units."""

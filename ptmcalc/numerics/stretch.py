@@ -28,6 +28,11 @@ _CHAIN = np.eye(COUNT, k=1)
 _SHARED = 16.0
 """Longest over shortest of the stretches that share a flow."""
 _LAST = panels.TO_CHEBYSHEV.T[:, -2:]
+_EARLY = 1 / 16
+"""Share of a stretch in which a vibration is looked for that its nodes do not resolve: where it has not yet faded."""
+_MISSED = 4.0
+"""What the polynomial may miss there, over the tolerance of its last coefficients."""
+_TO_EARLY = np.polynomial.chebyshev.chebvander(2 * _EARLY * NODES - 1, COUNT - 1) @ panels.TO_CHEBYSHEV
 
 _MONOMIALS = np.linalg.inv(NODES[:, None] ** np.arange(COUNT) / np.cumprod([1.0, *range(1, COUNT)]))
 """Coefficients of u^k/k! from node values, u the share of the stretch."""
@@ -135,9 +140,15 @@ class _Stretch:
         self.per_size = np.repeat([1 / curve.size for curve in curves], COUNT)
         self.monomials = _MONOMIALS * (ticks / span) ** np.arange(COUNT)[:, None]
         arguments = np.vstack(piece.arguments)
-        seen = (arguments @ flow.chunk(span).at_nodes[:, :n]).transpose(1, 0, 2)
-        self.seen_state = seen[:, :, :n].reshape(-1, n)
-        self.seen_rest = (seen[:, :, n:].reshape(-1, count, COUNT) @ self.monomials).reshape(-1, count * COUNT)
+
+        def seen(span: float) -> tuple[FloatArray, FloatArray]:
+            """What the arguments at the nodes of a span see of the state, and of the node values of the curves."""
+            found = (arguments @ flow.chunk(span).at_nodes[:, :n]).transpose(1, 0, 2)
+            rest = found[:, :, n:].reshape(-1, count, COUNT) @ self.monomials
+            return found[:, :, :n].reshape(-1, n), rest.reshape(-1, count * COUNT)
+
+        self.seen_state, self.seen_rest = seen(span)
+        self.seen_early = seen(_EARLY * span) if not flow.resolves(span) else None
         sizes = [len(rows) for rows in piece.arguments]
         self.firsts = np.cumsum([0, *sizes[:-1]])
         self.parts = [
@@ -176,8 +187,18 @@ class _Stretch:
             if stalled or change <= enough or change**2 <= enough * before < math.inf:
                 rest = used.reshape(found.shape)
                 tail = self._tail(rest)
+                if tail <= tolerance:
+                    tail = max(tail, self._missed(state, rest) / _MISSED)
                 return (rest if tail <= tolerance else None), tail
         return None, self._tail(found)
+
+    def _missed(self, state: FloatArray, rest: FloatArray) -> float:
+        """What polynomials miss of the curves early in the stretch, where its nodes do not resolve every vibration."""
+        if self.seen_early is None:
+            return 0.0
+        of_state, of_rest = self.seen_early
+        early = self.rest((of_state @ state + of_rest @ rest.ravel()).reshape(-1, COUNT))
+        return float((np.abs(early - rest @ _TO_EARLY.T) * self.per_size[::COUNT, None]).max())
 
     def coefficients(self, rest: FloatArray) -> FloatArray:
         """Of u^k/k!, of what has such values at the nodes: of what changes from the first one, for a large constant
