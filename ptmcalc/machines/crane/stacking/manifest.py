@@ -18,7 +18,7 @@ from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
 from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
-from ptmcalc.machines.crane.stacking.relations import RELATIONS
+from ptmcalc.machines.crane.stacking.relations import relations_of
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.spec.scene import Scene
@@ -51,7 +51,7 @@ def stacker(
         starting=template_in(package),
         symbols=symbols_in(__package__),
         assumed=assumptions,
-        relations=tuple(relation for relation in RELATIONS if relation.scenes & scenes),
+        relations=tuple(relation for relation in relations_of(word) if relation.scenes & scenes),
         parts=parts,
         tables=tables,
         seconding=lambda: of_its_scenes(witnesses_in(__package__)()),

@@ -120,5 +120,9 @@ RELATIONS: tuple[Relation, ...] = (
     ),
     computed("wheel_force", ("phi4",), _wheel_force, _ROLLS, "the load of a wheel is phi4 times the static one"),
     computed("safety_gear_factor", ("safety_gear_force",), _gear_factor, _FALLS, "the factor is force over weight"),
-    *(_marks(*mark, _SCENE_OF[scene]) for marks in MARKED_BY.values() for scene, mark in marks.items()),
 )
+
+
+def relations_of(word: str) -> tuple[Relation, ...]:
+    """The relations of a type: with those of the combinations that it has."""
+    return (*RELATIONS, *(_marks(*mark, _SCENE_OF[scene]) for scene, mark in MARKED_BY[word].items()))
