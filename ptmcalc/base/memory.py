@@ -1,11 +1,27 @@
-"""What is remembered between two runs, and how to forget it: a run is only timed fairly when it starts from nothing."""
+"""What is remembered between two runs, and how to forget it: a run is only timed fairly when it starts from nothing.
 
-from collections.abc import Callable
+And how much memory a run may take.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import lru_cache, wraps
+from pathlib import Path
 from typing import ParamSpec, TypeVar
+
+try:
+    import resource
+except ImportError:  # Windows has no such limit
+    resource = None  # type: ignore[assignment]
 
 P = ParamSpec("P")
 T = TypeVar("T")
+
+MEMORY_BUDGET = 2 << 30
+"""Bytes that a run may take besides what the program has when it begins."""
+_TAKEN = Path("/proc/self/statm")
+_DATA = 5
+"""Field of the pages of data."""
 
 _FORGETTERS: list[Callable[[], object]] = []
 
@@ -65,3 +81,31 @@ def forget() -> None:
     """Forget all that was made of machines; tables that belong to no machine stay."""
     for forgetter in _FORGETTERS:
         forgetter()
+
+
+@contextmanager
+def limited(most: int | None = None) -> Iterator[None]:
+    """What is done in it takes at most so many bytes more than the program has now, `MEMORY_BUDGET` when left out.
+
+    Beyond that Python and numpy raise a MemoryError. Where the system tells or limits nothing, there is no limit.
+    """
+    taken = _taken()
+    if resource is None or taken is None:
+        yield
+        return
+    before, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    allowed = taken + (MEMORY_BUDGET if most is None else most)
+    lower = allowed if before == resource.RLIM_INFINITY else min(before, allowed)
+    resource.setrlimit(resource.RLIMIT_DATA, (lower, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (before, hard))
+
+
+def _taken() -> int | None:
+    """Bytes of data that the program has now."""
+    try:
+        return int(_TAKEN.read_text("ascii").split()[_DATA]) * resource.getpagesize()
+    except (OSError, ValueError, IndexError, AttributeError):
+        return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import NOTHING, Estimate, Interval
+from ptmcalc.base.memory import MEMORY_BUDGET, limited
 from ptmcalc.base.units import SHARE, TIME, show
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.machine import AnyKind
@@ -18,7 +19,7 @@ from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
 """Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
-NO_MEMORY = "takes more memory than there is"
+NO_MEMORY = f"takes more memory than {MEMORY_BUDGET >> 30} GiB, the budget of a run, or than there is"
 """What is said of a computation that finds none; the same one may find it another time."""
 _CHEAP = 0.01
 """Predicted seconds of a run that is made to see how far the ladder goes."""
@@ -283,7 +284,8 @@ def _made(settled: Settled, spec: MachineSpec, rung: Rung) -> Result | None:
     """The result of a rung; None, and a finding, where its numerics break down or find no memory."""
     scene = settled.plan.scene
     try:
-        return rung.solver.run(spec, scene, rung.carried, rung.level)
+        with limited():
+            return rung.solver.run(spec, scene, rung.carried, rung.level)
     except NumericsError as error:
         settled.findings.append(Finding(error.code, f"scene `{scene.label}`, {rung.solver.name}: {error.message}"))
         settled.beside += max(rung.seconds, error.spent)

@@ -1,9 +1,12 @@
 """Plan -> results: the ladder climbs only while something is undecided, and says what it did."""
 
 import math
+import sys
 from dataclasses import replace
 from typing import Any
+from unittest import mock
 
+import numpy as np
 import pytest
 from support.toy_kind import OVERLOAD, PULL, SHOCK, STATICS
 from support.toys import (
@@ -513,9 +516,20 @@ def test_a_run_that_finds_no_memory_is_beyond_the_budget_and_undecided() -> None
 
     found = report(kind_of(solver("top", greedy)))
     assert (codes(found), judgement(found).verdict) == (["NUM103"], Verdict.UNDECIDED)
-    assert "top: the computation takes more memory than there is" in found.diagnostics[0].message
+    assert "top: the computation takes more memory than 2 GiB" in found.diagnostics[0].message
     spared = report(kind_of(solver("low", pull(9)), solver("top", greedy, decides=False)))
     assert judgement(spared).verdict is Verdict.PASS
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not limit the data of a process")
+def test_a_run_beyond_the_memory_budget_is_given_up_and_nothing_after_it_is_limited() -> None:
+    def greedy(carried: frozenset[str], level: int) -> Estimate:
+        return Estimate.exact(float(np.ones(1 << 24)[-1]))
+
+    with mock.patch("ptmcalc.base.memory.MEMORY_BUDGET", 64 << 20):
+        found = report(kind_of(solver("top", greedy)))
+    assert (codes(found), judgement(found).verdict) == (["NUM103"], Verdict.UNDECIDED)
+    assert judgement(report(kind_of(solver("top", greedy)))).verdict is Verdict.PASS
 
 
 def test_a_run_that_breaks_down_is_a_finding_and_undecided() -> None:
