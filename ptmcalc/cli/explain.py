@@ -8,7 +8,7 @@ import difflib
 import inspect
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -18,7 +18,7 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.cli.examples import EXAMPLES
 from ptmcalc.contract.check import AnyCheck
 from ptmcalc.contract.effect import AnyEffect
-from ptmcalc.contract.example import Example, Symbols
+from ptmcalc.contract.example import Example
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.solver import AnySolver
@@ -140,19 +140,50 @@ def _everything() -> Iterator[tuple[str, Callable[[], Explanation]]]:
 
 
 def _chapters(whole: AnyKind) -> Iterator[tuple[str, Entries]]:
-    """What a kind has, its types one after the other; what two types share stands with the first."""
-    of: dict[str, dict[str, Callable[[], Explanation]]] = {"checks": {}, "effects": {}, "solvers": {}, "loads": {}}
+    """Entries of a kind: one for each check, effect, solver and load, with all types of the kind that have it."""
+    of: dict[str, dict[str, list[_Shared]]] = {"checks": {}, "effects": {}, "solvers": {}, "loads": {}}
     for kind in whole.manifests:
         for check in kind.checks:
-            of["checks"].setdefault(check.code, partial(_check, whole, kind, check))
+            if not check.types or kind.type in check.types:
+                _add(of["checks"], check.code, kind, check, partial(_check, whole))
         for effect in kind.effects:
-            of["effects"].setdefault(effect.name, partial(_effect, whole, kind, effect))
+            _add(of["effects"], effect.name, kind, effect, partial(_effect, whole))
         for solver in (*kind.solvers, *kind.witnesses):
-            of["solvers"].setdefault(solver.name, partial(_solver, whole, kind, solver))
+            _add(of["solvers"], solver.name, kind, solver, partial(_solver, whole))
         for load in kind.loads:
-            of["loads"].setdefault(load.name, partial(_load, whole, kind, load))
+            if len(whole.manifests) == 1 or any(load.name in solver.gives for solver in kind.solvers):
+                _add(of["loads"], load.name, kind, load, partial(_load, whole))
     for title, entries in of.items():
-        yield title, list(entries.items())
+        yield title, [(name, partial(one.make, one.kinds, one.piece)) for name, all_ in entries.items() for one in all_]
+
+
+@dataclass(slots=True)
+class _Shared:
+    """A check, effect, solver or load, the types of machine that have it, and the function that explains it."""
+
+    piece: Any
+    kinds: list[AnyKind]
+    make: Callable[[Sequence[AnyKind], Any], Explanation]
+
+
+def _add(
+    entries: dict[str, list[_Shared]],
+    name: str,
+    kind: AnyKind,
+    piece: Any,
+    make: Callable[[Sequence[AnyKind], Any], Explanation],
+) -> None:
+    known = entries.setdefault(name, [])
+    same = next((one for one in known if one.piece == piece), None)
+    if same is None:
+        known.append(_Shared(piece, [kind], make))
+    else:
+        same.kinds.append(kind)
+
+
+def _label(kinds: Sequence[AnyKind]) -> str:
+    """The kind in words, with all types concerned."""
+    return f"{kinds[0].name} {', '.join(kind.type for kind in kinds)}".strip()
 
 
 # -- what is said of each -------------------------------------------------------------------------------------------
@@ -163,24 +194,24 @@ def _finding(code: str, text: CodeText) -> Explanation:
     return Explanation(code, f"is there {text.title}?", "", tuple(parts))
 
 
-def _check(whole: AnyKind, kind: AnyKind, check: AnyCheck) -> Explanation:
+def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explanation:
     scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
     value = [Part("Value", _doc(check.value))] if check.value and check.value.__doc__ else []
     parts = [
         Part("", check.what),
         Part("", check.why),
         *_formula("Formula", check.formula),
-        *_symbols(kind, check.code, check.formula),
+        *_symbols(kinds[0], check.code, of_check(check)),
         Part("Reads", ", ".join(check.loads)),
         *value,
         Part("Limit", _doc(check.limit)),
         Part("Source", check.source),
         *_example(whole.examples().get(check.code)),
     ]
-    return Explanation(check.code, f"is there {check.title}?", f"{kind.label}; scenes: {scenes}", tuple(parts))
+    return Explanation(check.code, f"is there {check.title}?", f"{_label(kinds)}; scenes: {scenes}", tuple(parts))
 
 
-def _effect(whole: AnyKind, kind: AnyKind, effect: AnyEffect) -> Explanation:
+def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Explanation:
     criterion, bound = _doc(effect.criterion), _doc(effect.bound)
     parts = [
         *([Part("Part of", effect.part_of)] if effect.part_of else []),
@@ -188,13 +219,14 @@ def _effect(whole: AnyKind, kind: AnyKind, effect: AnyEffect) -> Explanation:
         *_latex(criterion),
         Part(f"What leaving it out can change{' (calibrated)' * effect.calibrated}", bound, displayed=True),
         *_latex(bound),
-        *_symbols(kind, effect.name, displayed(criterion) + "\n" + displayed(bound)),
+        *_symbols(kinds[0], effect.name, of_effect(effect)),
         *_example(whole.examples().get(effect.name)),
     ]
-    return Explanation(effect.name, effect.title, kind.label, tuple(parts))
+    return Explanation(effect.name, effect.title, _label(kinds), tuple(parts))
 
 
-def _solver(whole: AnyKind, kind: AnyKind, solver: AnySolver) -> Explanation:
+def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Explanation:
+    kind = kinds[0]
     remarks = ["Effects it carries: " + (", ".join(sorted(solver.represents)) or "none")]
     if not solver.decides:
         remarks.append("It is shown beside the reported load and never decides.")
@@ -208,23 +240,24 @@ def _solver(whole: AnyKind, kind: AnyKind, solver: AnySolver) -> Explanation:
         Part("", "\n".join(remarks)),
         Part("", text),
         *_latex(text),
-        *_symbols(kind, solver.name, displayed(text)),
+        *_symbols(kind, solver.name, of_solver(solver)),
         *_example(whole.examples().get(solver.name)),
     ]
-    return Explanation(solver.name, solver.title, kind.label, tuple(parts))
+    return Explanation(solver.name, solver.title, _label(kinds), tuple(parts))
 
 
-def _load(whole: AnyKind, kind: AnyKind, load: LoadInfo) -> Explanation:
-    giving = [one for one in kind.solvers if load.name in one.gives]
-    reading = [check.code for check in kind.checks if load.name in check.loads]
-    family = f"One for each part of the machine: `{load.name}[name]`.\n" if _is_family(kind, load) else ""
+def _load(whole: AnyKind, kinds: Sequence[AnyKind], load: LoadInfo) -> Explanation:
+    giving = list({one.name: one for kind in kinds for one in kind.solvers if load.name in one.gives}.values())
+    reading = list(dict.fromkeys(check.code for kind in kinds for check in kind.checks if load.name in check.loads))
+    of_parts = any(_is_family(kind, load) for kind in kinds)
+    family = f"One for each part of the machine: `{load.name}[name]`.\n" if of_parts else ""
     lines = [f"Found by: {', '.join(one.name for one in giving) or 'none'}"]
     lines += [f"Read by: {', '.join(reading)}"] if reading else []
     parts = [Part("", f"{family}In reports it is in {load.quantity.si} (JSON) or a unit of that size.")]
     parts += [Part("", "\n".join(lines))]
     parts += [Part("Range, error and source", _where(giving), displayed=True)] if giving else []
     parts += _example(whole.examples().get(load.name))
-    return Explanation(load.name, f"{load.title} [{load.quantity.si}]", f"{kind.label}; load", tuple(parts))
+    return Explanation(load.name, f"{load.title} [{load.quantity.si}]", f"{_label(kinds)}; load", tuple(parts))
 
 
 def _is_family(kind: AnyKind, load: LoadInfo) -> bool:
@@ -258,6 +291,21 @@ def displayed(text: str) -> str:
     return "\n".join(textwrap.dedent(match[0]) for match in _DISPLAYED.finditer(inspect.cleandoc(text)))
 
 
+def of_check(check: AnyCheck) -> str:
+    """All formulas on the page of a check."""
+    return "\n".join([check.formula, *(displayed(_doc(one)) for one in (check.value, check.limit) if one is not None)])
+
+
+def of_effect(effect: AnyEffect) -> str:
+    """All formulas on the page of an effect."""
+    return displayed(_doc(effect.criterion)) + "\n" + displayed(_doc(effect.bound))
+
+
+def of_solver(solver: AnySolver) -> str:
+    """All formulas on the page of a solver."""
+    return displayed(_doc(solver.run))
+
+
 def _formula(heading: str, plain: str) -> list[Part]:
     tex = Part("In LaTeX", formula.latex(plain), displayed=True, tex=True)
     return [Part(heading, plain, displayed=True), tex]
@@ -269,20 +317,14 @@ def _latex(text: str) -> list[Part]:
 
 
 def _symbols(kind: AnyKind, name: str, plain: str) -> list[Part]:
-    """What the letters of a formula mean, as far as the kind lists them."""
+    """Meanings of the letters of a formula, as far as the kind lists them for that page."""
     listed = kind.symbols()
-    lines = [f"{one}: {said}" for one in formula.symbols(plain) if (said := meaning(listed, name, one))]
+    lines = [
+        f"{one}: {listed[name, one].meaning} [{listed[name, one].unit}]"
+        for one in formula.letters(plain)
+        if (name, one) in listed
+    ]
     return [Part("Symbols", "\n".join(lines), displayed=True)] if lines else []
-
-
-def meaning(listed: Symbols, name: str, symbol: str) -> str:
-    """Of a letter with its index; where that is not listed, of the letter."""
-    stem, index = formula.base(symbol)
-    for key in ((name, symbol), (name, stem), ("", symbol), ("", stem)):
-        if key in listed:
-            which = f", {index}" if key[1] != symbol and len(index) > 2 else ""
-            return f"{listed[key].meaning}{which} [{listed[key].unit}]"
-    return ""
 
 
 def _example(example: Example | None) -> list[Part]:

@@ -51,6 +51,8 @@ class Check(Generic[S, C]):
     repairs_blame: bool = False
     forbids_band: bool = False
     """whether values of the repair's key on both sides of those that fail pass"""
+    types: frozenset[str] = frozenset()
+    """types of the kind that it is made for; empty for all types that have one of its scenes"""
 
     def applies_to(self, scene: Scene) -> bool:
         """Whether this type of scene is held against the check."""

@@ -1,8 +1,9 @@
 """What `explain` adds to a check, an effect, a solver or a load: its symbols, and an example that runs.
 
-Both are files in the folder of a kind, read only where somebody asks. `symbols.txt` is written by hand: `S: tension of
-the belt [N]`; a line `CNV112 S: ...` holds for the formulas of that name alone. `examples.json` is written by the test
-that holds it (`tests/house/test_examples.py`).
+Both are files in the folder of a kind, read only on request. `symbols.txt` is written by hand. A line
+`S: tension of the belt [N]` is followed by the names of the pages on which the letter has that meaning, set in by four
+columns. A letter has no meaning on any other page. `examples.json` is written by the test that holds it
+(`tests/house/test_explain.py`).
 """
 
 import json
@@ -11,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 SYMBOLS, EXAMPLES = "symbols.txt", "examples.json"
-_LINE = re.compile(r"(?:(\w+) )?([^\s:]+): (.+) \[([^\[\]\s]+)\]")
+_LINE = re.compile(r"([^\s:]+): (.+) \[([^\[\]\s]+)\]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class Example:
 
 
 Symbols = Mapping[tuple[str, str], Symbol]
-"""By the name whose formula it is in, empty for all, and the letter."""
+"""By the name of the page whose formula it is in, and the letter."""
 
 
 def no_symbols() -> Symbols:
@@ -53,12 +54,21 @@ def symbols_in(package: str) -> Callable[[], Symbols]:
 
     def read() -> Symbols:
         lines = [line for line in _file(package, SYMBOLS).splitlines() if line and not line.startswith("#")]
-        found = {}
+        found: dict[tuple[str, str], Symbol] = {}
+        letter, symbol = "", None
         for line in lines:
+            if line.startswith("    ") and symbol is not None:
+                places = [(name, letter) for name in line.split()]
+                if found.keys() & set(places):
+                    raise ValueError(
+                        f"{SYMBOLS} of {package}: `{letter}` has a meaning on each page of `{line}` already"
+                    )
+                found |= dict.fromkeys(places, symbol)
+                continue
             match = _LINE.fullmatch(line)
-            if match is None or (match[1] or "", match[2]) in found:
-                raise ValueError(f"{SYMBOLS} of {package}: `{line}` is no new `symbol: meaning [unit]`")
-            found[match[1] or "", match[2]] = Symbol(match[3], match[4])
+            if match is None:
+                raise ValueError(f"{SYMBOLS} of {package}: `{line}` is no `symbol: meaning [unit]`")
+            letter, symbol = match[1], Symbol(match[2], match[3])
         return found
 
     return read

@@ -26,14 +26,15 @@ _OPERATORS = {"<=": r"\le ", ">=": r"\ge ", "=>": r"\Rightarrow ", "->": r"\to "
 _COMMANDS = {"eps": r"\varepsilon", "atan": r"\arctan", "sgn": r"\operatorname{sgn}", "Im": r"\operatorname{Im}"}
 _COMMANDS |= {"Re": r"\operatorname{Re}"}
 _SHORT_WORDS = frozenset(
-    ("of", "on", "or", "to", "by", "is", "in", "as", "at", "if", "no", "it", "an", "so", "be", "we", "do")
+    ("of", "on", "or", "to", "by", "is", "in", "as", "at", "if", "no", "it", "an", "so", "be", "we", "do", "up")
 )
 _LETTERS = frozenset(("EA", "EF", "GD", "ED", "ds", "dt", "dv", "dS", "dV", "dH", "dM", "dR", "dm", "dF", "dw", "HC"))
 """Two letters that stand together as one symbol, or as a differential."""
 
 _TOKEN = re.compile(
     r"(?P<code>`[^`]*`|checks\.\w+)"
-    r"|(?P<quantity>(?<=[<>]= )[0-9.]+ s(?!\w))"
+    r"|(?P<quantity>(?<=[<>]= )[0-9.]+ s(?!\w)|0\.[0-9]+ m(?=,| below| -))"
+    r"|(?P<prose>[A-Za-z]{3,}'s(?![\w(]))"
     r"|(?P<angle>\s*deg(?!\w))"
     r"|(?P<of>(?<=integral) of(?!\w))"
     r"|(?P<operator><=|>=|=>|->|\+-(?=\s)|-\+(?=\s))"
@@ -69,11 +70,13 @@ def pieces(formula: str) -> tuple[Piece, ...]:
 
 
 def _role(kind: str, text: str, rest: list[tuple[str, str]]) -> Role:
-    if kind == "code":
+    if kind in ("code", "prose"):
         return Role.TEXT
     if kind != "word":
         return Role.MARK
-    if text.partition("_")[0] in FUNCTIONS or text in ("sum", "integral", "int"):
+    if text == "e" and "".join(one for _, one in rest[:2]) == "^(":
+        return Role.FUNCTION
+    if text.partition("_")[0] in (*FUNCTIONS, "sum", "integral", "int"):
         return Role.FUNCTION
     if text == "a" and len(rest) > 1 and rest[0][1] == " " and rest[1][0] == "word" and _is_prose(rest[1][1]):
         return Role.TEXT
@@ -95,8 +98,17 @@ def symbols(formula: str) -> tuple[str, ...]:
     >>> symbols("S_tight <= S_slack exp(mu alpha)")
     ('S_tight', 'S_slack', 'mu', 'alpha')
     """
+    return tuple(one for one in letters(formula) if one not in ("dt", "e"))
+
+
+def letters(formula: str) -> tuple[str, ...]:
+    """All letters of a formula that require a meaning: the symbols, `e` where it is a variable, and `dt`.
+
+    >>> letters("e = 1 - exp(-2 e_0)")
+    ('e', 'e_0')
+    """
     found = (piece.text.replace("'", "") for piece in pieces(formula) if piece.role is Role.SYMBOL)
-    return tuple(dict.fromkeys(one for one in found if one not in ("pi", "dt", "e")))
+    return tuple(dict.fromkeys(one for one in found if one != "pi"))
 
 
 def base(symbol: str) -> tuple[str, str]:
@@ -147,7 +159,7 @@ def _one(part: Piece) -> str:
     text = part.text
     if part.role is Role.FUNCTION:
         name, _, index = text.partition("_")
-        written = {"sum": r"\sum ", "integral": r"\int ", "int": r"\int "}.get(name, _command(name))
+        written = {"sum": r"\sum ", "integral": r"\int ", "int": r"\int ", "e": "e"}.get(name, _command(name))
         return written.rstrip() + f"_{{{_index(index)}}} " if index else written
     if part.role is Role.SYMBOL:
         return _symbol(text)
@@ -159,9 +171,9 @@ def _one(part: Piece) -> str:
         return r"^{\circ}"
     if text == " of":
         return ""
-    quantity = re.fullmatch(r"([0-9.]+) s", text)
+    quantity = re.fullmatch(r"([0-9.]+) ([ms])", text)
     if quantity:
-        return rf"{quantity[1]}\,\mathrm{{s}}"
+        return rf"{quantity[1]}\,\mathrm{{{quantity[2]}}}"
     number = re.fullmatch(r"([0-9.]+)e\+?(-?)0*([0-9]+)", text)
     if number:
         return rf"{number[1]} \cdot 10^{{{number[2]}{number[3]}}}"

@@ -19,7 +19,7 @@ from support.examples import UPDATE, again, as_said, from_blocks, keep, names, p
 from ptmcalc.base.diagnostic import BROKEN, CODES
 from ptmcalc.base.units import unit_of
 from ptmcalc.cli import examples
-from ptmcalc.cli.explain import explanation, meaning
+from ptmcalc.cli.explain import explanation, of_check, of_effect, of_solver
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.report import formula
@@ -73,25 +73,75 @@ def test_a_file_of_an_example_has_one_fault() -> None:
 # -- checks, effects, solvers, loads --------------------------------------------------------------------------------
 
 
+def _letters(kind: AnyKind) -> dict[str, set[str]]:
+    """By page, the letters of all its formulas."""
+    pages = {check.code: of_check(check) for check in kind.checks}
+    pages |= {effect.name: of_effect(effect) for effect in kind.effects}
+    pages |= {solver.name: of_solver(solver) for solver in (*kind.solvers, *kind.witnesses)}
+    return {name: set(formula.letters(text)) for name, text in pages.items()}
+
+
 @of_every_type
-def test_every_symbol_of_a_check_is_listed_with_its_unit(kind: AnyKind) -> None:
+def test_every_letter_of_every_page_has_a_line_of_its_own(kind: AnyKind) -> None:
+    """By page: a letter that means one thing on a page may mean another one on the next."""
     listed = kind.symbols()
-    missing = {
-        f"{check.code} {symbol}"
-        for check in kind.checks
-        for symbol in formula.symbols(check.formula)
-        if not meaning(listed, check.code, symbol)
-    }
-    assert missing == set()
+    letters = {(name, letter) for name, of_page in _letters(kind).items() for letter in of_page}
+    assert {f"{name} {letter}" for name, letter in letters - listed.keys()} == set()
 
 
 @of_every_type
-def test_units_of_symbols_are_units_and_names_are_names(kind: AnyKind) -> None:
-    whole = TYPES[kind.label][0]
+def test_units_of_symbols_are_units(kind: AnyKind) -> None:
     for (name, letter), symbol in kind.symbols().items():
         factor, _ = unit_of(symbol.unit)
-        assert factor == 1.0 or symbol.unit == "1/h", f"{letter}: [{symbol.unit}] is not an SI unit of the table"
-        assert name in {"", *names(whole)}, f"{name} {letter} is of nothing"
+        assert factor == 1.0 or symbol.unit == "1/h", f"{name} {letter}: [{symbol.unit}] is not an SI unit of the table"
+        if "circular" in symbol.meaning or "angular speed" in symbol.meaning:
+            assert symbol.unit == "rad/s", f"{name} {letter}: {symbol.meaning} [{symbol.unit}]"
+
+
+def test_no_line_of_symbols_is_of_nothing() -> None:
+    """Types of a kind may share one list; each of its lines is of a page of one of them."""
+    letters: dict[str, dict[str, set[str]]] = {}
+    for whole, one in TYPES.values():
+        letters.setdefault(whole.name, {}).update(_letters(one))
+    for whole, one in TYPES.values():
+        for name, letter in one.symbols():
+            assert letter in letters[whole.name].get(name, ()), f"{name} {letter} is of nothing"
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("two_mass", "M: mass of the load [kg]"),
+        (
+            "mast_handbook",
+            "k: share of the column's mass at its end: 0.236 for a rigid root, 0.305 for one that gives [1]",
+        ),
+        ("HST140", "k: natural circular frequency of the load on its ropes [rad/s]"),
+        ("CRN207", "a: acceleration of the base [m/s^2]"),
+        ("CRN207", "e: arm of the load's weight [m]"),
+    ],
+)
+def test_a_letter_is_explained_as_on_its_page(name: str, line: str) -> None:
+    assert f"\n    {line}\n" in explanation(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "of_types"),
+    [
+        ("CRN207", "crane rack_stacker; scenes: brake, start"),
+        ("CRN210", "crane overhead_stacker; "),
+        ("CRN201", "crane overhead_stacker, rack_stacker; "),
+        ("safety_gear_force", "crane rack_stacker; load"),
+        ("column_stiffness", "crane overhead_stacker, rack_stacker; load"),
+        ("natural_frequency", "hoist; load"),
+    ],
+)
+def test_a_page_names_all_types_that_have_it(name: str, of_types: str) -> None:
+    assert f"({of_types}" in explanation(name)
+
+
+def test_loads_of_one_name_that_differ_by_type_are_explained_one_by_one() -> None:
+    assert explanation("starting_reserve").count("\nstarting_reserve: ") + 1 >= 2
 
 
 @of_every_kind

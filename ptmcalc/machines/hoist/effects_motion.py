@@ -370,7 +370,7 @@ def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
 def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     """What the change of the rope's length can do to its dynamic force.
 
-        d/dt ln A^2 = (V/l) sin^2 f = (V/2 l) (1 - cos 2 f),   so that A <= A_0 (l_0/l_1)^(1/4) exp(V/(2 l_1 w))
+        (ln A^2)' = (V/l) sin^2 f = (V/2 l) (1 - cos 2 f),   so that A <= A_0 (l_0/l_1)^(1/4) exp(V/(2 l_1 w))
 
     A^2 = e^2 + (e'/w)^2 of the dynamic strain e of a rope hauled at the speed V, f its phase, which runs on with w:
     what the cosine adds never comes to more than one of its halves. Paid out A falls as much. Times go with the

@@ -21,7 +21,7 @@ _WINDOWS = 2.0
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:
     """Largest run-on tension when a drive winds up a chain without tension until its load breaks loose.
 
-        S = S_run-off + K x,   K = w_1^2 m M/(m + M),   M sticks as long as K x <= W
+        S = S_off + K x,   K = w_1^2 m M/(m + M),   M sticks as long as K x <= W
 
     **Range** a torque over time; a constant tension at the run-off; all resistance as friction of the load.
     **Error** exact for two masses; none bound against a chain with its mass along it.

@@ -187,7 +187,7 @@ def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
     """What a swinging load can do to start, stop and ring, however it swings.
 
         start:  t_s = (J' w + h)/N,   h = m rho w (rho -+ (rho^2 + J'/m)^(1/2))       (`laws.slewing.momentum_range`)
-        stop:   beta_b <= beta_c + E/(M_B u + R),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + R)
+        stop:   beta_b <= beta_c + E/(M_B u + M_r),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + M_r)
         ring:   V <= m (g + w_rel^2/L + w^2 R + a R)
 
     E is the largest energy of crane and load as the stop begins, t_c delay and rise of the brake.

@@ -182,7 +182,7 @@ LEANS: OneCheck = only(_asks_window)(
         what="Under weights beside its axis the column leans at rest by less than the window of the fork is wide.",
         why="A column that leans by more than the window is never inside it, however long the fork waits: the window is"
         " narrower than the static deflection.",
-        formula="x = M ((s l)^2/2 + s l (l - s l))/(E J) + M l/k,   M = |Q a + G b|;   x <= window",
+        formula="x = M ((s l)^2/2 + s l (l - s l))/(E J) + M l/k,   M = |Q e + G b|;   x <= window",
         source="bending of beams; `laws.mast.leaning`",
     )
 )

@@ -35,7 +35,7 @@ ROLLERS: OneCheck = Check(
     what="The eccentric weights of load, carriage and cab, with the carriage's acceleration, press no roller against"
     " the column harder than it bears.",
     why="The reaction goes by arm over distance of the rollers: short carriages with long forks wear roller and rail.",
-    formula="(1 + a/g) |Q a + G b|/h <= n R_0",
+    formula="(1 + a/g) |Q e + G b|/h <= n R_0",
     source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the maker of the roller",
 )
 
@@ -63,7 +63,7 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
         repair=at("carriage", "rollers", "distance"),
         what="The resistance of the guide is less than the weight that has to overcome it on the way down.",
         why="A carriage that jams like a drawer stays up while its ropes go slack, and falls when it comes free.",
-        formula="2 w |Q a + G b|/(h (Q + G)) <= 1,   w = (mu d + 2 f)/D",
+        formula="2 w |Q e + G b|/(h (Q + G)) <= 1,   w = (mu d + 2 f)/D",
         source="balance of the carriage",
     )
 )

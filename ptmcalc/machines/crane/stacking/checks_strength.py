@@ -71,8 +71,9 @@ ALONG: OneCheck = _on_a_side("along", _travels)(
         what="The weights hold the machine on both its wheels against the inertia of a column that swings in a start or"
         " a stop, and against what leans over.",
         why="Combination 2 of table 11.2 is there for stability: twice the steady moment of the column lifts a wheel.",
-        formula="sum G_i d_i >= k (M_0 + F_0 z_0 + m_1 a z_1 + |Q a + G b|)",
+        formula="sum G_i d_i >= k (M_0 + F_0 z_0 + m_1 a z_1 + |Q e + G b|)",
         source="balance of moments; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, table 11.2",
+        types=frozenset({"rack_stacker"}),
     )
 )
 
@@ -108,8 +109,9 @@ ACROSS: OneCheck = _on_a_side("across", _leans)(
         what="Two rails, or the guide at the head, hold the machine against the load on the fork that is out, and"
         " against the rack that pushes back.",
         why="On one rail nothing but the guide at the head keeps it from tipping into the rack.",
-        formula="sum G_i B/2 + F_g H >= k (|Q a + G b| + F_f (z_0 + s))",
+        formula="sum G_i B/2 + F_g H >= k (|Q e + G b| + F_f (z_0 + s))",
         source="balance of moments",
+        types=frozenset({"rack_stacker"}),
     )
 )
 
@@ -199,6 +201,7 @@ BRIDGE: OneCheck = only(_has_girders)(
         why="The column pulls one girder down and pushes the other up while both bend sideways.",
         formula="M_v/W_v + M_h/W_h <= sigma_0",
         source="bending of beams; table 11.1 of the lecture notes, Kramatorsk 2007",
+        types=frozenset({"overhead_stacker"}),
     )
 )
 

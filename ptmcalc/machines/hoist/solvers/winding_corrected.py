@@ -26,7 +26,7 @@ OF_PAPER = {
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
     """Stretch and stress of the rope for a climb in the paper's shape, whose impulse is the jump of the rope's speed.
 
-        k = (K/M)^(1/2),   q'' + 2 zeta k q' + k^2 q = B w^2 dR (exp(-p f) - exp(-q f)) for a turn, f = w t
+        k = (K/M)^(1/2),   q'' + 2 zeta k q' + k^2 q = B w^2 dR (exp(-p f) - exp(-r f)) for a turn, f = w t
         s_dyn/s_mean = C B w^2 dR n/(m g),   C = k^2 q_max/(B w^2 dR)
 
     **Range** one climb, a load that hung still, a rope whose length does not change.

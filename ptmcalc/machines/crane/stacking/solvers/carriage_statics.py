@@ -12,7 +12,7 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 def run(spec: Stacker, scene: HoistScene, carried: frozenset[str], level: int) -> Result:
     """Forces of a carriage that starts upwards, or comes to rest on its way down.
 
-        R = (1 + a/g) |Q a + G b|/h,   W = 2 R (mu d + 2 f)/D,   S = ((1 + a/g)(Q + G) +- W)/(m eta^+-1)
+        R = (1 + a/g) |Q e + G b|/h,   W = 2 R (mu d + 2 f)/D,   S = ((1 + a/g)(Q + G) +- W)/(m eta^+-1)
 
     **Range** vertical ropes; the acceleration of the file, with a rope that does not stretch.
     **Error** the two planes' rollers, where the file does not say how they are put together: in the bar.
