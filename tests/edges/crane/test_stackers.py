@@ -16,6 +16,8 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.run import settle
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.scenes import Stand
 from ptmcalc.machines.crane.stacking.solvers.drive_times import DRIVE_TIMES
 from ptmcalc.numerics import record
 
@@ -171,3 +173,34 @@ class TestPulledThroughItsBrake:
         assert data.spec is not None
         scene = plan_scene(data.kind, data.spec, data.spec.all_scenes[0])
         assert claim_of(scene, data.spec, DRIVE_TIMES)["brake_time"].bounded
+
+
+class TestMotorCurve:
+    """A stacker that starts along a motor's curve: its mean decides nothing."""
+
+    def _data(self, *torques: str, **changes: Any) -> dict[str, Any]:
+        points = [{"speed": f"{700 * k} rpm", "torque": torque} for k, torque in enumerate(torques)]
+        motor = {"inertia": "0.02 kg*m^2", "speed": "1400 rpm", "curve": {"type": "table", "points": points}}
+        drive = {"motor": motor, "gear": {"ratio": 14, "efficiency": 0.9}, "brake": {"torque": "40 N*m"}}
+        travel = {"speed": "2 m/s", "drive": drive, "wheel_diameter": "400 mm", "resistance": "400 N"}
+        return changed({**RACK, "travel": travel}, scenes=[{"type": "start"}], settling=None, **changes)
+
+    def test_one_below_the_resistance_stalls(self) -> None:
+        """400 N at the rims are 400 x 0.2/(14 x 0.9) = 6.35 N*m; the mean is six times that."""
+        assert _verdicts(report_of(self._data("70 N*m", "6.3 N*m", "80 N*m")), "CRN204") == {"start_loaded": "fail"}
+        assert _verdicts(report_of(self._data("70 N*m", "6.4 N*m", "80 N*m")), "CRN204") != {"start_loaded": "fail"}
+
+    def test_one_that_changes_passes_nothing_that_swings(self) -> None:
+        (scene,) = report_of(self._data("60 N*m", "45 N*m", "40 N*m")).scenes
+        found = {one.code: one.verdict for one in scene.checks}
+        assert {found[code] for code in ("CRN204", "CRN207", "CRN209")} == {Verdict.UNDECIDED}
+        assert any("follows a motor's curve" in one.reason for one in scene.checks)
+
+    def test_a_drive_that_pushes_on_has_the_largest_torque_of_its_curve(self) -> None:
+        spec = loaded(self._data("60 N*m", "20 N*m", "40 N*m")).spec
+        assert spec is not None
+        (start,) = spec.all_scenes
+        stand = Stand()
+        even, most = (model.driving(spec, scene).size + 400 for scene in (start, stand))  # type: ignore[arg-type]
+        assert most == pytest.approx(60 * 14 * 0.9 / 0.2, rel=1e-12)
+        assert even == pytest.approx(35 * 14 * 0.9 / 0.2, rel=1e-2), "the mean, which textbooks start with"

@@ -6,12 +6,23 @@
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.laws import carriage, inertia, reeving
 from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.scenes import StackerScene
+from ptmcalc.machines.crane.stacking.scenes import StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
+
+FloatArray = NDArray[np.float64]
+
+_SPEEDS = 1025
+"""Looks at a motor's curve from rest to full speed."""
+_EVEN = 1e-9
+"""Share of the mean torque by which a curve that is even may change, by rounding."""
 
 Direction = Literal["along", "across"]
 """Along the travel of bridge or base; across it: along the girders, across the aisle."""
@@ -201,12 +212,65 @@ def driving(spec: Stacker, scene: StackerScene) -> Push:
         slope = block.drive.ramp(block.speed)
         if slope is not None:
             return Push("ramp", slope, block.ramp_rise)
-        rim = block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
-        force = block.drive.torque * rim * block.drive.efficiency
-        return Push("force", force - (block.resistance or 0.0), 0.0, 0.0, rotors(block, braking=False))
+        torque = block.drive.torque
+        if block.drive.motor.curve is not None and not isinstance(scene, Start):
+            torque = float(np.max(_torques(block)))  # what goes on driving gives no more at any speed
+        return Push("force", _net(block, torque), 0.0, 0.0, rotors(block, braking=False))
     if block.acceleration is not None:
         return Push("ramp", block.acceleration, block.ramp_rise)
     return Push("force", filled(block.driving_force) - (block.resistance or 0.0), block.driving_rise)
+
+
+def _net(block: Travel, torque: float) -> float:
+    """At the rims, from a torque of all motors, less the resistance [N]."""
+    assert block.drive is not None
+    rim = block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
+    return torque * rim * block.drive.efficiency - (block.resistance or 0.0)
+
+
+def _torques(block: Travel) -> FloatArray:
+    """Of all motors over even steps of the speed from rest to full speed, shape (n,) [N*m].
+
+    Where the stages of a curve are switched by time, the best of them at each speed.
+    """
+    assert block.drive is not None
+    motor = block.drive.motor
+    curve = motor.curve
+    if curve is None:
+        return np.full(_SPEEDS, block.drive.torque)
+    if isinstance(curve, ConverterMotor):
+        return np.full(_SPEEDS, motor.count * curve.limit)
+    speeds = np.linspace(0.0, block.speed * block.drive.rim_per_torque(filled(block.wheel_diameter) / 2), _SPEEDS)
+    torques = curve.torque(speeds, np.inf)
+    if any(stage.until_time is not None for stage in curve.stages):
+        torques = np.max([stage.torque(speeds) for stage in curve.stages], axis=0)
+    return np.asarray(motor.count * torques)
+
+
+def surplus(spec: Stacker, scene: StackerScene) -> FloatArray:
+    """Force of a start by torque over even steps of the speed, less the resistance, shape (n,) [N].
+
+    Of a motor whose starting torque swings between two values, the smaller one where the larger does not help.
+    """
+    block = travel(spec, scene)
+    assert block.drive is not None
+    rim, motor = _torques(block), block.drive.motor
+    forces = np.array([_net(block, torque) for torque in rim.tolist()])
+    smallest = motor.smallest_starting_torque
+    if motor.curve is None and smallest is not None and _net(block, motor.count * smallest) <= 0:
+        return np.full_like(forces, _net(block, motor.count * smallest))
+    return forces
+
+
+def uneven(spec: Stacker, scene: StackerScene) -> bool:
+    """Whether a scene is a start along a motor's curve whose torque changes with speed or time."""
+    block = moving(spec, scene)
+    if not isinstance(scene, Start) or not isinstance(block, Travel) or block.drive is None:
+        return False
+    curve = block.drive.motor.curve
+    if curve is None or block.drive.ramp(block.speed) is not None:
+        return False
+    return isinstance(curve, ConverterMotor) or float(np.ptp(_torques(block))) > _EVEN * block.drive.torque
 
 
 def rotors(block: Travel, *, braking: bool) -> float:

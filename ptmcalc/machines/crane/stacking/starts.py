@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import mast as law
 from ptmcalc.machines.crane.stacking import mast, model
 from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
-from ptmcalc.machines.crane.stacking.scenes import Brake, Braked
+from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
@@ -39,7 +41,7 @@ def time(spec: Stacker, scene: Braked) -> Estimate:
 
     Where the column may pull what it stands on through its brake again (`slips_again`), it stands for good later.
 
-        ramp:  t = v/a + t_r          force:  M v = integral of P
+        ramp:  t = v/a + t_r          force:  M v = integral of P          curve:  t = integral of M dv/P(v)
 
     A force moves the centre of mass of all that travels as if it were rigid; the speed of what holds the column differs
     from that of the centre by its swing, at most
@@ -51,7 +53,8 @@ def time(spec: Stacker, scene: Braked) -> Estimate:
     column that has it all at its end. So the time is between those to lose v - beta and v + beta.
 
     **Range** a column that swings little; a resistance that begins with the brake; a guide at the head holds from
-    outside: no bound then.
+    outside: no bound then, and none along a motor's curve. A drive that is weaker than the resistance at any speed of
+    the start stalls.
     **Error** as derived above.
     **Source** momentum; derived.
     """
@@ -62,14 +65,30 @@ def time(spec: Stacker, scene: Braked) -> Estimate:
     speed = model.speed(spec, scene)
     if push.kind == "ramp":
         return Estimate.exact(ramp_time(speed, push.size, push.rise))
-    if push.size <= 0:
+    if push.size <= 0 or _stalls(spec, scene):
         return Estimate.exact(math.inf)
+    if model.uneven(spec, scene):
+        return _along_a_curve(spec, scene, push, speed)
     whole = moving_mass(spec, scene) + push.rotors
     value, low, high = (
         push.delay + force_time(whole, max(v, 0.0), push.size, push.rise)
         for v in (speed, *_ends_of_speed(spec, scene, push, speed, whole))
     )
     return Estimate(value, low, high, model=max(value - low, high - value))
+
+
+def _stalls(spec: Stacker, scene: Braked) -> bool:
+    """Whether the drive of a start does not overcome the resistance at every speed up to full speed."""
+    block = model.moving(spec, scene)
+    if not isinstance(scene, Start) or not isinstance(block, Travel) or block.drive is None:
+        return False
+    return float(np.min(model.surplus(spec, scene))) <= 0
+
+
+def _along_a_curve(spec: Stacker, scene: Braked, push: model.Push, speed: float) -> Estimate:
+    """Of a rigid crane along the motor's curve: nothing bounds what the swing of its column makes of it."""
+    slowness = (moving_mass(spec, scene) + push.rotors) / model.surplus(spec, scene)
+    return Estimate.unknown(float(np.trapezoid(slowness, dx=speed / (len(slowness) - 1))))
 
 
 def _ends_of_speed(spec: Stacker, scene: Braked, push: model.Push, speed: float, whole: float) -> tuple[float, float]:

@@ -29,3 +29,16 @@ def travels(spec: Stacker, scene: StackerScene) -> Criterion | None:
     if not turns(spec, scene):
         return None
     return Criterion("ω", math.inf, 1.0, "the column turns about its own axis and does not bend", "what moves")
+
+
+def evenly(spec: Stacker, scene: StackerScene) -> Criterion | None:
+    """Out of range in a start along a motor's curve: the force that swings the column is not even.
+
+    **Range** every start and stop.
+    **Error** none.
+    **Source** the curve of the file.
+    """
+    if not model.uneven(spec, scene):
+        return travels(spec, scene)
+    reason = "the start follows a motor's curve; columns are computed under an even force or a ramp"
+    return Criterion("ΔM/M", math.inf, 1.0, reason, "the motor's curve")

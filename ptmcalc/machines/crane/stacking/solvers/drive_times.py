@@ -3,7 +3,7 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking import starts
+from ptmcalc.machines.crane.stacking import model, starts
 from ptmcalc.machines.crane.stacking.scenes import Brake, Braked, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
@@ -18,7 +18,12 @@ def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Re
     **Source** momentum (`starts.time`).
     """
     name = "brake_time" if isinstance(scene, Brake) else "start_time"
-    found = {name: Found(starts.time(spec, scene))}
+    note = (
+        "the start follows the motor's curve, and the swing of the column moves it along that"
+        if model.uneven(spec, scene)
+        else ""
+    )
+    found = {name: Found(starts.time(spec, scene), note=note)}
     ratio = starts.of_the_mechanism(spec, scene)
     if ratio is not None:
         found["starts_ratio"] = Found(Estimate.exact(ratio))

@@ -21,7 +21,7 @@ from ptmcalc.machines.crane.stacking.names_mast import MODES as MODES_HIGHER
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import travels
+from ptmcalc.machines.crane.stacking.travelling import evenly
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
@@ -502,7 +502,7 @@ def _solver(
         run=run,
         cost=_cost,
         source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
-        valid=travels,
+        valid=evenly,
         always=always,
         levels=levels,
     )

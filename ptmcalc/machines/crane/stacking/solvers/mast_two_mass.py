@@ -15,7 +15,7 @@ from ptmcalc.machines.crane.stacking.names_mast import FLEXIBLE, GRAVITY, HOLDIN
 from ptmcalc.machines.crane.stacking.resting import at_rest
 from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
-from ptmcalc.machines.crane.stacking.travelling import push_of, travels
+from ptmcalc.machines.crane.stacking.travelling import evenly, push_of
 from ptmcalc.machines.crane.stacking.two_mass import course_of
 from ptmcalc.numerics.mast.run import Course
 
@@ -104,7 +104,7 @@ def valid(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     guide = spec.column.top_guide
     if guide is not None and guide.stiffness is not None:
         return Criterion("k_g", 1.0, 1.0, "the head of the column is guided: it keeps to no one shape", "the file")
-    return travels(spec, scene)
+    return evenly(spec, scene)
 
 
 def _cost(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) -> float:
