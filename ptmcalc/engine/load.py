@@ -24,7 +24,7 @@ from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.optional import constants_of
 from ptmcalc.spec.problems import problems_of
-from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of
+from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of, unknown_key
 from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
 from ptmcalc.text.source import beginning_of
 
@@ -242,7 +242,7 @@ def _open_key_problems(kind: AnyKind, data: Mapping[str, Any], document: Documen
                 reason, hint = f"no check has the code {quote(key)}", f"codes of a {kind.label}: {', '.join(codes)}"
             else:
                 reason = f"unknown key {quote(dotted(path))}"
-                hint = did_you_mean(key, limits, "keys here: the codes of checks, ")
+                hint = unknown_key(key, limits, kind.spec, "keys here: the codes of checks, ")
             yield Diagnostic("SPC104", reason, document.key_span(path), path, hint)
 
 

@@ -16,6 +16,8 @@ from pydantic import BaseModel, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from ptmcalc.spec.shape import usual
+
 
 class Described(BaseModel):
     """A model whose JSON Schema says of every key what stands below its field."""
@@ -28,7 +30,18 @@ class Described(BaseModel):
             text, about = _text_of(cls, name), properties.get(field.alias or name)
             if text and about is not None and field.description is None:
                 about["description"] = text
+            if about is not None and (listed := usual(cls, field.alias or name)):
+                _show_usual(about, listed)
         return found
+
+
+def _show_usual(about: JsonSchemaValue, value: str) -> None:
+    """Show a usual value of the key in place of the example of its quantity."""
+    for form in (about, *about.get("anyOf", ())):
+        if "number" in form.get("type", ()) and not value.endswith("%"):
+            form["examples"] = [float(value), f"{100 * float(value):g} %"]
+        elif "x-quantity" in form:
+            form["examples"] = [value, *form["examples"][1:]]
 
 
 def _text_of(model: type[BaseModel], name: str) -> str | None:

@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 from ptmcalc.base.span import KeyPath
 from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import Measure, problem
-from ptmcalc.spec.shape import Model, example_of, inner, keys_of, meant, measure_of, model_of, words_of
+from ptmcalc.spec.shape import Model, example_at, inner, keys_of, meant, measure_of, model_of, words_of
 
 _NAME = re.compile(r"[\w-]+")
 _MOST_SLIPS = 100
@@ -83,7 +83,7 @@ class Given:
 
     def missing(self, key: str, reason: str) -> Conflict:
         """The conflict of a block that lacks a key."""
-        return Conflict((), reason, f"add `{key}: {example_of(keys_of(self.model)[key])}`")
+        return Conflict((), reason, f"add `{key}: {example_at(self.model, key)}`")
 
 
 @dataclass(frozen=True, slots=True)

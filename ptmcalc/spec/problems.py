@@ -9,19 +9,22 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from ptmcalc.base.diagnostic import Diagnostic
 from ptmcalc.base.span import KeyPath, dotted
+from ptmcalc.base.units import is_of
 from ptmcalc.base.words import quote
 from ptmcalc.spec.fields import describe, out_of_range, problem
 from ptmcalc.spec.shape import (
     Model,
     annotation_at,
     did_you_mean,
+    example_at,
     example_like,
-    example_of,
     inner,
     keys_at,
     meant,
+    measure_of,
     model_of,
     models_of,
+    unknown_key,
     value_at,
 )
 from ptmcalc.text.document import Document, Unread
@@ -91,7 +94,8 @@ def _problem(fault: ErrorDetails, path: KeyPath, model: Model, document: Documen
         path = (*path, _discriminator(fault))
         yield from _choice(path, value_at(document.data, path), context["expected_tags"], document)
     elif kind == "ptmcalc":
-        yield _said(problem(**context), path, document)
+        hint = _with_own_example(context["hint"], path, model, document)
+        yield _said(problem(**context | {"hint": hint}), path, document)
     elif kind in _LIMITS:
         yield _said(out_of_range(given, _LIMITS[kind].format(**context)), path, document)
     elif kind in _LENGTHS:
@@ -100,6 +104,29 @@ def _problem(fault: ErrorDetails, path: KeyPath, model: Model, document: Documen
         yield _said(problem("SPC110", f"it must have {limit}, not {len(given)}", f"write {limit}"), path, document)
     else:
         yield _wrong_form(path, given, _FORMS.get(kind, "another form"), model, document)
+
+
+def _model_above(path: KeyPath, model: Model, document: Document) -> Model | None:
+    """The model that has the key at the end of a path."""
+    return model_of(annotation_at(model, path[:-1], document.data), value_at(document.data, path[:-1]))
+
+
+def _example(path: KeyPath, model: Model, document: Document) -> str:
+    """A value that can be copied behind the key at the end of a path."""
+    return example_at(_model_above(path, model, document), str(path[-1]))
+
+
+def _with_own_example(hint: str, path: KeyPath, model: Model, document: Document) -> str:
+    """A hint of a quantity, with a value of that very key where it shows one that is usual elsewhere."""
+    field = keys_at(model, path[:-1], document.data).get(str(path[-1])) if path else None
+    measure = measure_of(field) if field else None
+    if measure is None:
+        return hint
+    for quantity in (measure.quantity, measure.or_else):
+        own = _example(path, model, document)
+        if quantity is not None and is_of(own, quantity):
+            hint = hint.replace(f"e.g. `{quantity.example}`", f"e.g. `{own}`")
+    return hint
 
 
 def _discriminator(fault: ErrorDetails) -> str:
@@ -122,13 +149,13 @@ def _missing(path: KeyPath, model: Model, document: Document) -> Diagnostic:
         if slip not in known and meant(slip, tuple(known)) == key:
             return _unknown((*parent, slip), model, document)
     where = f" under {quote(dotted(parent))}" if parent else ""
-    hint = f"add `{key}: {example_of(known.get(key))}`"
+    hint = f"add `{key}: {_example(path, model, document)}`"
     return Diagnostic("SPC103", f"`{key}` is missing{where}", document.key_span(parent), path, hint)
 
 
 def _unknown(path: KeyPath, model: Model, document: Document) -> Diagnostic:
     known = keys_at(model, path[:-1], document.data)
-    hint = did_you_mean(str(path[-1]), known, "keys here: ") if known else "delete it"
+    hint = unknown_key(str(path[-1]), known, model, "keys here: ") if known else "delete it"
     return Diagnostic("SPC104", f"unknown key {quote(dotted(path))}", document.key_span(path), path, hint)
 
 
@@ -144,7 +171,9 @@ def _choice(path: KeyPath, given: object, expected: str, document: Document) -> 
 def _wrong_form(path: KeyPath, given: object, form: str, model: Model, document: Document) -> Diagnostic:
     reason = f"{quote(dotted(path)) if path else 'the file'} takes {form}, found {describe(given)}"
     field = keys_at(model, path[:-1], document.data).get(str(path[-1])) if path else None
-    example = example_of(field) if field else example_like(annotation_at(model, path, document.data), given)
+    example = (
+        _example(path, model, document) if field else example_like(annotation_at(model, path, document.data), given)
+    )
     if form == _FORMS["int_type"]:
         if isinstance(given, str) and given.strip().isdecimal():
             example = given.strip()

@@ -2,7 +2,7 @@
 
 import difflib
 import inspect
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, lru_cache
 from types import MappingProxyType, UnionType
 from typing import Any, Union, get_args, get_origin
@@ -10,11 +10,14 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from ptmcalc.base.span import KeyPath
+from ptmcalc.base.span import KeyPath, dotted
+from ptmcalc.base.words import quote
 from ptmcalc.spec.fields import Measure
-from ptmcalc.spec.synonyms import by_meaning
+from ptmcalc.spec.synonyms import as_a_word, by_meaning, meanings
 
 Model = type[BaseModel]
+_MOST_PLACES = 3
+"""Blocks that a hint names for a key that is in several."""
 
 
 @cache
@@ -125,8 +128,45 @@ def words_of(annotation: Any) -> list[str]:
     return [value for option in _options(annotation) for value in get_args(option) if isinstance(value, str)]
 
 
+@cache
+def usual(model: Model, key: str) -> str:
+    """A usual value of a key, as a design file writes it, or an empty text.
+
+    Each package lists those of its models in `usual.txt`, which is read for hints and schemas only.
+    """
+    listed = (_usual_values(one.__module__).get(f"{one.__name__}.{key}", "") for one in model.__mro__)
+    return next((value for value in listed if value), "")
+
+
+def _usual_values(module: str) -> Mapping[str, str]:
+    return _usual_values_of(module.rpartition(".")[0])
+
+
+@cache
+def _usual_values_of(package: str) -> Mapping[str, str]:
+    if not package:
+        return {}
+    from importlib import resources
+
+    try:
+        place = resources.files(package).joinpath("usual.txt")
+        lines = place.read_text("utf-8").splitlines() if place.is_file() else []
+    except (ImportError, TypeError, OSError):  # a model that is in no package
+        return {}
+    pairs = (line.partition(": ") for line in lines if not line.startswith("#"))
+    return MappingProxyType({name: value for name, _, value in pairs})
+
+
+def example_at(model: Model | None, key: str) -> str:
+    """A value that can be copied behind a key of a model: a usual one of that very key where one is listed."""
+    field = keys_of(model).get(key) if model else None
+    if model and field and not field.examples and (listed := usual(model, key)):
+        return listed
+    return example_of(field)
+
+
 def example_of(field: FieldInfo | None) -> str:
-    """A value that can be copied behind a key."""
+    """A value of the form a key takes, whatever model it is of."""
     if field and field.examples:
         return str(field.examples[0])
     measure = measure_of(field) if field else None
@@ -145,7 +185,7 @@ def example_like(annotation: Any, word: object = None) -> str:
     model = next((model for model in models if word in _types(model)), models[0])
     told_apart = [f"type: {_types(model)[0]}"] if len(models) > 1 else []
     keys = {key: field for key, field in keys_of(model).items() if key != "type" or not told_apart}
-    entries = [(f"{key}: {example_of(field)}", field.is_required()) for key, field in keys.items()]
+    entries = [(f"{key}: {example_at(model, key)}", field.is_required()) for key, field in keys.items()]
     shown = told_apart + [entry for entry, needed in entries if needed] or [entry for entry, _ in entries[:1]]
     return "{" + ", ".join(shown) + "}"
 
@@ -157,9 +197,64 @@ def meant(word: str, known: tuple[str, ...]) -> str:
     return next((folded[name] for name in difflib.get_close_matches(word.lower(), folded, 1, 0.55)), "")
 
 
+@cache
+def _places(model: Model) -> Mapping[str, Mapping[KeyPath, str]]:
+    """Of each key and each word of a description, the blocks it is in, next to the top first, and how it is written."""
+    found: dict[str, dict[KeyPath, str]] = {}
+    seen = {model}
+    level: list[tuple[KeyPath, Model]] = [((), model)]
+    while level:
+        below: list[tuple[KeyPath, Model]] = []
+        for path, block in level:
+            for key, field in keys_of(block).items():
+                found.setdefault(key, {})[path] = key
+                for word in words_of(field.annotation):
+                    found.setdefault(as_a_word(word), {})[path] = f"{key}: {word}"
+                for inside in _inside(field.annotation):
+                    if inside not in seen:
+                        seen.add(inside)
+                        below.append(((*path, key), inside))
+        level = below
+    return MappingProxyType(found)
+
+
+def _inside(annotation: Any) -> Iterator[Model]:
+    """The models that stand behind a key, in lists and mappings too."""
+    yield from models_of(annotation)
+    for option in _options(annotation):
+        if get_origin(option) in (tuple, list, dict):
+            for part in get_args(option):
+                if part is not Ellipsis:
+                    yield from _inside(part)
+
+
+def elsewhere(word: str, model: Model) -> str:
+    """A hint for a word of the field, or a key, that stands in another block of the description; empty for others."""
+    places, means = _places(model), meanings(word)
+    for meaning in (*means, word):
+        *block, key = meaning.split(".")
+        blocks = {path: text for path, text in places.get(key, {}).items() if not block or path[-1:] == (block[0],)}
+        if blocks:
+            text, *_ = blocks.values()
+            where = [f"under `{dotted(path)}`" if path else "at the top of the file" for path in blocks]
+            more = " ..." if len(where) > _MOST_PLACES else ""
+            return f"did you mean `{text}` {', or '.join(where[:_MOST_PLACES])}{more}?"
+    return f"this kind of machine has no key for {quote(word)} in this version" if means else ""
+
+
 def did_you_mean(word: str, known: Iterable[str], otherwise: str = "") -> str:
     """A hint for a word that is not known: the one that is meant, else `otherwise` with the list of them."""
     choice = tuple(known)
     if close := by_meaning(word, choice) or meant(word, choice):
         return f"did you mean `{close}`?"
     return f"{otherwise}{', '.join(choice)}"
+
+
+def unknown_key(word: str, known: Iterable[str], model: Model, otherwise: str) -> str:
+    """A hint for a key that its block does not have: by meaning here, then in another block, then by spelling."""
+    choice = tuple(known)
+    if meanings(word) and not by_meaning(word, choice):
+        return elsewhere(word, model)
+    if by_meaning(word, choice) or meant(word, choice):
+        return did_you_mean(word, choice, otherwise)
+    return elsewhere(word, model) or did_you_mean(word, choice, otherwise)

@@ -1,5 +1,6 @@
 """Words of the field for keys and words of design files, for "did you mean": by meaning first, by spelling second."""
 
+import re
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
@@ -10,7 +11,10 @@ _BY_KEY: Mapping[str, str] = {
     "step": "dol, direct-on-line, direct",
     "stroke": "travel, take-up travel, takeup_travel, take_up_travel",
     "profile": "start_profile, vfd, vsd, inverter, frequency converter, converter, acceleration_curve",
-    "curve": "fluid coupling, fluid_coupling, torque_curve, torque-speed curve, soft starter, motor_curve",
+    "converter": "vfd, vsd, inverter, frequency converter",
+    "curve": "fluid coupling, hydraulic coupling, turbo coupling, torque_curve, torque-speed curve, soft starter,"
+    " motor_curve",
+    "takeup.mass": "counterweight, counterweight_mass, gravity weight",
     "mass": "counterweight, weight, counterweight_mass",
     "takeup": "take-up, take_up, tensioner, gtu",
     "tension": "pretension, t2, initial_tension",
@@ -45,13 +49,20 @@ _BY_KEY: Mapping[str, str] = {
     "emergency_stop": "e-stop, estop, trip",
     "coast": "run-out, power_failure, power failure",
 }
-"""By the key or word of a design file, what others call it."""
+"""By the key or word of a design file, what others call it. A dot stands between a block and its key."""
+_WORDS = frozenset({"converter", "cosine", "emergency_stop", "ramp", "step"})
+"""Those that are written behind a key and are no keys: a key of that name elsewhere is another matter."""
+
+
+def _folded(word: str) -> str:
+    """A word without regard to case, and to how its parts are joined."""
+    return re.sub(r"[\s_-]+", " ", word.strip().lower())
 
 
 def _called() -> Mapping[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for key, names in _BY_KEY.items():
-        for name in names.split(", "):
+        for name in dict.fromkeys(map(_folded, names.split(", "))):
             found[name] = (*found.get(name, ()), key)
     return MappingProxyType(found)
 
@@ -59,7 +70,17 @@ def _called() -> Mapping[str, tuple[str, ...]]:
 _CALLED = _called()
 
 
+def as_a_word(word: str) -> str:
+    """How a word that is written behind a key is told from a key."""
+    return f"{word}:" if word in _WORDS else word
+
+
+def meanings(word: str) -> tuple[str, ...]:
+    """The keys and words of design files that a word of the field stands for, the likeliest first."""
+    return tuple(map(as_a_word, _CALLED.get(_folded(word), ())))
+
+
 def by_meaning(word: str, known: Iterable[str]) -> str:
     """The known word that another word of the field means, or an empty text."""
     names = tuple(known)
-    return next((key for key in _CALLED.get(word.strip().lower(), ()) if key in names), "")
+    return next((key for key in _CALLED.get(_folded(word), ()) if key in names), "")

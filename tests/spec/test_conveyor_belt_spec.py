@@ -131,7 +131,7 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         "scraper:",
         "delete `scraper`",
     ),
-    "a force of nothing": ((("force: 1 kN", ""),), "resistance.forces.tripper", "tripper:", "add `force: 12 kN`"),
+    "a force of nothing": ((("force: 1 kN", ""),), "resistance.forces.tripper", "tripper:", "add `force: 1.5 kN`"),
     "skirts on the return strand": (
         (("at: return", "at: carry"), ("skirt:", "skirt:\n  at: return")),
         "resistance.forces.skirt.at",
@@ -165,7 +165,7 @@ FAULTS: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str]] = {
         (("coefficient: 0.022", "cema: {flexure: 0.03}"), CEMA[1]),
         "resistance.cema",
         "cema:",
-        "add `idler_drag: 12 kN`",
+        "add `idler_drag: 7 N`",
     ),
     "cema with a drag and rolls": (
         (("coefficient: 0.022", "cema: {idler_drag: 8 N, roll: 6in, flexure: 0.03}"), CEMA[1]),

@@ -605,7 +605,7 @@ def test_a_decimal_comma_in_a_flow_mapping_is_one_fault(line: str, value: str) -
     [
         ("scenes", ["start"], "write `{type: start}`"),
         ("scenes", [5], "write `{type: run}`"),
-        ("resistance", 0.02, "write `resistance: {coefficient: 0.94}`"),
+        ("resistance", 0.02, "write `resistance: {coefficient: 0.022}`"),
         ("checks", {"slip": 1.2}, "write `slip: {reserve: 1.2}`"),
         ("checks", {"CNV101": "off"}, "write `CNV101: {off: ...}`"),
         ("drive__motor__count", 0, "write a value at least 1"),
