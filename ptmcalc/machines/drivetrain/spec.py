@@ -29,7 +29,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
-from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf, Setting
+from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
 
 
@@ -148,7 +148,7 @@ class Link(Fragment):
     """where in its play the link stands at the start: `driving` touches on the side of a positive torque"""
     preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
     """torque in the link at the start; with `slack` and `driving` the rope is taut"""
-    limit: Annotated[PositiveTorque | None, Checked()] = None
+    limit: Annotated[PositiveTorque | None, Limit()] = None
     """largest torque the link may carry"""
 
     @classmethod

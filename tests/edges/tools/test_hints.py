@@ -1,43 +1,16 @@
 """Hints: an example is of that very key, and words of the field lead to the key that is meant."""
 
-from collections.abc import Iterator
 from importlib import resources
-from typing import Any, get_args, get_origin
 
 import pytest
-from pydantic import BaseModel
+from support.keys import TYPES, blocks, fields_of
 
 from ptmcalc.base.units import UnitError, is_of, read
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.load import load_text
-from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.spec.shape import Model, example_at, is_whole, keys_of, measure_of, models_of, usual
+from ptmcalc.spec.shape import example_at, is_whole, keys_of, measure_of, usual
 
-TYPES = {one.label: one for name in kind_names() for one in load_kind(name).manifests}
 of_every_type = pytest.mark.parametrize("kind", TYPES.values(), ids=TYPES)
-
-
-def blocks(model: Model, seen: set[Model]) -> Iterator[Model]:
-    """A model and all that stand behind its keys."""
-    if model not in seen:
-        seen.add(model)
-        yield model
-        for field in keys_of(model).values():
-            for inside in behind(field.annotation):
-                yield from blocks(inside, seen)
-
-
-def behind(annotation: Any) -> Iterator[Model]:
-    yield from models_of(annotation)
-    for part in get_args(annotation):
-        if isinstance(part, type) and issubclass(part, BaseModel):
-            yield part
-        elif get_origin(part) is not None:
-            yield from behind(part)
-
-
-def fields_of(kind: AnyKind) -> Iterator[tuple[Model, str]]:
-    return ((model, key) for model in blocks(kind.spec, set()) for key in keys_of(model))
 
 
 @of_every_type
