@@ -42,14 +42,16 @@ class Repairs:
         number, or of the check's own key.
 
         A key that only states a limit, a rating or a waiting time is never offered: it changes what is required, not
-        the machine.
+        the machine. A failure that a run found of a check without a limit names its own cure: there is no margin that
+        a search could follow.
         """
         spec = self.loaded.spec
         assert spec is not None
         check = ruling.check
         found = ruling.found and isinstance(spec.value_at(ruling.blame), int | float)
         path = ruling.blame if check.repairs_blame or found else check.repair(spec, scene)
-        if not path or not self.purse.most or states_a_limit(spec, path):
+        followed = ruling.limit is not None or not ruling.found
+        if not path or not followed or not self.purse.most or states_a_limit(spec, path):
             return None, ""
         key = (check.code, check.element, path)
         if key not in self._known:

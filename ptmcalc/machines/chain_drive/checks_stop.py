@@ -90,7 +90,7 @@ WAY: Check[ChainDrive, Stopping] = Check(
 def _time_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
     """Longest time of any stop of the file; an hour without one: then it never stops.
 
-    **Range** any stop; a run-out only where the file gives the limit.
+    **Range** any stop; a run-out where the file gives the limit, or where the chain runs away.
     **Error** none: a chosen limit.
     **Source** the plant's rules.
     """
@@ -98,8 +98,9 @@ def _time_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
 
 
 def _where_timed(spec: ChainDrive, scene: Stopping) -> Checks:
-    """Every stop; a run-out only with a limit."""
+    """Every stop; a run-out with a limit, or one that runs away."""
     held = not isinstance(scene, Coast) or spec.checks.stop_time is not None
+    held = held or math.isinf(stop_case(spec, scene).rest()[0])
     return (replace(TIME, each=None),) if held else ()
 
 

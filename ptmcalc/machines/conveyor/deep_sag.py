@@ -6,12 +6,12 @@ that, a smallest one at most that.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Finding, Found, family
+from ptmcalc.contract.result import Failure, Finding, Found, family
 from ptmcalc.laws import sag
 from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
@@ -93,6 +93,19 @@ def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
     low = min(_sagging(case, drawn), key=lambda one: one.value)
     does = "goes slack" if low.value < 0 else "sags by more than a tenth of the idler pitch"
     return taut(f"{does}, most of all at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off", window)
+
+
+def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
+    """A belt that goes slack beyond doubt: on every grid spans sag by twice the tenth that is trusted, or more."""
+    doubtless = [limit / 2 for limit in limits(case)]
+    lows = [(one.back_min, one.carry_min) for one in grids]
+    for strand, (limit, kept) in enumerate(zip(doubtless, bounds.slack_limits(case.line), strict=True)):
+        if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
+            low = lows[-1][strand]
+            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive's run-off"
+            cure = "a higher `tension` keeps the belt taut"
+            yield Failure("CNV105", f"the belt goes slack: {does}", ("takeup", "tension"), cure)
+            return
 
 
 def taut(does: str, window: float) -> Finding:

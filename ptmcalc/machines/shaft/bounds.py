@@ -26,6 +26,10 @@ from ptmcalc.machines.shaft.model import Machine
 FloatArray = NDArray[np.float64]
 
 _ROUNDING = 1e-12
+_PLACES = 1441
+"""Angles at which weights and springs are looked at."""
+_BETWEEN = 1.01
+"""For a torque that is larger between two of them; terms of order 60 come to less."""
 
 
 # -- steady cycle ---------------------------------------------------------------------------------------------------
@@ -382,6 +386,14 @@ def coasts_forward(stop: Stop) -> bool:
     survey = machine.survey
     square = 2 * stop.energy / survey.inertia_low
     return survey.static_low + min(survey.slope_low, 0.0) * square / 2 > 0
+
+
+def holds(machine: Machine) -> bool:
+    """Whether losses and brake outweigh weights and springs at any angle, so that a shaft at rest stays there."""
+    place = np.linspace(0.0, machine.period, _PLACES)
+    turns = np.abs(machine.potential_torque(place % machine.period))
+    held = machine.friction + float(machine.brake_torque(np.array([math.inf]))[0])
+    return float(turns.max()) * _BETWEEN <= held
 
 
 def run_out_ranges(stop: Stop, *, changing: bool, wanted: Mapping[str, float]) -> dict[str, Interval]:

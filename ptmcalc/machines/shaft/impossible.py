@@ -70,6 +70,30 @@ def races(spec: Shaft, scene: Steady) -> Result:
     return Result({}, work=1, failures=_failures(spec, message, hint))
 
 
+def never_up(spec: Shaft, machine: Machine, target: float) -> tuple[Failure, ...]:
+    """A run-up that never comes to its speed: the motor stalls, does not pass a dead centre, or stays below."""
+    most, passed = machine.survey.static_high, machine.drive.ratio * machine.drive.efficiency
+    have, speed = passed * _largest_torque(machine), units.show(target, units.ANGULAR_SPEED)
+    message = (
+        f"the shaft never comes to {speed}: load, losses and weights take up to {_torque(most)} on it, the motor gives"
+        f" {_torque(have)} at most"
+    )
+    hint = (
+        f"a motor of more than {_torque(most / passed)} would do" if most > have else "more motor torque at each speed"
+    )
+    return (Failure("SHF103", message, motor_key(spec), hint),)
+
+
+def not_held(spec: Shaft, turns: float, held: float) -> list[Failure]:
+    """A shaft that weights and springs turn again where its brake has stopped it, by the checks of its stop."""
+    message = (
+        f"the brake does not hold the shaft: weights and springs turn it with {_torque(turns)}, {_torque(held)} hold"
+    )
+    assert spec.brake is not None
+    hint = f"a brake of more than {_torque(spec.brake.torque + turns - held)}"
+    return [Failure(code, message, ("brake", "torque"), hint) for code in ("SHF105", "SHF106")]
+
+
 def stalled(machine: Machine) -> dict[str, Found]:
     """Loads of a machine that its motor cannot drive: nothing is useful, and the work asked for, all of it lost, is
     related to the most that the motor could do."""

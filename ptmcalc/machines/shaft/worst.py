@@ -72,6 +72,11 @@ class Search:
         self.work += made.work
         return made
 
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """The run-outs made so far."""
+        return tuple(self._runs)
+
     def closed(self, which: int, brake: float | None = None) -> FloatArray:
         """The closed form from all angles; the energy itself where it has no end."""
         if brake not in self._closed:

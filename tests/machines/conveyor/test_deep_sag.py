@@ -73,7 +73,10 @@ def test_a_jam_that_leaves_the_belt_slack_at_once_says_that_no_peak_is_certain()
     assert "goes slack" in said.message
     assert said.path == ("takeup", "tension")
     assert said.span is not None
-    assert check_of(scene_of(report), "CNV105").verdict is Verdict.UNDECIDED
+    slack = check_of(scene_of(report), "CNV105")
+    assert slack.verdict is Verdict.FAIL, "it is slack beyond doubt, whatever its peaks are"
+    assert "higher `tension`" in slack.reason
+    assert load_of(scene_of(report), "tension_max").estimate.high == math.inf
 
 
 def test_with_the_tension_that_is_asked_for_the_belt_is_simulated_to_the_end() -> None:

@@ -70,14 +70,15 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         return _before(case, carried, level, lost)
     drawn, ready = runs[-1].drawn, runs[-1].ready
     slipping = _slips_on(case, drawn)
-    findings = list(_findings(case, drawn))
+    findings, slack = list(_findings(case, drawn)), list[Failure]()
     if "sag" in carried and deep_sag.too_deep(case, drawn):
+        slack = list(deep_sag.slack(case, [one.drawn for one in runs]))
         window = deep_sag.trusted_window(case, drawn)
         early, more = _computed(replace(case, window=window), carried, level, whole=False) if window else ({}, [])
         runs = more + runs
         loads = deep_sag.certain(case, loads, early, window)
         findings = [deep_sag.finding(case, drawn, window)]
-    failures, end = tuple(_failures(case, drawn, ready)), _ending(case, runs, slipping)
+    failures, end = (*_failures(case, drawn, ready), *slack), _ending(case, runs, slipping)
     if _unfinished(case, drawn):
         loads = _so_far(case, loads, runs)
     return Result(

@@ -8,7 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
+from ptmcalc.machines.shaft import bounds, impossible
 from ptmcalc.machines.shaft.cases import machine_in, target_speed
 from ptmcalc.machines.shaft.loads import OF_RUN_UP
 from ptmcalc.machines.shaft.model import Machine
@@ -35,7 +35,9 @@ def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Resul
     loads = {}
     for value, (name, held) in zip(values, ranges.items(), strict=True):
         loads[name] = Estimate.exact(math.inf) if stuck else _between(value, held.low, held.high)
-    return Result({name: Found(estimate) for name, estimate in loads.items()} | starting, work=1)
+    never = loads["run_up_time"].low == math.inf
+    failures = impossible.never_up(spec, machine, target) if never else ()
+    return Result({name: Found(estimate) for name, estimate in loads.items()} | starting, work=1, failures=failures)
 
 
 def _between(value: float, low: float, high: float) -> Estimate:

@@ -8,11 +8,11 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.shaft import bounds
-from ptmcalc.machines.shaft.cases import departure, stop_case
+from ptmcalc.machines.shaft.cases import departure, is_braked, stop_case
 from ptmcalc.machines.shaft.loads import OF_RUN_OUT
 from ptmcalc.machines.shaft.spec import RunOut, Shaft
 
-_MEANING = "0 where power goes through the gear from the rotor throughout, else 1"
+_MEANING = "0 where power goes through the gear from the rotor throughout and the brake holds at any angle, else 1"
 
 
 def run(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
@@ -52,7 +52,8 @@ def _between(value: float, held: Interval) -> Estimate:
 
 
 def valid(spec: Shaft, scene: RunOut) -> Criterion:
-    """Whether the run-out begins in a steady cycle and power goes through the gear from the rotor throughout.
+    """Whether the run-out begins in a steady cycle, power goes through the gear from the rotor throughout, and losses
+    and brake hold the shaft wherever it stops.
 
     **Range** any machine.
     **Error** none: a yes or no.
@@ -62,7 +63,7 @@ def valid(spec: Shaft, scene: RunOut) -> Criterion:
         stop, _ = stop_case(spec, scene)
     except NumericsError:  # the motion itself says so
         return Criterion("g", 1.0, 0.5, _MEANING, "laws.shaft.gear_factor")
-    value = 0.0 if bounds.coasts_forward(stop) else 1.0
+    value = 0.0 if bounds.coasts_forward(stop) and (not is_braked(spec, scene) or bounds.holds(stop.machine)) else 1.0
     return Criterion("g", value, 0.5, _MEANING, "laws.shaft.gear_factor")
 
 

@@ -1,6 +1,7 @@
 """The exact tachogram of run-up and run-out, from event to event."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -9,9 +10,9 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Finding, Found, History, Result
+from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver, always_valid
-from ptmcalc.machines.shaft import ledger, motion, worst
+from ptmcalc.machines.shaft import impossible, ledger, motion, worst
 from ptmcalc.machines.shaft.cases import (
     Departure,
     cycle_of,
@@ -30,6 +31,8 @@ from ptmcalc.machines.shaft.solvers import speed_quadrature
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
 
 _SEPARATE = 150
+_SLACK = 1e-3
+"""Share of what holds a shaft by which weights have to exceed it: runs from some angles end at one known as closely."""
 
 # -- run-up ---------------------------------------------------------------------------------------------------------
 
@@ -55,7 +58,7 @@ def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Re
     }
     if _settles_below(spec, scene, machine, target, mean_inertia="varying_inertia" not in carried):
         never = {name: Found(Estimate.exact(math.inf)) for name in ("run_up_time", "run_up_angle")}
-        return Result(loads | never, work=1)
+        return Result(loads | never, work=1, failures=impossible.never_up(spec, machine, target))
     fine, rough = (motion.run_up(machine, scene.start, target, setting) for setting in motion.ORDERS)
     for name in ("run_up_time", "run_up_angle"):
         value, other = (getattr(one, name.removeprefix("run_up_")) for one in (fine, rough))
@@ -63,7 +66,10 @@ def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Re
     steps = sum(len(part.steps) for part in fine.parts)
     books = ledger.of_run(fine) if fine.parts else None
     window = fine.time if fine.finished else None
-    return result_of(loads, books, fine.work + rough.work, steps, window, lambda: _histories(fine, "run_up"))
+    result = result_of(loads, books, fine.work + rough.work, steps, window, lambda: _histories(fine, "run_up"))
+    if fine.finished or rough.finished:
+        return result
+    return replace(result, failures=impossible.never_up(spec, machine, target))
 
 
 def _settles_below(spec: Shaft, scene: RunUp, machine: Machine, target: float, *, mean_inertia: bool) -> bool:
@@ -128,7 +134,8 @@ def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> 
     steps = sum(len(part.steps) for part in governing.parts)
     window = governing.time if governing.finished else None
     result = result_of(loads, books, work, steps, window, lambda: _histories(governing, "run_out"))
-    return replace(result, findings=(*result.findings, *_rolls_back(governing)))
+    remarks, failures = _turned_again(spec, scene, [governing, *(search.runs if search else ())])
+    return replace(result, findings=(*result.findings, *remarks), failures=tuple(failures))
 
 
 def _histories(run: motion.Run, stage: str) -> dict[str, History]:
@@ -157,17 +164,25 @@ def _energies(start: Departure, run: motion.Run, unsure: float) -> dict[str, Fou
     return loads
 
 
-def _rolls_back(run: motion.Run) -> tuple[Finding, ...]:
-    """A remark where weights and springs would turn the shaft back from where it has come to rest."""
+def _rolls_back(run: motion.Run) -> tuple[float, float]:
+    """Torque of weights and springs where a shaft has come to rest, and what losses and brake hold there [N*m]."""
     machine = run.machine
     if not run.finished or not run.parts:
-        return ()
-    place = np.array([run.end.angle])
+        return 0.0, 0.0
     held = machine.friction + float(machine.brake_torque(np.array([math.inf]))[0])
-    if abs(float(machine.potential_torque(place)[0])) <= held:
-        return ()
-    message = "losses and brake do not hold the shaft where it stops: weights and springs turn it again"
-    return (Finding("NUM104", message, ("brake", "torque") if machine.brake else ("losses", "torque")),)
+    return abs(float(machine.potential_torque(np.array([run.end.angle]))[0])), held
+
+
+def _turned_again(spec: Shaft, scene: RunOut, runs: Iterable[motion.Run]) -> tuple[list[Finding], list[Failure]]:
+    """A shaft that weights and springs turn again from where it has come to rest: the brake fails, and losses alone are
+    a remark."""
+    turns, held = max((_rolls_back(run) for run in runs), key=lambda pair: pair[0] - pair[1])
+    if turns <= held * (1 + _SLACK):
+        return [], []
+    if not is_braked(spec, scene):
+        message = "losses do not hold the shaft where it stops: weights and springs turn it again"
+        return [Finding("NUM104", message, ("losses", "torque"))], []
+    return [], impossible.not_held(spec, turns, held)
 
 
 def run_up_cost(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> float:
