@@ -88,7 +88,8 @@ class _Journey:
 def linear_course(motion: Motion) -> Course:
     """A start or a stop.
 
-        L u'' + g u = -L a,   or L u'' + g (1 + M/m) u = -L F/m with m x'' = F + M g u/L
+        L u'' + g u = -L a,   or L u'' + g (1 + M/m) u = -L F/m with m x'' = F + M g u/L;   without `drive_reaction`
+        (m + M) x'' = F
 
     **Range** small angles; resistances that do not change; a crane that does not turn round before it has its speed.
     **Error** told by `numerics.pendulum.linear`; what finite angles change is not in it.
@@ -166,10 +167,16 @@ def _start(journey: _Journey) -> None:
     if motion.ramp is not None:
         journey.go("start", Pieces.constant(motion.ramp), 0.0, motion.speed / motion.ramp, 0.0, 0.0)
         return
-    mass = motion.body + motion.rotor
+    mass = motion.body + motion.rotor + motion.carried
     push = (motion.force - motion.rolling - motion.outside) / mass
     swing = journey.go_until(
-        "start", Pieces.constant(push), motion.load / mass, motion.speed, motion.force, motion.rotor, motion.rigid_time
+        "start",
+        Pieces.constant(push),
+        _pulling(motion) / mass,
+        motion.speed,
+        motion.force,
+        motion.rotor,
+        motion.rigid_time,
     )
     _turned_round(swing)
 
@@ -182,21 +189,26 @@ def _stop(journey: _Journey) -> None:
         return
     drag = motion.rolling + motion.outside
     if motion.delay:
-        mass = motion.body + motion.rotor
-        journey.go("delay", Pieces.constant(-drag / mass), motion.load / mass, motion.delay, 0.0, motion.rotor)
+        mass = motion.body + motion.rotor + motion.carried
+        journey.go("delay", Pieces.constant(-drag / mass), _pulling(motion) / mass, motion.delay, 0.0, motion.rotor)
         if min(float(journey.stretches[-1].swing.smallest(linear.SPEED).value), journey.speed) <= 0:
             raise NumericsError("NUM102", "it coasts to rest before its brakes act")
-    mass = motion.body + motion.rotor_braked
+    mass = motion.body + motion.rotor_braked + motion.carried
     push = Pieces.constant(-(motion.force + drag) / mass)
     force = motion.force
     if motion.rise:
         push = Pieces.through(((0.0, -drag / mass), (motion.rise, -(force + drag) / mass)))
     guess = motion.rise + motion.rigid_time
-    swing = journey.go_until("stop", push, motion.load / mass, 0.0, -force, motion.rotor_braked, guess)
+    swing = journey.go_until("stop", push, _pulling(motion) / mass, 0.0, -force, motion.rotor_braked, guess)
     if motion.rise > swing.end:  # it stands before its brakes are fully applied
         reached = -force * swing.end / motion.rise
         journey.stretches[-1] = replace(journey.stretches[-1], force=reached)
     journey.speed = 0.0
+
+
+def _pulling(motion: Motion) -> float:
+    """Mass of a load whose pull moves the crane as it swings [kg]."""
+    return motion.load if motion.reacts else 0.0
 
 
 def _crossing(swing: LinearSwing, speed: float, up: bool, period: float) -> float | None:
@@ -305,6 +317,9 @@ def phase(
     elif name != "standing":
 
         def free(pull: FloatArray) -> FloatArray:
+            if not motion.reacts:  # the load travels with the crane: its swing pulls at nothing
+                net = force - motion.rolling - motion.outside
+                return np.full(len(pull), net / (body + rotor + motion.load))
             return np.asarray((force - motion.rolling - against - pull) / (body + rotor))
 
         return Phase(

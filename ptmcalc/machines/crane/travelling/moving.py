@@ -59,6 +59,14 @@ class Motion:
     """mass at the rims of what turns before them, while the motors drive or a rotor runs on freely [kg]"""
     rotor_braked: float
     """the same while the brakes act [kg]"""
+    reacts: bool = True
+    """whether the pull of the swinging load moves a crane that a torque drives; else its mass does, as if it were
+    rigid"""
+
+    @property
+    def carried(self) -> float:
+        """Mass of a load that travels as if it were part of a crane driven by torque [kg]."""
+        return 0.0 if self.reacts else self.load
 
     @property
     def rigid_time(self) -> float:
@@ -118,6 +126,7 @@ def motion_of(spec: Travelling, scene: Moving) -> Motion:
         looks=scene.window_factor,
         rotor=model.rotor_mass(spec, braking=False),
         rotor_braked=model.rotor_mass(spec, braking=True),
+        reacts=spec.effects.get("drive_reaction") != "off",
     )
 
 

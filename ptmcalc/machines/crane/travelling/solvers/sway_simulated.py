@@ -1,9 +1,11 @@
 """A start or a stop simulated with the load at any angle."""
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, REACTION, SWAY
 from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.moving import motion_of
 from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.simulated import simulate, turns
@@ -38,6 +40,19 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
     )
 
 
+def valid(spec: Travelling, scene: Moving) -> Criterion | None:
+    """Out of range where the file leaves out the pull of the load on a crane that a torque drives.
+
+    **Range** every start and stop.
+    **Error** none: the file tells.
+    **Source** the equations of crane and load, which have that pull.
+    """
+    motion = motion_of(spec, scene)
+    if motion.reacts or motion.ramp is not None or not motion.load:
+        return None
+    return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, which the file leaves out", "the file")
+
+
 SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     name="sway_simulated",
     title="swing of any angle with motor curve and gear, simulated",
@@ -48,6 +63,7 @@ SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     run=run,
     cost=lambda spec, scene, carried, level: 0.01 + 2e-3 * min(turns(spec, scene), 1e6) * (1 + level),
     source="plane pendulum under a driven crane; Radau collocation, ptmcalc.numerics.pendulum.swing",
+    valid=valid,
     always=frozenset({SWAY, LARGE, CURVE}),
     levels=len(TOLERANCES),
 )
