@@ -456,7 +456,7 @@ def test_a_blank_inside_a_unit_is_not_guessed_away(text: str, quantity: Quantity
         ("MM", LENGTH, "mm"),
         ("fpm", SPEED, "m/s"),
         ("Mpa", STRESS, "MPa"),
-        ("kN*sec/m", IMPEDANCE, "s"),
+        ("kN*sec/m", IMPEDANCE, "kN*s/m"),
         ("mN", FORCE, "N"),
         ("mPa", STRESS, "Pa"),
         ("mW", POWER, "W"),

@@ -179,6 +179,17 @@ def test_a_travel_motor_is_judged_by_the_least_of_its_curve() -> None:
     assert found["start_loaded", "CRN150"] == "fail"
 
 
+def test_the_mean_of_a_curve_starts_no_empty_crane() -> None:
+    """With nothing on its rope no solver follows the curve: nothing is said of the time."""
+    points = [{"speed": f"{n} rpm", "torque": f"{m} N*m"} for n, m in ((0, 45), (900, 10), (1400, 45))]
+    curve = {"type": "table", "points": points}
+    data = changed(BRIDGE, drive__motor__curve=curve, drive__acceleration=None)
+    data = changed(data, drive__motor__mean_starting_torque=None, hook_block="0 kg", rail__adhesion=0.5)
+    (scene,) = report_of(data | {"scenes": [{"type": "start", "load": "empty"}]}).scenes
+    assert not load_of(scene, "start_time").estimate.bounded
+    assert {one.verdict.value for one in scene.checks if one.code == "CRN150"} == {"undecided"}
+
+
 def test_wheels_that_slide_fail_whatever_reserve_the_file_asks() -> None:
     data = changed(BRIDGE, drive__acceleration="0.9 m/s^2", checks={"skid_reserve": 0.1})
     report = report_of(data | {"scenes": [{"type": "start"}]})

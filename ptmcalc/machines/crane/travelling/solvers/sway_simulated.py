@@ -3,7 +3,15 @@
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, REACTION, SWAY
+from ptmcalc.machines.crane.travelling.effects import (
+    CURVE,
+    IN_PLANE,
+    LARGE,
+    MOVING_SCENES,
+    REACTION,
+    SWAY,
+    follows_curve,
+)
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.moving import motion_of
 from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
@@ -41,13 +49,16 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
 
 
 def valid(spec: Travelling, scene: Moving) -> Criterion | None:
-    """Out of range where the file leaves out the pull of the load on a crane that a torque drives.
+    """Out of range where the file leaves out the pull of the load on a crane that a torque drives; and of a crane with
+    nothing on its rope whose motor has a curve: what swings is simulated, and nothing does.
 
     **Range** every start and stop.
     **Error** none: the file tells.
     **Source** the equations of crane and load, which have that pull.
     """
     motion = motion_of(spec, scene)
+    if not motion.load and follows_curve(spec, scene):
+        return Criterion("m/m_t", 1.0, 1.0, "nothing hangs on the rope: give the mass of the hook block", "the file")
     if motion.reacts or motion.ramp is not None or not motion.load:
         return None
     return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, which the file leaves out", "the file")
