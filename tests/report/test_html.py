@@ -52,7 +52,19 @@ torques:
 scenes:
   - {type: run, duration: 0.5 s}
 """
-"""The shaft carries up to about 120 N*m: it fails, and a limit of its own would let it pass."""
+"""The shaft carries up to about 120 N*m: it fails, and no key of the design would let it pass."""
+BRAKED = """\
+kind: drivetrain
+name: a disc
+inertias:
+  disc: {inertia: 2 kg*m^2}
+brakes:
+  band: {at: disc, torque: 100 N*m, delay: 0.1 s, rise_time: 0.1 s}
+checks: {stop_time: 1 s}
+scenes:
+  - {type: stop, of: disc, speed: 600 rpm}
+"""
+"""It stops in 1.4 s: a stronger brake lets it pass."""
 
 HOSTILE = "<script>alert(1)</script>\" onload='x' & $\\frac{1}{2}$ ]]> \u202e \x1b[31m é 漢"
 
@@ -191,20 +203,20 @@ def test_every_number_of_a_load_has_its_unit_its_level_and_its_source(path: str)
     assert all(load.source in sources.values() for scene in report.scenes for load in scene.loads)
 
 
-def test_the_worst_check_stands_first_with_its_line_and_its_repair(short: tuple[FileReport, str]) -> None:
-    report, text = short
+def test_the_worst_check_stands_first_with_its_line_and_its_repair() -> None:
+    report, text = page_of_text(BRAKED)
     ((_, worst), *_) = words.worst_first(report)
     assert worst.verdict is Verdict.FAIL
     assert worst.repair is not None
     (box,) = (one for one in elements(text, "section") if one.attributes["id"] == "verdict")
     assert f"Worst: {worst.code}" in box.words
     assert "Yes" in [one.words for one in box.all("b")][-1]
-    assert f"links.shaft.limit = {words.number(worst.repair.value, worst.repair.quantity)}" in box.words
+    assert f"brakes.band.torque = {words.number(worst.repair.value, worst.repair.quantity)}" in box.words
     (marked,) = (one for one in box.all("li") if "marked" in one.attributes.get("class", ""))
-    assert marked.attributes["data-line"] == "7" == str(worst.blame.span.line)
-    assert marked.text.startswith("  shaft: {between: [motor, load]")
-    assert [one.attributes["href"] for one in box.all("a")] == ["#L7"]
-    (line,) = (one for one in elements(text, "li") if one.attributes.get("id") == "L7")
+    assert marked.attributes["data-line"] == "6" == str(worst.blame.span.line)
+    assert marked.text.startswith("  band: {at: disc, torque: 100 N*m")
+    assert [one.attributes["href"] for one in box.all("a")] == ["#L6"]
+    (line,) = (one for one in elements(text, "li") if one.attributes.get("id") == "L6")
     assert f"{worst.code} fail" in line.words
 
 

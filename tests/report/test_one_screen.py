@@ -22,7 +22,7 @@ TOO_WEAK = {
     "short_conveyor": ("tension: 13 kN", "tension: 9 kN", "takeup.tension"),
     "chain_drive": ("joint_pressure: 25 MPa", "joint_pressure: 9 MPa", "chain.pin_diameter"),
     "hoist": ("length: 640 mm", "length: 600 mm", "drum.flange_height"),
-    "drivetrain": ("limit: 90 kN", "limit: 70 kN", "links.rope.limit"),
+    "drivetrain": ("stop_time: 1.5 s", "stop_time: 0.55 s", "brakes.brake.torque"),
     "shaft": ("brake: {torque: 5.5 kN*m", "brake: {torque: 4 kN*m", "brake.torque"),
     "crane_slewing": ("sway: 15 deg", "sway: 10 deg", "speed"),
     "crane_travelling": ("stroke: 180 mm", "stroke: 120 mm", "buffers.stroke"),
