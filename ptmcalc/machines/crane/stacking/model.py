@@ -264,8 +264,10 @@ def surplus(spec: Stacker, scene: StackerScene) -> FloatArray:
 
 def uneven(spec: Stacker, scene: StackerScene) -> bool:
     """Whether a scene is a start along a motor's curve whose torque changes with speed or time."""
+    if not isinstance(scene, Start):
+        return False
     block = moving(spec, scene)
-    if not isinstance(scene, Start) or not isinstance(block, Travel) or block.drive is None:
+    if not isinstance(block, Travel) or block.drive is None:
         return False
     curve = block.drive.motor.curve
     if curve is None or block.drive.ramp(block.speed) is not None:

@@ -79,8 +79,10 @@ def time(spec: Stacker, scene: Braked) -> Estimate:
 
 def _stalls(spec: Stacker, scene: Braked) -> bool:
     """Whether the drive of a start does not overcome the resistance at every speed up to full speed."""
+    if not isinstance(scene, Start):
+        return False
     block = model.moving(spec, scene)
-    if not isinstance(scene, Start) or not isinstance(block, Travel) or block.drive is None:
+    if not isinstance(block, Travel) or block.drive is None:
         return False
     return float(np.min(model.surplus(spec, scene))) <= 0
 
