@@ -447,6 +447,23 @@ AnyMotor = Annotated[
 ]
 """A motor, told by its `type`."""
 
+_LOOKS = 1025
+"""Even steps of the speed at which a curve is looked at, from rest on."""
+
+
+def torques_up_to(curve: AnyMotor, speed: float) -> FloatArray:
+    """Torque of a motor over even steps from rest to a speed [rad/s], shape (n,) [N*m].
+
+    Where stages are switched by time, the best of them at each speed: which one it is, a run tells. Of a converter its
+    limit, which it gives at any speed.
+    """
+    if isinstance(curve, ConverterMotor):
+        return np.full(_LOOKS, curve.limit)
+    speeds = np.linspace(0.0, speed, _LOOKS)
+    if any(stage.until_time is not None for stage in curve.stages):
+        return np.asarray(np.max([stage.torque(speeds) for stage in curve.stages], axis=0))
+    return curve.torque(speeds, np.inf)
+
 
 def number_at(path: KeyPath, curve: AnyMotor | None) -> KeyPath:
     """The number that a key stands for: where it names the curve of a motor, the one all its torques grow with; none

@@ -96,7 +96,14 @@ def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
 
 
 def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
-    """A belt that goes slack beyond doubt: on every grid spans sag by twice the tenth that is trusted, or more."""
+    """A belt that surely goes slack: on every grid its spans sag by twice the tenth that is trusted, or more.
+
+        S < min(S_tenth/2, S_slack)   on a strand, by each grid of the run
+
+    **Range** a belt with idler pitches whose run has left the range of shallow spans.
+    **Error** the factor 2 is an engineering choice; the peaks of such a run have no bound.
+    **Source** sag of a shallow parabola goes with 1/S.
+    """
     doubtless = [limit / 2 for limit in limits(case)]
     lows = [(one.back_min, one.carry_min) for one in grids]
     for strand, (limit, kept) in enumerate(zip(doubtless, bounds.slack_limits(case.line), strict=True)):

@@ -4,12 +4,12 @@
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor import ConverterMotor, torques_up_to
 from ptmcalc.laws import carriage, inertia, reeving
 from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
@@ -18,9 +18,8 @@ from ptmcalc.machines.crane.stacking.scenes import StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 FloatArray = NDArray[np.float64]
+Torque = TypeVar("Torque", float, FloatArray)
 
-_SPEEDS = 1025
-"""Looks at a motor's curve from rest to full speed."""
 _EVEN = 1e-9
 """Share of the mean torque by which a curve that is even may change, by rounding."""
 
@@ -221,45 +220,36 @@ def driving(spec: Stacker, scene: StackerScene) -> Push:
     return Push("force", filled(block.driving_force) - (block.resistance or 0.0), block.driving_rise)
 
 
-def _net(block: Travel, torque: float) -> float:
-    """At the rims, from a torque of all motors, less the resistance [N]."""
+def _net(block: Travel, torque: Torque) -> Torque:
+    """Force at the rims from a torque of all motors, less the resistance [N]."""
     assert block.drive is not None
     rim = block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
     return torque * rim * block.drive.efficiency - (block.resistance or 0.0)
 
 
 def _torques(block: Travel) -> FloatArray:
-    """Of all motors over even steps of the speed from rest to full speed, shape (n,) [N*m].
-
-    Where the stages of a curve are switched by time, the best of them at each speed.
-    """
+    """Of all motors over even steps of the speed from rest to full speed, shape (n,) [N*m]."""
     assert block.drive is not None
     motor = block.drive.motor
-    curve = motor.curve
-    if curve is None:
-        return np.full(_SPEEDS, block.drive.torque)
-    if isinstance(curve, ConverterMotor):
-        return np.full(_SPEEDS, motor.count * curve.limit)
-    speeds = np.linspace(0.0, block.speed * block.drive.rim_per_torque(filled(block.wheel_diameter) / 2), _SPEEDS)
-    torques = curve.torque(speeds, np.inf)
-    if any(stage.until_time is not None for stage in curve.stages):
-        torques = np.max([stage.torque(speeds) for stage in curve.stages], axis=0)
-    return np.asarray(motor.count * torques)
+    if motor.curve is None:
+        return np.array([block.drive.torque])
+    full = block.speed * block.drive.rim_per_torque(filled(block.wheel_diameter) / 2)
+    return np.asarray(motor.count * torques_up_to(motor.curve, full))
 
 
 def surplus(spec: Stacker, scene: StackerScene) -> FloatArray:
-    """Force of a start by torque over even steps of the speed, less the resistance, shape (n,) [N].
+    """Force of a start by torque over even steps of the speed, less the resistance [N]; one number without a curve.
 
-    Of a motor whose starting torque swings between two values, the smaller one where the larger does not help.
+    Of a motor whose starting torque swings between two values, the smaller one where it does not overcome the
+    resistance.
     """
     block = travel(spec, scene)
     assert block.drive is not None
-    rim, motor = _torques(block), block.drive.motor
-    forces = np.array([_net(block, torque) for torque in rim.tolist()])
+    motor = block.drive.motor
     smallest = motor.smallest_starting_torque
     if motor.curve is None and smallest is not None and _net(block, motor.count * smallest) <= 0:
-        return np.full_like(forces, _net(block, motor.count * smallest))
-    return forces
+        return np.array([_net(block, motor.count * smallest)])
+    return np.asarray(_net(block, _torques(block)))
 
 
 def uneven(spec: Stacker, scene: StackerScene) -> bool:

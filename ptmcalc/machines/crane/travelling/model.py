@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor import torques_up_to
 from ptmcalc.laws import gearing, inertia
 from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -197,10 +197,7 @@ def motor_speed(spec: Travelling) -> float:
 
 
 def least_torque(spec: Travelling) -> float:
-    """Smallest torque of all motors on the way to full speed: of their curve, or before a step of a rheostat [N*m].
-
-    Where the stages of a curve are switched by time, the best of them at each speed: which one it is, the run tells.
-    """
+    """Smallest torque of all motors on the way to full speed: of their curve, or before a step of a rheostat [N*m]."""
     motor = spec.drive.motor
     if motor.mean_starting_torque is not None:
         return spec.drive.torque
@@ -208,13 +205,7 @@ def least_torque(spec: Travelling) -> float:
         return motor.count * motor.smallest_starting_torque
     curve = motor.curve
     assert curve is not None
-    if isinstance(curve, ConverterMotor):
-        return motor.count * curve.limit
-    speeds = np.linspace(0.0, motor_speed(spec), 1025)
-    torques = curve.torque(speeds, np.inf)
-    if any(stage.until_time is not None for stage in curve.stages):
-        torques = np.max([stage.torque(speeds) for stage in curve.stages], axis=0)
-    return motor.count * float(np.min(torques))
+    return motor.count * float(np.min(torques_up_to(curve, motor_speed(spec))))
 
 
 def driving_force(spec: Travelling, torque: float) -> float:
