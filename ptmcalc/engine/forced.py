@@ -48,7 +48,7 @@ def why_not(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, planned: Planned
         return f"it is part of {quote(whole)}, which the file leaves out"
     able = [one for one in kind.solvers if one.decides and name in one.represents and type(scene.scene) in one.scenes]
     for solver in able:
-        off = sorted(solver.always & scene.excluded)
+        off = sorted(solver.always & scene.withheld)
         if off:
             return f"{quote(solver.name)} always simulates {quote(off[0])} too, which the file leaves out"
         criterion = solver.valid(spec, scene.scene)

@@ -29,6 +29,11 @@ class PlannedEffect:
         return self.wish == "off" or self.criterion is None
 
     @property
+    def absent(self) -> bool:
+        """Whether there is none of it in the scene, such as the curve of a motor in a stop: its number is exactly 0."""
+        return self.criterion is not None and self.criterion.value == 0
+
+    @property
     def forced(self) -> bool:
         """Whether the file decides, not the number."""
         return self.wish != "auto"
@@ -68,6 +73,11 @@ class ScenePlan:
         """Names of effects that no run carries and no bar covers."""
         return frozenset(planned.effect.name for planned in self.effects if planned.excluded)
 
+    @property
+    def withheld(self) -> frozenset[str]:
+        """Names of excluded effects that are present: no solver that always simulates one of them may run."""
+        return frozenset(one.effect.name for one in self.effects if one.excluded and not one.absent)
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -87,7 +97,8 @@ def plan_scene(kind: AnyKind, spec: MachineSpec, scene: Scene) -> ScenePlan:
     """The plan of one scene.
 
     A solver is offered with the active effects it can carry, and with all that it can carry and the file does not
-    exclude, at each of its refinements. A part of an effect is excluded with it.
+    exclude, at each of its refinements. A part of an effect is excluded with it. A solver that always simulates an
+    excluded effect is offered all the same where there is none of it in the scene.
     """
     effects = tuple(
         PlannedEffect(effect, effect.criterion(spec, scene), spec.effects.get(effect.name, "auto"))
@@ -96,16 +107,17 @@ def plan_scene(kind: AnyKind, spec: MachineSpec, scene: Scene) -> ScenePlan:
     )
     out = {planned.effect.name for planned in effects if planned.excluded}
     allowed = frozenset(p.effect.name for p in effects if p.effect.name not in out and p.effect.part_of not in out)
+    absent = out.intersection(planned.effect.name for planned in effects if planned.absent)
     active = allowed.intersection(planned.effect.name for planned in effects if planned.active)
     rungs: list[Rung] = []
     formulas = []
     for solver in kind.solvers:
-        if not (solver.always <= allowed and solver.usable_for(spec, scene)):
+        if not (solver.always - absent <= allowed and solver.usable_for(spec, scene)):
             continue
         if not solver.decides:
             formulas.append(solver)
             continue
-        needed = _whole(active & solver.represents, effects) | solver.always
+        needed = _whole(active & solver.represents, effects) | (solver.always - absent)
         for carried in dict.fromkeys((needed, allowed & solver.represents)):
             if carried or not solver.represents:
                 rungs += [

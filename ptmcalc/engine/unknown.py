@@ -85,7 +85,7 @@ def _out_of_range(spec: MachineSpec, settled: Settled, solvers: Iterable[AnySolv
     """What keeps solvers from being used, each reason once; those that were run have findings of their own."""
     said: dict[str, str] = {}
     for solver in solvers:
-        off = sorted(solver.always & settled.plan.excluded)
+        off = sorted(solver.always & settled.plan.withheld)
         if off:
             said.setdefault(f"it always simulates {_list(off)}, which the file leaves out", solver.name)
             continue

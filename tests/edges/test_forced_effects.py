@@ -197,3 +197,21 @@ def test_a_crane_without_the_pull_of_its_load_moves_as_if_that_were_rigid(scene:
     }
     assert times["off"].value == pytest.approx(1.05 * mass / force, rel=1e-6)
     assert abs(times["auto"].value / times["off"].value - 1) > 1e-3, "the load that swings pulls at the crane"
+
+
+# -- an effect that is not in the scene -----------------------------------------------------------------------------
+
+
+def test_an_effect_that_is_absent_from_a_scene_takes_nothing_away_from_it() -> None:
+    """No motor of this crane has a curve: forced off, it leaves every verdict as it is."""
+    (kind,) = (one for one in KINDS if one.label == "crane travelling")
+    data = yaml.safe_load(kind.template)
+    as_is, without = (
+        check(load_text(yaml.safe_dump(data | {"effects": effects}).encode(), "crane.yaml"), Options(repairs=False))
+        for effects in ({}, {"torque_curve": "off"})
+    )
+    before, after = (
+        [(scene.name, one.code, one.element, one.verdict) for scene, one in report.judgements]
+        for report in (as_is, without)
+    )
+    assert before == after
