@@ -61,6 +61,13 @@ def test_intervals_of_one_load_intersect(kind: AnyKind, index: int) -> None:
     assert disjoint(kind, SEED, index) == []
 
 
+@pytest.mark.parametrize(("label", "seed", "index"), [("drivetrain", 11, 51)])
+def test_machines_that_failed_once_do_not_fail_again(label: str, seed: int, index: int) -> None:
+    """A motor that creeps to the speed of no surplus gained 1e-6 of its speed after the window, and the bar was 5e-9."""
+    (kind,) = (one for one in KINDS if one.label == label)
+    assert disjoint(kind, seed, index) == []
+
+
 @pytest.mark.study
 @pytest.mark.parametrize("part", range(20))
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.label)

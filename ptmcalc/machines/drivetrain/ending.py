@@ -21,6 +21,8 @@ next to its synchronous speed still gains some per cent of it."""
 _FADED = 20.0
 """Time constants after which a decay is below 1e-8 of its beginning."""
 _TOLERANCE = 1e-6
+_OF_SPEEDS = 1e-9
+"""Tolerance of the rigid train whose growing speeds are looked at: less than the bars of these speeds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,13 +120,13 @@ def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: motion.Course) ->
         return found
     try:
         once, twice = (
-            motion.run(case, time, _TOLERANCE, most_work=motion.most_work(case, time)) for time in (end, 2 * end)
+            motion.run(case, time, _OF_SPEEDS, most_work=motion.most_work(case, time)) for time in (end, 2 * end)
         )
     except NumericsError:
         return found
     before, after = motion.readings(spec, once), motion.readings(spec, twice)
     grown = {name: (abs(after[name][0] - before[name][0]), size) for name, (_, size) in found.items()}
-    return {name: (more, size) for name, (more, size) in grown.items() if more > _TOLERANCE * size}
+    return {name: (more, size) for name, (more, size) in grown.items() if more > _OF_SPEEDS * size}
 
 
 def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Result:
