@@ -62,48 +62,48 @@ BROKEN = "BUG101"
 CODES: Mapping[str, CodeText] = MappingProxyType(
     {
         "BUG101": CodeText(
-            "an error of ptmcalc itself",
+            "internal error of ptmcalc",
             "The program broke down on this file; the other files of the run are not touched by it.",
             "Please report it with the file and the output of the same command under PTMCALC_TRACEBACK=1.",
         ),
         "TXT101": CodeText(
-            "a file that cannot be read",
+            "unreadable file",
             "The path does not exist, is not a file, or may not be opened.",
             "Check the path and its permissions.",
         ),
         "TXT102": CodeText(
-            "a folder without design files",
+            "folder without design files",
             "No file ending in .yaml or .yml stands in the folder or below it, so nothing was checked.",
             "Name the folder that holds the design files; `ptmcalc new conveyor > conveyor.yaml` writes a first one.",
         ),
         "TXT103": CodeText(
-            "text that is not UTF-8",
+            "text encoding other than UTF-8",
             "A design file is UTF-8 text; another encoding would silently change characters.",
             "Save the file as UTF-8.",
         ),
         "TXT104": CodeText(
-            "an empty file",
+            "empty file",
             "The file holds no YAML document.",
             "`ptmcalc new conveyor` prints a commented template to start from.",
         ),
         "TXT105": CodeText(
-            "text that is not YAML",
+            "invalid YAML",
             "The YAML parser stopped at this place; nothing behind it could be read. Control characters and the line"
             " breaks U+0085, U+2028 and U+2029, which few editors show, are refused as well.",
             "Mend the place named; indentation by tabs and a missing space after a colon are the usual causes.",
         ),
         "TXT106": CodeText(
-            "a key written twice",
+            "duplicate key",
             "YAML tools keep the last of two equal keys and drop the first without a word.",
             "Delete one of them.",
         ),
         "TXT107": CodeText(
-            "a YAML tag",
+            "YAML tag",
             "A design file is data; tags ask the reader to construct objects and are refused.",
             "Delete the tag (the word that starts with an exclamation mark).",
         ),
         "TXT108": CodeText(
-            "a file beyond its budget",
+            "file size limit exceeded",
             "A file may have 1 MiB, 50 000 nodes with its aliases expanded, 100 levels, 10 000 characters in a key or a"
             " value, and 1000 faults.",
             "Split the file, remove the nested aliases, or shorten the text; of many faults mend the first.",
@@ -114,104 +114,104 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Put each machine into a file of its own.",
         ),
         "TXT110": CodeText(
-            "an alias or merge that leads nowhere",
+            "unresolved alias or merge",
             "An alias must follow its anchor, and `<<` takes a mapping or a list of mappings.",
             "Define the anchor first, outside the value that uses it.",
         ),
         "TXT111": CodeText(
-            "a key that is not a word",
+            "non-scalar key",
             "Keys are plain words; a list or a mapping cannot be a key.",
             "Write `key: value`.",
         ),
         "TXT112": CodeText(
-            "a document that is not a mapping",
+            "document is not a mapping",
             "A design file is a mapping of keys to values and starts with `kind:`.",
             "Start the file with `kind: conveyor` or another kind of `ptmcalc kinds`.",
         ),
         "TXT113": CodeText(
-            "a link that leads out of its folder",
+            "link outside the folder",
             "A file found in a folder, or by a pattern, is a link to one outside that folder and its repository. Who"
             " checks the files of others does not want to have any file of the machine read.",
             "Name the file itself, or put it into the folder.",
         ),
         "SPC101": CodeText(
-            "a missing kind",
+            "missing machine kind",
             "Every design file names the kind of machine it describes.",
             "Add `kind: conveyor` or another kind of `ptmcalc kinds`.",
         ),
         "SPC102": CodeText(
-            "an unknown kind",
+            "unknown machine kind",
             "No machine of that name is installed.",
             "`ptmcalc kinds` lists the kinds.",
         ),
         "SPC103": CodeText(
-            "a missing key",
+            "missing key",
             "The machine cannot be computed without it and no default is honest.",
             "Add the key; `ptmcalc schema KIND` describes it.",
         ),
         "SPC104": CodeText(
-            "an unknown key",
+            "unknown key",
             "A key that is not read would be lost without a word, so it is refused.",
             "Correct the spelling or delete it.",
         ),
         "SPC105": CodeText(
-            "a unit of another dimension",
+            "wrong unit dimension",
             "The value is a different physical quantity from the one the key takes.",
             "Write the value in a unit of the right dimension.",
         ),
         "SPC106": CodeText(
-            "a number without its unit",
+            "missing unit",
             "A bare number is a guess about its unit; only ratios are written without one.",
             "Write the unit behind the number.",
         ),
         "SPC107": CodeText(
-            "a decimal comma",
+            "decimal comma",
             "`3,5` reads as 35 in some tools and as 3.5 in others; between braces the comma ends the value.",
             "Write a decimal point.",
         ),
         "SPC108": CodeText(
-            "an unknown unit",
+            "unknown unit",
             "The table of units is closed, so that no unit is guessed.",
             "Use an SI or engineering unit.",
         ),
         "SPC109": CodeText(
-            "a number that is not finite",
+            "non-finite number",
             "NaN compares false with everything and infinity spoils every sum.",
             "Write a finite number.",
         ),
         "SPC110": CodeText(
-            "a value out of its range",
+            "value out of range",
             "No machine has this value, or the formulas do not hold there. Whatever the key, a value other than 0 lies"
             " between 1e-12 and 1e15 in SI units.",
             "Write a value inside the range named.",
         ),
         "SPC111": CodeText(
-            "a value of the wrong form",
+            "wrong value type",
             "The key takes another form: a mapping, a list, a word, a number with a unit.",
             "Write it in the form named.",
         ),
         "SPC112": CodeText(
-            "a word that is none of the choices",
+            "invalid choice",
             "The key takes one of a few words.",
             "Use one of the words named.",
         ),
         "SPC113": CodeText(
-            "values that do not go together",
+            "conflicting inputs",
             "Two keys say the same thing twice, leave a gap, or contradict each other.",
             "Keep one of them, or give the missing one.",
         ),
         "SPC114": CodeText(
-            "a number that cannot be read",
+            "invalid number",
             "The value is not a number with a unit.",
             "Write digits, a decimal point, a space and the unit.",
         ),
         "SPC201": CodeText(
-            "numbers that disagree",
+            "inconsistent inputs",
             "Two values of the file that should agree do so only roughly; the check goes on with the first.",
             "Correct the one that is wrong.",
         ),
         "SPC202": CodeText(
-            "an expired waiver",
+            "expired waiver",
             "The day until which the file waives a check has passed, so its verdict counts again.",
             "Repair the design, or renew `until` with a reason that still holds.",
         ),
@@ -227,50 +227,50 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Set one of the effects named to `auto`.",
         ),
         "SPC203": CodeText(
-            "a waiver that nothing needs",
+            "unused waiver",
             "The check that it waives does not fail in any scene; it would hide the next failure without a word.",
             "Delete it.",
         ),
         "NUM101": CodeText(
-            "a computation that did not converge",
+            "computation not converged",
             "The numerics could not reach a trustworthy number; the verdicts that need it are undecided.",
             "See the message; report the file if the machine is a sound one.",
         ),
         "NUM102": CodeText(
-            "a model used beyond its range",
+            "model range exceeded",
             "The simulation left the range in which its equations hold; what came after is not trusted.",
             "Change the design so that the range is kept, or judge the event by other means.",
         ),
         "NUM103": CodeText(
-            "an answer beyond the work budget",
+            "work budget exceeded",
             "A finer or richer computation would be needed and its predicted work is over the budget, or it takes more"
             " memory than there is.",
             "Raise `--budget`, relax `accuracy`, or simplify the scene (`ptmcalc cost FILE` shows what it takes).",
         ),
         "NUM104": CodeText(
-            "a simplification the simulation ran into",
+            "approximate model state",
             "The simulation met a state that its model treats only roughly; the numbers stand, with that remark.",
             "See the message.",
         ),
         "NUM105": CodeText(
-            "an accuracy that is not reached",
+            "requested accuracy not reached",
             "The file or the command asks for governing loads more accurate than the finest solver knows them.",
             "Ask for less (`ptmcalc cost FILE` shows what is in reach), or read the bars: verdicts already account for"
             " them.",
         ),
         "NUM106": CodeText(
-            "a contact that keeps chattering",
+            "persistent contact chatter",
             "A link or a brake changes its state over and over to the end of the scene; its loads hold for the window"
             " computed, not beyond it.",
             "Give the link damping, or the load that keeps it closed; look at the events.",
         ),
         "NUM107": CodeText(
-            "a textbook formula far from the computed value",
+            "textbook formula deviates from the computation",
             "A formula used within its own range differs from the computed load by more than a tenth and the bar.",
             "Design by the computed load; the formula leaves out an effect that matters here.",
         ),
         "NUM108": CodeText(
-            "a textbook formula at a step of its table",
+            "textbook table discontinuity",
             "A textbook's table jumps near this value: its formula is off by a sixth to a seventh on either side.",
             "Design by the computed load; the formula is shown for comparison only.",
         ),
@@ -293,13 +293,13 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Choose a longer window with `window_factor` of the scene.",
         ),
         "NUM110": CodeText(
-            "a motion that does not come about",
+            "motion not completed",
             "The drive stalls, the brake does not hold, or a limiter ends the motion: what the scene is about does not"
             " happen; the loads are those of what happens instead.",
             "See the message for the phase it ends in.",
         ),
         "NUM109": CodeText(
-            "a speed that meets a resonance",
+            "operating speed near resonance",
             "A harmonic of the excitation lies so near a natural frequency that the answer is many times the static"
             " one, or changes much with little.",
             "Run at one of the speeds named, or change the pitch, the mass or the stiffness.",

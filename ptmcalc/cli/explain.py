@@ -191,13 +191,14 @@ def _label(kinds: Sequence[AnyKind]) -> str:
 
 def _finding(code: str, text: CodeText) -> Explanation:
     parts = [Part("", text.why), Part("What to do", text.fix), *_example(EXAMPLES.get(code))]
-    return Explanation(code, f"is there {text.title}?", "", tuple(parts))
+    return Explanation(code, text.title, "", tuple(parts))
 
 
 def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explanation:
     scenes = ", ".join(sorted(scene.model_fields["type"].default for scene in check.scenes))
     value = [Part("Value", _doc(check.value))] if check.value and check.value.__doc__ else []
     parts = [
+        Part("", check.question),
         Part("", check.what),
         Part("", check.why),
         *_formula("Formula", check.formula),
@@ -208,7 +209,7 @@ def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explana
         Part("Source", check.source),
         *_example(whole.examples().get(check.code)),
     ]
-    return Explanation(check.code, f"is there {check.title}?", f"{_label(kinds)}; scenes: {scenes}", tuple(parts))
+    return Explanation(check.code, check.title, f"{_label(kinds)}; scenes: {scenes}", tuple(parts))
 
 
 def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Explanation:

@@ -1,5 +1,6 @@
 """A check: a load against a limit, and what to say when it does not hold."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -21,8 +22,29 @@ class Sense(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class LimitState:
+    """The physical limit behind a check, such as a belt that slips: what happens there, and the value at which it does.
+
+    That value is 1 for a reserve, 0 for a tension, infinite for a time or distance of a motion that never ends.
+    """
+
+    text: str
+    at: float = math.inf
+
+    def reached(self, value: Estimate, limit: Estimate, sense: Sense) -> bool:
+        """True if the whole error bar of the value lies at this state or beyond it, or an upper limit is 0."""
+        if sense is Sense.AT_LEAST:
+            return value.high <= self.at
+        return value.low >= self.at or limit.high <= 0
+
+
+@dataclass(frozen=True, slots=True)
 class Check(Generic[S, C]):
-    """One design check. `title` finishes the sentence "is there ...?".
+    """One design check.
+
+    `title` is a noun phrase that names the reported quantity: it is printed behind `pass` and `fail` alike. `question`
+    asks for the check in one sentence; `failure` states what a failed check means, and `limit_state` what it means
+    where the physical limit itself is reached.
 
     `loads` are the loads it reads and `value` what it makes of them (the first one itself when left out); `limit`
     is what that is held against; `needs` are the optional keys without which it
@@ -34,6 +56,8 @@ class Check(Generic[S, C]):
 
     code: str
     title: str
+    question: str
+    failure: str
     scenes: frozenset[type[Scene]]
     loads: tuple[str, ...]
     sense: Sense
@@ -45,6 +69,7 @@ class Check(Generic[S, C]):
     why: str
     formula: str
     source: str
+    limit_state: LimitState | None = None
     value: Callable[[S, C, Mapping[str, Estimate]], Estimate] | None = None
     each: "Callable[[S, C], Iterable[Check[S, C]]] | None" = None
     element: str = ""
@@ -85,6 +110,13 @@ class Check(Generic[S, C]):
     def is_of(self, other: "Check[S, C]") -> bool:
         """Whether it is the other check, or that of a part of the machine."""
         return self.code == other.code and other.element in ("", self.element)
+
+    def meaning(self, value: Estimate | None, limit: Estimate | None) -> str:
+        """What a failed check means, by its value."""
+        state = self.limit_state
+        if state is not None and value is not None and limit is not None and state.reached(value, limit, self.sense):
+            return state.text
+        return self.failure
 
     def read(self, spec: S, scene: C, loads: Mapping[str, Estimate]) -> Estimate:
         """What is held against the limit."""

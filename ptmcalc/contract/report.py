@@ -130,6 +130,8 @@ class Judgement:
     margin: float | None
     blame: Place
     element: str = ""
+    meaning: str = ""
+    """what a failed check means; empty for other verdicts"""
     reason: str = ""
     without: tuple[str, ...] = ()
     repair: Repair | None = None

@@ -423,6 +423,7 @@ class _Assembly:
             margin=ruling.margin,
             blame=Place(blame, _span(document, blame)),
             element=check.element,
+            meaning=check.meaning(ruling.value, ruling.limit) if verdict is Verdict.FAIL and not reason else "",
             reason=reason,
             without=without if verdict not in (Verdict.NOT_CHECKED, Verdict.OFF) else (),
             repair=repair,

@@ -23,8 +23,8 @@ def far_from_textbook(loaded: Loaded, scene: SceneReport) -> Diagnostic | None:
         return None
     textbook, found = (show(value, load.info.quantity) for value in (load.formula.value, load.estimate.value))
     message = (
-        f"scene `{scene.name}`: for `{load.info.name}` the textbook formula `{load.formula.name}` gives {textbook},"
-        f" the computation {found}"
+        f"scene `{scene.name}`: {load.info.title}: computed {found}, textbook formula `{load.formula.name}` {textbook};"
+        " use the computed value"
     )
     written = isinstance(loaded.document.data, dict) and "scenes" in loaded.document.data
     path = ("scenes",) if written else ()

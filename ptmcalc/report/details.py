@@ -94,7 +94,7 @@ def assumed(console: Console, report: FileReport) -> None:
     """Values that the file does not give."""
     if not report.assumed:
         return
-    table = new_table("Assumed: the file does not say", "key", "value", "may be", "source")
+    table = new_table("Assumptions (not given in the file)", "key", "value", "may be", "source")
     rows = [
         [dotted(value.path), words.number(value.value, value.quantity), words.interval(value), value.source]
         for value in report.assumed

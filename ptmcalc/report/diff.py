@@ -113,7 +113,7 @@ def _value(check: Entry) -> str:
 def _limit(check: Entry) -> str:
     if check["limit"] is None:
         return ""
-    relation = {"at_least": "at least", "at_most": "at most"}.get(check["sense"], check["sense"])
+    relation = {"at_least": "≥", "at_most": "≤"}.get(check["sense"], check["sense"])
     return f"{relation} {_exact(check, check['limit'])}"
 
 
@@ -315,7 +315,7 @@ def _judged(change: CheckChange) -> str:
 
 def _numbers(check: Entry) -> str:
     limit = _limit(check)
-    return f"{_value(check)}, {limit} is sound" if limit else _value(check)
+    return f"{_value(check)}, limit {limit}" if limit else _value(check)
 
 
 # -- JSON -----------------------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement
 from ptmcalc.report import words
 
-_RELATION = {Sense.AT_LEAST: "at least", Sense.AT_MOST: "at most"}
+_RELATION = {Sense.AT_LEAST: "≥", Sense.AT_MOST: "≤"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +67,7 @@ def said(judgement: Judgement) -> str:
     parts = []
     if judgement.value is not None and judgement.limit is not None:
         limit = words.amount(judgement.limit, judgement.quantity)
-        parts.append(
-            f"{words.amount(judgement.value, judgement.quantity)}, {_RELATION[judgement.sense]} {limit} is sound"
-        )
+        value = words.amount(judgement.value, judgement.quantity)
+        parts.append(f"{value}, limit {_RELATION[judgement.sense]} {limit}")
     parts.append(words.remark(judgement))
     return "; ".join(filter(None, parts))

@@ -310,6 +310,8 @@ def _check(judgement: Judgement) -> dict[str, Any]:
         entry["unbounded"] = True
     if judgement.element:
         entry["element"] = judgement.element
+    if judgement.meaning:
+        entry["meaning"] = judgement.meaning
     if judgement.reason:
         entry["reason"] = judgement.reason
     if judgement.without:

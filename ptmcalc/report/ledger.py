@@ -19,7 +19,7 @@ def sections(report: FileReport, width: int) -> Iterator[tuple[str, list[str]]]:
         "Effects": _effects(report.scenes),
         "Events": map(_events, report.scenes),
         "Solvers": _solvers(report),
-        "Assumed: the file does not say": [_assumed(report)],
+        "Assumptions (not given in the file)": [_assumed(report)],
     }
     for heading, paragraphs in found.items():
         lines = [line for parts in paragraphs if parts for line in flowed(parts, width)]
@@ -63,7 +63,7 @@ def _states(effects: Iterable[EffectReport]) -> list[str]:
 def _state(effect: EffectReport) -> str:
     """The state, or the reason where the number is not the reason."""
     if effect.criterion is None:
-        return "no input for"
+        return "not assessed (input missing)"
     off = effect.forced and effect.state is EffectState.SKIPPED
     return "switched off by the file" if off else effect.state.value
 

@@ -91,7 +91,7 @@ def _limit(judgement: Judgement) -> str:
 
 
 def _governed(report: FileReport, judgement: Judgement) -> str:
-    return f"governed by {dotted(judgement.blame.path)} ({report.path}:{words.place(judgement.blame.span)})"
+    return f"governing key: {dotted(judgement.blame.path)} ({report.path}:{words.place(judgement.blame.span)})"
 
 
 def _short(console: Console, report: FileReport) -> None:

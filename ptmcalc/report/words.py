@@ -116,8 +116,8 @@ def subject(judgement: Judgement) -> str:
 
 
 def remark(judgement: Judgement) -> str:
-    """What a verdict rests on besides its numbers: the reason, the value that would pass, what was left out."""
-    parts = [judgement.reason]
+    """What a verdict says besides its numbers: what it means or why, the value that would pass, what was left out."""
+    parts = [judgement.meaning, judgement.reason]
     if judgement.repair:
         value = number(judgement.repair.value, judgement.repair.quantity)
         other = judgement.repair.other
@@ -154,7 +154,7 @@ def balance(scene: SceneReport) -> float | None:
 
 def closing(residual: float) -> str:
     """How well the energy balances; mere rounding has no digits: they would be others on another processor."""
-    return f"work balance closes to {'rounding' if residual < BALANCED else f'{residual:.1e}'}"
+    return f"energy balance error {'at rounding level' if residual < BALANCED else f'{residual:.1e}'}"
 
 
 def place(span: Span | None) -> str:

@@ -123,7 +123,7 @@ def test_where_nothing_changed_nothing_is_told(states: Path, form: str) -> None:
 def test_what_gets_better_is_no_fault(states: Path) -> None:
     done = diffed("new/worse.yaml", "old/worse.yaml", "markdown")
     assert done.status == 0
-    assert "✅ **CNV101 belt slip at the drive drum** (run\\_loaded) passes now: 2.491" in done.out
+    assert "✅ **CNV101 drive pulley traction reserve** (run\\_loaded) passes now: 2.491" in done.out
     assert "before, it failed at 0.3586" in done.out
 
 
@@ -150,7 +150,7 @@ def test_the_comment_reads_like_a_review(states: Path) -> None:
     changed, turned, *_ = worse.split("\n\n")
     assert changed == "Changed: drive.drum.friction 0.35 → 0.09 (line 23); takeup.tension 30 kN → 28 kN (line 25)."
     assert re.fullmatch(
-        r"- ❌ \*\*CNV101 belt slip at the drive drum\*\* \(run\\_loaded\) fails now: 0\.3586, at least 1\.2 is sound;"
+        r"- ❌ \*\*CNV101 drive pulley traction reserve\*\* \(run\\_loaded\) fails now: 0\.3586, limit ≥ 1\.2;"
         r" before, it passed at 2\.491\. `drive\.drum\.friction` \(line 23\) governs it\."
         r" It passes with `takeup\.tension` = 93\.\d+ kN\.",
         turned.splitlines()[0],

@@ -124,7 +124,8 @@ def test_what_is_known_is_waived_and_counted(folder: Path) -> None:
     again = checked(folder, "--baseline", folder / "baseline.json", "--fail-level", "warning")
     assert (again.status, again.out, again.err) == (0, done.out, "")
     assert (
-        "waived CNV101 belt slip at the drive drum [run_loaded]: 0.4348, at least 1.2 is sound; fail, known" in done.out
+        "waived CNV101 drive pulley traction reserve [run_loaded]: 0.4348, limit ≥ 1.2; belt slips at the drive pulley;"
+        " fail, known" in done.out
     )
 
 
@@ -183,7 +184,8 @@ def test_a_scene_that_passed_is_not_known_and_a_value_beyond_its_bar_is_new(tmp_
     spec.write_text(spec.read_text("utf-8").replace("tension: 4.9 kN", "tension: 0.5 kN"), encoding="utf-8")
     worst = checked(spec, "--baseline", known)
     assert (worst.status, last(worst)) == (1, "1 file, 3 checks passed, 5 failed")
-    assert "unlimited, at most 1 % is sound; worse than in the baseline: 2.526 % then, unlimited now" in worst.out
+    assert "unlimited, limit ≤ 1 %; belt sags too much between the idlers; worse than in the baseline" in worst.out
+    assert "worse than in the baseline: 2.526 % then, unlimited now" in worst.out
 
 
 def test_what_is_gone_is_told_unless_it_was_not_looked_for(folder: Path) -> None:

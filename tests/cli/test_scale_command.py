@@ -130,8 +130,8 @@ def test_the_table_shows_scales_loads_and_distortions() -> None:
     headings = [line for line in lines if line in ("Scales", "Loads", "What this model distorts")]
     assert headings == ["Scales", "Loads", "What this model distorts"]
     assert "frequency 10" in lines
-    assert "run_loaded run-off tension, smallest 30 kN 0.01 300 N" in lines
-    assert any(line.startswith("run_loaded sag over idler pitch") and " distorted " in line for line in lines)
+    assert "run_loaded T2 leaving drive pulley, minimum 30 kN 0.01 300 N" in lines
+    assert any(line.startswith("run_loaded belt sag ratio h/a, maximum") and " distorted " in line for line in lines)
     text = " ".join(lines)
     for part in ("damping ratio", "friction coefficients", "slope of a motor curve", "play that tolerances make"):
         assert part in text, part

@@ -63,7 +63,7 @@ def test_intervals_of_one_load_intersect(kind: AnyKind, index: int) -> None:
 
 @pytest.mark.parametrize(("label", "seed", "index"), [("drivetrain", 11, 51)])
 def test_machines_that_failed_once_do_not_fail_again(label: str, seed: int, index: int) -> None:
-    """A motor that creeps to the speed of no surplus gained 1e-6 of its speed after the window, and the bar was 5e-9."""
+    """A motor that creeps to the speed of no surplus gained 1e-6 after the window; its bar was 5e-9."""
     (kind,) = (one for one in KINDS if one.label == label)
     assert disjoint(kind, seed, index) == []
 

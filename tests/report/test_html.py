@@ -361,7 +361,7 @@ def test_the_interval_of_a_load_is_a_band() -> None:
     (scene,) = (one for one in reported(KINDS["hoist"]).scenes if one.name == "lift_loaded")
     figure = next(one for one in scene.figures if one.name == "rope_force")
     keys = draw.courses(figure, "f").keys
-    assert [key.says for key in keys if key.sign == "band"] == ["interval of: largest rope force, at the hook"]
+    assert [key.says for key in keys if key.sign == "band"] == ["interval of: total rope force at hook, maximum"]
     assert {key.says.partition(":")[0] for key in keys if key.sign == "moment"} == {
         "the rope is taut",
         "the load leaves the ground",

@@ -132,8 +132,8 @@ def test_a_failure_of_junit_names_file_line_and_numbers() -> None:
     assert (case.attrib["file"], case.attrib["line"]) == (FILES[1], "25")
     failure = case.find("failure")
     assert failure is not None
-    assert "at least 1.2 is sound" in failure.attrib["message"]
-    assert str(failure.text).startswith("25:15: CNV101 belt slip at the drive drum [run_loaded]")
+    assert "limit ≥ 1.2" in failure.attrib["message"]
+    assert str(failure.text).startswith("25:15: CNV101 drive pulley traction reserve [run_loaded]")
 
 
 # -- SARIF ----------------------------------------------------------------------------------------------------------
@@ -291,7 +291,7 @@ COMMAND = re.compile(
 
 def test_a_command_names_file_line_column_and_code() -> None:
     first, *_ = render(Format.GITHUB, [report_of_file(FILES[1])]).splitlines()
-    assert first.startswith(f"::error file={FILES[1]},line=25,col=15,title=fail CNV101 belt slip at the drive drum ")
+    assert first.startswith(f"::error file={FILES[1]},line=25,col=15,title=fail CNV101 drive pulley traction reserve ")
 
 
 @pytest.mark.parametrize("reports", [REPORTS[-1].values[0], (waived(),)], ids=["all", "waived"])
@@ -337,7 +337,7 @@ def test_hostile_names_come_back_from_xml_as_a_reader_sees_them() -> None:
 def test_a_comment_says_what_does_not_pass_and_counts_the_rest() -> None:
     text = render(Format.MARKDOWN, [report_of_file(path) for path in FILES])
     assert "3 files, " in text
-    assert "| **fail** | CNV101 belt slip at the drive drum \\[run\\_loaded\\] | 25:15 | 0.4348, at least 1.2" in text
+    assert "| **fail** | CNV101 drive pulley traction reserve \\[run\\_loaded\\] | 25:15 | 0.4348, limit ≥ 1.2" in text
     assert "**pass**" not in text
     assert f"### {FILES[0]}" not in text, "all of it passes"
 

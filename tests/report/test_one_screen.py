@@ -76,7 +76,7 @@ def test_the_verdict_and_its_reason_stand_on_the_first_screen(report: FileReport
         f"{words.number(worst.value.value, worst.quantity).split()[0]}",
         f"limit {words.SIGN[worst.sense]} {words.amount(worst.limit, worst.quantity)}",
         f"margin {words.margin(worst)}",
-        f"governed by {dotted(worst.blame.path)} {place}",
+        f"governing key: {dotted(worst.blame.path)} {place}",
     ]
     if worst.repair:
         value = words.number(worst.repair.value, worst.repair.quantity)

@@ -48,58 +48,55 @@ def test_the_worst_come_first(path: str) -> None:
         (
             "failing",
             [
-                "toy.yaml:2:7: fail TOY101 too much weight on the hook [gust]: 13.2 kN, at most 10 kN is sound;"
-                " passes with load = 9.09 kN",
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook [calm]: 6.6 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: fail TOY101 weight on the hook [gust]: 13.2 kN, limit ≤ 10 kN;"
+                " hook is overloaded; passes with load = 9.09 kN",
+                "toy.yaml:2:7: pass TOY101 weight on the hook [calm]: 6.6 kN, limit ≤ 10 kN",
             ],
         ),
         (
             "undecided",
             [  # blamed on the key that is not written: where its parent, the whole file, begins
-                "toy.yaml:1:1: undecided TOY101 too much weight on the hook [hang]: 9.35 kN, at most 10 kN is sound;"
+                "toy.yaml:1:1: undecided TOY101 weight on the hook [hang]: 9.35 kN, limit ≤ 10 kN;"
                 " fail if `shock` is 1.2: give its value"
             ],
         ),
         (
             "open_bar",
             [
-                "toy.yaml:2:7: undecided TOY101 too much weight on the hook [hang]: 8 kN (no bound), at most 10 kN is"
-                " sound; `pull` has no bound while `hanging` leaves out `waves`"
+                "toy.yaml:2:7: undecided TOY101 weight on the hook [hang]: 8 kN (no bound), limit ≤ 10 kN;"
+                " `pull` has no bound while `hanging` leaves out `waves`"
             ],
         ),
         (
             "not_checked",
-            ["toy.yaml:3:11: not_checked TOY101 too much weight on the hook [hang]: `strength` is not given"],
+            ["toy.yaml:3:11: not_checked TOY101 weight on the hook [hang]: `strength` is not given"],
         ),
         (
             "switched_off",
             [
                 "toy.yaml:5:3: warning SPC204 nothing was checked: every check that applies is switched off (1);"
                 " delete an `off`",
-                "toy.yaml:6:12: off TOY101 too much weight on the hook [hang]: a show piece",
+                "toy.yaml:6:12: off TOY101 weight on the hook [hang]: a show piece",
             ],
         ),
         (
             "passing",
-            [
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook [hang]: 9.00 ±0.25 kN,"
-                " at most 10 kN is sound; without rain"
-            ],
+            ["toy.yaml:2:7: pass TOY101 weight on the hook [hang]: 9.00 ±0.25 kN, limit ≤ 10 kN; without rain"],
         ),
         (
             "moving",
             [
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook: rope [gust]: 9 kN, at most 10 kN is sound",
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook: hook [gust]: 8 kN, at most 10 kN is sound",
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook: rope [calm]: 4.5 kN, at most 10 kN is sound",
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook: hook [calm]: 4 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: pass TOY101 weight on the hook: rope [gust]: 9 kN, limit ≤ 10 kN",
+                "toy.yaml:2:7: pass TOY101 weight on the hook: hook [gust]: 8 kN, limit ≤ 10 kN",
+                "toy.yaml:2:7: pass TOY101 weight on the hook: rope [calm]: 4.5 kN, limit ≤ 10 kN",
+                "toy.yaml:2:7: pass TOY101 weight on the hook: hook [calm]: 4 kN, limit ≤ 10 kN",
             ],
         ),
         (
             "warned",
             [
                 "toy.yaml:2:7: warning NUM104 the rope was slack for a moment; hang it gently",
-                "toy.yaml:2:7: pass TOY101 too much weight on the hook [hang]: 9 kN, at most 10 kN is sound",
+                "toy.yaml:2:7: pass TOY101 weight on the hook [hang]: 9 kN, limit ≤ 10 kN",
             ],
         ),
     ],

@@ -110,11 +110,11 @@ def test_nothing_that_is_not_passed_is_left_out(seed: int) -> None:
         name = " ".join(filter(None, (judgement.code, judgement.element, row.scene)))
         assert re.search(rf"^{verdict} +{re.escape(title)} +{row.scene} ", text, re.MULTILINE)
         if row is shown[0]:
-            assert re.match(rf"toy.*\n {verdict} {title}, {row.scenes[0]}: .*governed by key \(toy.yaml:7:3\)", text), (
-                "the worst stands above everything"
-            )
+            assert re.match(
+                rf"toy.*\n {verdict} {title}, {row.scenes[0]}: .*governing key: key \(toy.yaml:7:3\)", text
+            ), "the worst stands above everything"
         else:
-            assert f"{verdict} {name}: governed by key (toy.yaml:7:3)" in text
+            assert f"{verdict} {name}: governing key: key (toy.yaml:7:3)" in text
         assert f"title of {judgement.loads[0]} " in text
 
 
@@ -139,7 +139,7 @@ def test_a_verdict_that_reads_the_same_in_several_scenes_is_told_once() -> None:
     weak, weaker = (judged("TOY101", Verdict.FAIL, margin) for margin in (-1.0, -2.0))
     report = file(scene("rest", checks=[weak]), scene("start", checks=[weaker]), scene("stop", checks=[weak]))
     assert [(row.scene, row.judgement.margin) for row in pick.checks(report)] == [("start", -2.0), ("rest, stop", -1.0)]
-    assert short(report).count("fail TOY101 rest, stop: governed by") == 1
+    assert short(report).count("fail TOY101 rest, stop: governing key") == 1
     assert [row.scene for row in pick.all_checks(report)] == ["start", "rest", "stop"]
 
 
@@ -154,7 +154,7 @@ def test_the_closest_margin_to_a_limit_of_nothing_is_the_smallest() -> None:
 def test_what_is_not_passed_stands_first_of_all() -> None:
     """The loads are first where nothing has to be done."""
     bad, sound = short(SAMPLES["failing"]), short(SAMPLES["passing"])
-    assert bad.index("governed by") < bad.index("\nChecks") < bad.index("\nLoads")
+    assert bad.index("governing key") < bad.index("\nChecks") < bad.index("\nLoads")
     assert sound.index("\nLoads") < sound.index("\nChecks")
 
 
@@ -239,7 +239,7 @@ def test_a_load_stands_behind_the_one_it_follows_in_its_scene() -> None:
 def test_every_effect_stands_with_its_state_and_the_number_that_decided() -> None:
     assert section(short(SAMPLES["passing"]), "Effects") == [
         " hang: simulated waves x = 3 ≥ 0.1, sag x = 0.15 ≥ 0.1; bounded frost x = 5 ≥ 0.1; skipped wind x = 0.01 <"
-        " 0.1; switched off by the file rain x = 5 ≥ 0.1; no input for fog"
+        " 0.1; switched off by the file rain x = 5 ≥ 0.1; not assessed (input missing) fog"
     ]
 
 
@@ -266,7 +266,7 @@ def test_no_number_is_parted_from_its_effect_at_the_end_of_a_line() -> None:
         assert max(map(len, lines)) <= width
         told = [part.strip(" ,;") for line in lines for part in re.split("[,;]", line) if part.strip()]
         assert len(told) == len(only.effects)
-        assert all(re.search(r"\w+ x = [\d.]+ [≥<] 0\.1$|for fog$", part) for part in told)
+        assert all(re.search(r"\w+ x = [\d.]+ [≥<] 0\.1$|missing\) fog$", part) for part in told)
 
 
 def test_events_are_counted_by_part() -> None:
@@ -279,7 +279,7 @@ def test_the_solvers_behind_the_verdicts_stand_with_window_and_the_worst_balance
     still = replace(only, name="calm", health={})
     (line,) = section(short(replace(SAMPLES["passing"], scenes=(only, worse, still))), "Solvers")
     assert line == (
-        " hang rich over 4 s; gust rich over 4 s; calm rich over 4 s; work balance closes to 3.0e-04 at worst, in gust"
+        " hang rich over 4 s; gust rich over 4 s; calm rich over 4 s; energy balance error 3.0e-04 at worst, in gust"
     )
 
 
@@ -288,10 +288,10 @@ def test_a_balance_that_is_rounding_has_no_digits_and_no_scene() -> None:
     (only,) = SAMPLES["passing"].scenes
     scenes = tuple(replace(only, name=str(left), health={"energy_residual": left}) for left in (9e-12, 3e-16))
     (line,) = section(short(replace(SAMPLES["passing"], scenes=scenes)), "Solvers")
-    assert line.endswith("; work balance closes to rounding")
+    assert line.endswith("; energy balance error at rounding level")
     above = replace(only, name="above", health={"energy_residual": 1.1e-11})
     (line,) = section(short(replace(SAMPLES["passing"], scenes=(*scenes, above))), "Solvers")
-    assert line.endswith("; work balance closes to 1.1e-11 at worst, in above")
+    assert line.endswith("; energy balance error 1.1e-11 at worst, in above")
 
 
 def test_a_balance_that_is_no_number_is_the_worst() -> None:
@@ -299,7 +299,7 @@ def test_a_balance_that_is_no_number_is_the_worst() -> None:
     unknown = replace(only, name="gust", health={"energy_residual": float("nan")})
     for scenes in ((only, unknown), (unknown, only)):
         (line,) = section(short(replace(SAMPLES["passing"], scenes=scenes)), "Solvers")
-        assert line.endswith("work balance closes to nan at worst, in gust")
+        assert line.endswith("energy balance error nan at worst, in gust")
 
 
 def test_a_scene_that_is_undecided_tells_the_price_of_the_next_run() -> None:
@@ -309,7 +309,7 @@ def test_a_scene_that_is_undecided_tells_the_price_of_the_next_run() -> None:
 
 
 def test_assumed_values_stand_with_their_interval() -> None:
-    assert section(short(SAMPLES["undecided"]), "Assumed: the file does not say") == [" shock = 1.1 (1 to 1.2)"]
+    assert section(short(SAMPLES["undecided"]), "Assumptions (not given in the file)") == [" shock = 1.1 (1 to 1.2)"]
 
 
 @pytest.mark.parametrize("name", ["warned", "broken", "invalid", "failing"])

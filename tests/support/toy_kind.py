@@ -111,7 +111,7 @@ PULL = LoadInfo("pull", "pull on the hook", units.FORCE)
 
 STATICS: Solver[Toy, Hang] = Solver(
     name="hanging",
-    title="pull of a weight set down",
+    title="force of a weight set down",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Hang}),
     represents=frozenset(),
@@ -125,7 +125,9 @@ SWINGING: Effect[Toy, Hang] = Effect("swing", "swing of the weight", frozenset({
 
 OVERLOAD: Check[Toy, Hang] = Check(
     code="TOY101",
-    title="too much weight on the hook",
+    title="weight on the hook",
+    question="Does the hook carry the weight?",
+    failure="hook is overloaded",
     scenes=frozenset({Hang}),
     loads=("pull",),
     sense=Sense.AT_MOST,

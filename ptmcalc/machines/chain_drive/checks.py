@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.chain_drive.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import tail_teeth, tension_key
@@ -57,7 +57,9 @@ def _resonance_limit(spec: ChainDrive, scene: Run) -> Estimate:
 RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(POLYGON) != "off")(
     Check(
         code="CHN101",
-        title="a speed near a resonance of teeth and chain",
+        title="polygon resonance separation",
+        question="Is the chain speed far enough from every relevant polygon-effect resonance?",
+        failure="chain speed lies in the band of a polygon resonance",
         scenes=RUNNING,
         loads=("resonance_distance",),
         sense=Sense.AT_LEAST,
@@ -107,7 +109,9 @@ def _blame_strength(spec: ChainDrive, scene: Run, loads: Loads) -> KeyPath:
 
 DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     code="CHN102",
-    title="too little chain strength in motion",
+    title="chain safety factor, steady running",
+    question="Is the breaking load high enough for the largest tension of steady running, polygon effect included?",
+    failure="chain is overloaded in steady running",
     scenes=RUNNING,
     loads=("safety_dynamic",),
     sense=Sense.AT_LEAST,
@@ -124,7 +128,9 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
 
 STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     code="CHN103",
-    title="too little chain strength at rest",
+    title="chain safety factor, static",
+    question="Is the breaking load high enough for the static and centrifugal tension?",
+    failure="chain is overloaded by the static tension",
     scenes=RUNNING,
     loads=("safety_static",),
     sense=Sense.AT_LEAST,
@@ -155,7 +161,9 @@ def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
 PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
     Check(
         code="CHN104",
-        title="too much pressure in the joints",
+        title="pin/bush bearing pressure",
+        question="Is the bearing pressure between pin and bush within the permissible value?",
+        failure="pin/bush bearing pressure is too high",
         scenes=RUNNING,
         loads=("joint_pressure",),
         sense=Sense.AT_MOST,
@@ -189,7 +197,10 @@ def _tension_key(spec: ChainDrive, scene: Run) -> KeyPath:
 
 SLACK: Check[ChainDrive, Run] = Check(
     code="CHN105",
-    title="a slack strand",
+    title="minimum chain tension, steady running",
+    question="Does every strand stay taut in steady running?",
+    failure="chain tension falls below its minimum",
+    limit_state=LimitState("chain goes slack", 0),
     scenes=RUNNING,
     loads=("tension_min",),
     sense=Sense.AT_LEAST,
@@ -226,7 +237,9 @@ def _life_needs(spec: ChainDrive, scene: Run) -> tuple[KeyPath, ...]:
 LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not None)(
     Check(
         code="CHN106",
-        title="too short a life of the chain by wear",
+        title="chain wear life",
+        question="Does the chain reach the required life before its permissible wear elongation?",
+        failure="chain wears out before its required life",
         scenes=RUNNING,
         loads=("life",),
         sense=Sense.AT_LEAST,
@@ -257,7 +270,9 @@ def _fatigue_limit(spec: ChainDrive, scene: Run) -> Estimate:
 FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
     Check(
         code="CHN107",
-        title="fatigue of the plates",
+        title="link plate fatigue utilisation",
+        question="Is the alternating stress of the link plates within the fatigue limit?",
+        failure="link plates exceed the fatigue limit",
         scenes=RUNNING,
         loads=("fatigue_utilisation",),
         sense=Sense.AT_MOST,
@@ -300,7 +315,9 @@ def _distance_repair(spec: ChainDrive, scene: Run) -> KeyPath:
 WRAP = only(_between_shafts)(
     Check(
         code="CHN108",
-        title="too little wrap of a sprocket",
+        title="wrap angle, smaller sprocket",
+        question="Is the wrap angle of the smaller sprocket large enough?",
+        failure="wrap angle of the smaller sprocket is too small",
         scenes=RUNNING,
         loads=("wrap",),
         sense=Sense.AT_LEAST,
@@ -335,7 +352,9 @@ def _small_sprocket(spec: ChainDrive, scene: Run, loads: Loads) -> KeyPath:
 
 TEETH: Check[ChainDrive, Run] = Check(
     code="CHN109",
-    title="too few teeth",
+    title="number of teeth, smaller sprocket",
+    question="Has the smaller sprocket enough teeth?",
+    failure="smaller sprocket has too few teeth",
     scenes=RUNNING,
     loads=("teeth_least",),
     sense=Sense.AT_LEAST,
@@ -363,7 +382,9 @@ def _ratio_limit(spec: ChainDrive, scene: Run) -> Estimate:
 RATIO = only(_between_shafts)(
     Check(
         code="CHN110",
-        title="too large a ratio for one chain",
+        title="transmission ratio of one chain",
+        question="Is the ratio z2/z1 within the range of a single chain drive?",
+        failure="ratio is too large for one chain",
         scenes=RUNNING,
         loads=("ratio",),
         sense=Sense.AT_MOST,
@@ -402,7 +423,9 @@ def _most_distance(spec: ChainDrive, scene: Run) -> Estimate:
 NEAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN111",
-        title="shafts too near for the chain",
+        title="minimum centre distance",
+        question="Is the centre distance long enough, in pitches?",
+        failure="centre distance is too short",
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_LEAST,
@@ -420,7 +443,9 @@ NEAR_SHAFTS = only(_between_shafts)(
 FAR_SHAFTS = only(_between_shafts)(
     Check(
         code="CHN112",
-        title="shafts too far apart for free strands",
+        title="maximum centre distance",
+        question="Is the centre distance short enough for unsupported strands?",
+        failure="centre distance is too long for unsupported strands",
         scenes=RUNNING,
         loads=("centre_distance_pitches",),
         sense=Sense.AT_MOST,
@@ -452,7 +477,9 @@ def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
 POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.layout.rated_power is not None)(
     Check(
         code="CHN113",
-        title="too weak a chain for its power",
+        title="design power of the chain",
+        question="Is the design power within the rated power of the chain?",
+        failure="design power exceeds the rated power of the chain",
         scenes=RUNNING,
         loads=("design_power",),
         sense=Sense.AT_MOST,

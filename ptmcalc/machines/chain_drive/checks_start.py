@@ -55,7 +55,9 @@ def _reserve_limit(spec: ChainDrive, scene: Start) -> Estimate:
 
 WEAK: Check[ChainDrive, Start] = Check(
     code="CHN120",
-    title="a drive too weak to start the chain",
+    title="starting force reserve",
+    question="Can the drive start the loaded chain?",
+    failure="starting force is below the required force",
     scenes=frozenset({Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
@@ -90,7 +92,9 @@ def _where_timed(spec: ChainDrive, scene: Start) -> Iterable[AnyCheck]:
 
 SLOW: Check[ChainDrive, Start] = Check(
     code="CHN121",
-    title="too slow a start of the chain",
+    title="chain starting time",
+    question="Does the chain reach full speed within the limit?",
+    failure="chain takes too long to start",
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
@@ -120,7 +124,9 @@ def _safety_limit(spec: ChainDrive, scene: Start) -> Estimate:
 
 STRENGTH: Check[ChainDrive, Start] = Check(
     code="CHN122",
-    title="too weak a chain for its start",
+    title="chain safety factor, starting",
+    question="Is the breaking load high enough for the peak tension of the start?",
+    failure="chain is overloaded during the start",
     scenes=frozenset({Start}),
     loads=("safety_start",),
     sense=Sense.AT_LEAST,
@@ -163,7 +169,9 @@ def _slack_limit(spec: ChainDrive, scene: Start) -> Estimate:
 
 SLACK: Check[ChainDrive, Start] = Check(
     code="CHN123",
-    title="a strand that goes slack in the start",
+    title="minimum chain tension, starting",
+    question="Does every strand stay taut during the start?",
+    failure="chain goes slack during the start",
     scenes=frozenset({Start}),
     loads=("tension_min",),
     sense=Sense.AT_LEAST,

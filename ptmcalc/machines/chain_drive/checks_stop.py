@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
@@ -71,7 +71,9 @@ def _where_limited(spec: ChainDrive, scene: Stopping, check: AnyCheck) -> Checks
 
 WAY: Check[ChainDrive, Stopping] = Check(
     code="CHN124",
-    title="too long a way of the chain to stop",
+    title="chain stopping distance",
+    question="Does the chain stop within the permissible distance?",
+    failure="chain stopping distance is too long",
     scenes=_BRAKED,
     loads=("stop_distance",),
     sense=Sense.AT_MOST,
@@ -106,7 +108,10 @@ def _where_timed(spec: ChainDrive, scene: Stopping) -> Checks:
 
 TIME: Check[ChainDrive, Stopping] = Check(
     code="CHN125",
-    title="a chain that does not stop in time",
+    title="chain stopping time",
+    question="Does the chain come to rest within the limit, or at all?",
+    failure="chain takes too long to stop",
+    limit_state=LimitState("chain does not stop"),
     scenes=_STOPS,
     loads=("stop_time",),
     sense=Sense.AT_MOST,
@@ -139,7 +144,9 @@ def _torque_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
 
 TORQUE: Check[ChainDrive, Stopping] = Check(
     code="CHN126",
-    title="too weak a brake for the way of the chain",
+    title="required brake torque",
+    question="Is the brake torque enough to stop within the permissible distance?",
+    failure="brake torque is too low for the stopping distance",
     scenes=_BRAKED,
     loads=("brake_torque_required",),
     sense=Sense.AT_MOST,
@@ -177,7 +184,9 @@ def _of_conveyors(spec: ChainDrive, scene: Stopping) -> Checks:
 
 SLACK: Check[ChainDrive, Stopping] = Check(
     code="CHN127",
-    title="a strand that goes slack in the stop",
+    title="minimum chain tension, stopping",
+    question="Does every strand stay taut until the chain is at rest?",
+    failure="chain goes slack during the stop",
     scenes=_STOPS,
     loads=("tension_min",),
     sense=Sense.AT_LEAST,
@@ -205,7 +214,9 @@ def _safety_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
 
 STRENGTH: Check[ChainDrive, ChainScene] = Check(
     code="CHN128",
-    title="too weak a chain for a stop or a change of speed",
+    title="chain safety factor, stop or speed change",
+    question="Is the breaking load high enough for the peak tension of a stop or a speed sweep?",
+    failure="chain is overloaded during the stop or speed change",
     scenes=_STOPS | {SpeedRange},
     loads=("safety_start",),
     sense=Sense.AT_LEAST,
@@ -254,7 +265,10 @@ def _hold_key(spec: ChainDrive) -> KeyPath:
 
 HELD: Check[ChainDrive, Hold] = Check(
     code="CHN129",
-    title="a chain that runs back",
+    title="chain rollback torque",
+    question="Is the rollback torque of the stopped loaded chain held by friction or the backstop?",
+    failure="rollback torque exceeds what the backstop may hold",
+    limit_state=LimitState("loaded chain runs back"),
     scenes=frozenset({Hold}),
     loads=("backstop_torque",),
     sense=Sense.AT_MOST,

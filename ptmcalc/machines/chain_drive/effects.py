@@ -162,14 +162,16 @@ def _towards(plain: float, truth: float) -> Interval:
 
 
 EFFECTS = (
-    Effect(POLYGON, "uneven pull of the sprocket's teeth", frozenset({Run}), polygon_criterion, polygon_bound),
+    Effect(
+        POLYGON, "polygon effect (chordal action) of the sprocket", frozenset({Run}), polygon_criterion, polygon_bound
+    ),
     Effect(
         FAR,
-        "uneven motion of the far end: run-off, driven tail or driven sprocket",
+        "polygon effect at the far end",
         frozenset({Run}),
         far_criterion,
         far_bound,
         part_of=POLYGON,
     ),
-    Effect(WEAK, "drive that gives way to the chain", frozenset({Run}), weak_criterion, weak_bound),
+    Effect(WEAK, "compliance of the drive against the chain", frozenset({Run}), weak_criterion, weak_bound),
 )

@@ -360,26 +360,26 @@ _STOPS: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})
 _TOOTHED: frozenset[type[Scene]] = frozenset((Start, SpeedRange))
 
 EFFECTS_OF_MOTION: tuple[AnyEffect, ...] = (
-    Effect("chain_elasticity", "elasticity of the chain", _STARTS | _STOPS, elastic_criterion, elastic_bound),
+    Effect("chain_elasticity", "chain elasticity", _STARTS | _STOPS, elastic_criterion, elastic_bound),
     Effect(
         "higher_modes",
-        "mass along the strands: higher modes",
+        "higher longitudinal modes of the strands",
         _STARTS,
         modes_criterion,
         modes_bound,
         part_of="chain_elasticity",
     ),
-    Effect("chain_sticking", "a load that sticks and slides", _STARTS, sticking_criterion, sticking_bound),
+    Effect("chain_sticking", "stick-slip of the load", _STARTS, sticking_criterion, sticking_bound),
     Effect(
         "tooth_passing",
-        "teeth that pass while the speed changes",
+        "polygon excitation during a speed change",
         _TOOTHED,
         teeth_criterion,
         teeth_bound,
     ),
     Effect(
         "takeup_weight",
-        "inertia of the chain's take-up weight",
+        "inertia of the take-up weight",
         _STARTS,
         weight_criterion,
         weight_bound,

@@ -183,7 +183,7 @@ def valid(spec: ChainDrive, scene: Run) -> Criterion | None:
 
 MESH: Solver[ChainDrive, Run] = Solver(
     name="mesh",
-    title="polygon effect by the modes of finite elements",
+    title="polygon effect, finite-element modes (reference)",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Run}),
     represents=frozenset({POLYGON, WEAK}),
@@ -314,7 +314,7 @@ def valid_harmonics(spec: ChainDrive, scene: Run) -> Criterion | None:
 
 MESH_HARMONICS: Solver[ChainDrive, Run] = Solver(
     name="mesh_harmonics",
-    title="polygon effect by the modes of finite elements, harmonic by harmonic of the teeth",
+    title="polygon effect, finite elements by harmonics (reference)",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Run}),
     represents=frozenset({POLYGON, FAR, WEAK}),

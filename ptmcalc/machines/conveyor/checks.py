@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, needs, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
@@ -142,7 +142,10 @@ def _blames_grip(path: KeyPath, drive: Drive) -> Callable[[Conveyor, ConveyorSce
 
 SLIP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV101",
-    title="belt slip at the drive drum",
+    title="drive pulley traction reserve",
+    question="Can every drive pulley transmit its force without belt slip?",
+    failure="traction reserve at the drive pulley is too small",
+    limit_state=LimitState("belt slips at the drive pulley", 1),
     scenes=_GRIPPING,
     loads=("slip_reserve_min", "slip_utilisation_max"),
     value=_slip_value,
@@ -164,7 +167,10 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
 
 STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     code="CNV102",
-    title="too little belt strength",
+    title="belt safety factor",
+    question="Is the belt breaking force high enough for the largest belt tension?",
+    failure="belt is overloaded",
+    limit_state=LimitState("belt breaks", 1),
     scenes=ANY_MOTION,
     loads=("belt_safety_min",),
     sense=Sense.AT_LEAST,
@@ -197,7 +203,9 @@ def _idler_pitches(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
 
 SAG: Check[Conveyor, Run] = Check(
     code="CNV103",
-    title="too much sag between the idlers",
+    title="belt sag between idlers, steady running",
+    question="Is the belt sag ratio within its limit in steady running?",
+    failure="belt sags too much between the idlers",
     scenes=frozenset({Run}),
     loads=("sag_relative_max",),
     sense=Sense.AT_MOST,
@@ -226,7 +234,9 @@ def _start_limit(spec: Conveyor, scene: Start) -> Estimate:
 
 START: Check[Conveyor, Start] = Check(
     code="CNV104",
-    title="a drive too weak to start",
+    title="starting force reserve",
+    question="Can the drives start the loaded belt?",
+    failure="starting force is below the required force",
     scenes=frozenset({Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
@@ -255,7 +265,9 @@ def _slack_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
 SLACK: Check[Conveyor, ConveyorScene] = Check(
     code="CNV105",
-    title="a slack belt",
+    title="belt tension above slack limit",
+    question="Does every belt section stay above the slack limit (10 % sag by default)?",
+    failure="belt tension falls below the slack limit",
     scenes=ANY_MOTION,
     loads=("slack_margin_min",),
     sense=Sense.AT_LEAST,
@@ -331,7 +343,9 @@ def _stop_repair(spec: Conveyor, scene: ConveyorScene) -> KeyPath:
 
 STOP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV106",
-    title="too long a way to stop",
+    title="belt stopping distance",
+    question="Does the belt at the head stop within the permissible distance?",
+    failure="belt stopping distance is too long",
     scenes=frozenset({Stop, EmergencyStop}),
     loads=("stop_distance_max",),
     sense=Sense.AT_MOST,
@@ -367,7 +381,10 @@ def _where_timed(spec: Conveyor, scene: ConveyorScene) -> Checks:
 
 STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     code="CNV107",
-    title="too long a time to stop",
+    title="belt stopping time",
+    question="Does the belt at the head come to rest within the limit, or at all?",
+    failure="belt takes too long to stop",
+    limit_state=LimitState("belt does not stop"),
     scenes=frozenset({Stop, EmergencyStop, Coast}),
     loads=("stop_time",),
     sense=Sense.AT_MOST,
@@ -399,7 +416,9 @@ def _brake_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
 BRAKE: Check[Conveyor, ConveyorScene] = Check(
     code="CNV108",
-    title="too little brake torque",
+    title="required brake torque",
+    question="Is the total brake torque enough to stop within the permissible distance?",
+    failure="brake torque is too low for the stopping distance",
     scenes=frozenset({Stop, EmergencyStop}),
     loads=("brake_torque_required",),
     sense=Sense.AT_MOST,
@@ -441,7 +460,10 @@ def _holding_key(spec: Conveyor) -> KeyPath:
 
 BACKSTOP: Check[Conveyor, Hold] = Check(
     code="CNV109",
-    title="a belt that runs back",
+    title="belt rollback torque",
+    question="Is the rollback torque of the stopped loaded belt held by friction or the backstop?",
+    failure="rollback torque exceeds what the backstop may hold",
+    limit_state=LimitState("loaded belt runs back"),
     scenes=frozenset({Hold}),
     loads=("backstop_torque",),
     sense=Sense.AT_MOST,
@@ -468,7 +490,9 @@ def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
 
 STROKE: Check[Conveyor, Run] = Check(
     code="CNV110",
-    title="too short a take-up",
+    title="required take-up travel",
+    question="Is the take-up travel enough for elastic and permanent belt elongation?",
+    failure="take-up travel is too short",
     scenes=frozenset({Run}),
     loads=("takeup_travel",),
     sense=Sense.AT_MOST,
@@ -507,7 +531,9 @@ def _heat_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
 
 HEAT: Check[Conveyor, ConveyorScene] = Check(
     code="CNV111",
-    title="too much heat of slip",
+    title="slip heat at the drive pulley",
+    question="Is the frictional heat of belt slip within the limit of the pulley?",
+    failure="belt slip heats the drive pulley too much",
     scenes=IN_MOTION - {Jam},
     loads=("slip_heat",),
     sense=Sense.AT_MOST,

@@ -65,7 +65,9 @@ def _exactly(limit: float) -> Callable[[Conveyor, Start], Estimate]:
 
 MOTOR_HEAT: Check[Conveyor, Start] = Check(
     code="CNV117",
-    title="an overheated rotor in the start",
+    title="rotor heat per start",
+    question="Is the rotor heat of a start within the data-sheet value?",
+    failure="rotor heat of the start exceeds the data-sheet value",
     scenes=frozenset({Start}),
     loads=("motor_start_heat",),
     sense=Sense.AT_MOST,
@@ -112,7 +114,9 @@ def _sharp_repair(spec: Conveyor, scene: Start) -> KeyPath:
 
 SHARP: Check[Conveyor, Start] = Check(
     code="CNV118",
-    title="too sharp a start",
+    title="belt starting acceleration",
+    question="Is the acceleration of the start within its limit?",
+    failure="start is too fast",
     scenes=frozenset({Start}),
     loads=("acceleration_rigid",),
     sense=Sense.AT_MOST,
@@ -148,7 +152,9 @@ def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
 
 RESIDUAL: Check[Conveyor, Start] = Check(
     code="CNV119",
-    title="a start in step with the belt",
+    title="residual belt oscillation after start",
+    question="Does the start profile leave little oscillation in the first belt mode?",
+    failure="start profile excites the first belt mode",
     scenes=frozenset({Start}),
     loads=("start_residual",),
     sense=Sense.AT_MOST,
@@ -181,7 +187,9 @@ def _band_checks(spec: Conveyor, scene: Start) -> Checks:
 
 RESONANCE: Check[Conveyor, Start] = Check(
     code="CNV120",
-    title="a drive that pulsates with the belt",
+    title="drive ripple separation from belt modes",
+    question="Is the drive torque ripple far enough from the three lowest belt modes?",
+    failure="drive ripple is close to a belt natural frequency",
     scenes=frozenset({Start}),
     loads=("resonance_distance",),
     sense=Sense.AT_LEAST,

@@ -41,7 +41,9 @@ def _fill_checks(spec: Conveyor, scene: Run) -> Checks:
 
 FILL: Check[Conveyor, Run] = Check(
     code="CNV112",
-    title="an overfull belt",
+    title="belt filling ratio",
+    question="Does the load cross-section carry the mass flow at the steepest section?",
+    failure="belt is overfilled",
     scenes=frozenset({Run}),
     loads=("section_fill",),
     sense=Sense.AT_MOST,
@@ -83,7 +85,9 @@ def _given(limit: float) -> Callable[[Conveyor, ConveyorScene], Estimate]:
 
 DRUM: Check[Conveyor, Run] = Check(
     code="CNV113",
-    title="too small a drum for the belt",
+    title="required drive pulley diameter",
+    question="Is every drive pulley large enough for the belt carcass?",
+    failure="drive pulley is too small for the belt",
     scenes=frozenset({Run}),
     loads=("drum_diameter_required",),
     sense=Sense.AT_MOST,
@@ -168,7 +172,9 @@ _FIBRES = (
 
 FIBRE: Check[Conveyor, Run] = Check(
     code="CNV114",
-    title="an overstretched edge or middle of the belt",
+    title="maximum belt fibre tension",
+    question="Is the tension of edge and centre within its limit in transitions and vertical curves?",
+    failure="belt edge or centre is overstressed",
     scenes=frozenset({Run}),
     loads=("fibre_tension_max",),
     sense=Sense.AT_MOST,
@@ -186,7 +192,9 @@ FIBRE: Check[Conveyor, Run] = Check(
 
 PRESSED: Check[Conveyor, Run] = Check(
     code="CNV115",
-    title="a belt that folds across its width",
+    title="minimum belt fibre tension",
+    question="Do edge and centre stay in tension in transitions and vertical curves?",
+    failure="belt edge or centre buckles",
     scenes=frozenset({Run}),
     loads=("fibre_tension_min",),
     sense=Sense.AT_LEAST,
@@ -231,7 +239,9 @@ def _lift_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
 
 LIFT: Check[Conveyor, ConveyorScene] = Check(
     code="CNV116",
-    title="a belt that lifts off in a hollow",
+    title="belt tension in concave curves",
+    question="Does the empty belt stay on its idlers in every concave curve?",
+    failure="belt lifts off its idlers in a concave curve",
     scenes=(IN_MOTION | {Run}) - {Jam},
     loads=("tension_curve_max",),
     sense=Sense.AT_MOST,

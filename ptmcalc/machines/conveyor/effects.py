@@ -682,10 +682,10 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
 
 EFFECTS = (
-    Effect("belt_wave", "belt elasticity: waves", IN_MOTION, wave_criterion, wave_bound),
+    Effect("belt_wave", "belt elasticity (longitudinal waves)", IN_MOTION, wave_criterion, wave_bound),
     Effect(
         "tail_jump",
-        "impedance jump at the tail",
+        "wave reflection at the tail pulley",
         IN_MOTION,
         jump_criterion,
         jump_bound,
@@ -694,7 +694,7 @@ EFFECTS = (
     ),
     Effect(
         "tail_mass",
-        "mass of the tail drum",
+        "mass of the tail pulley",
         IN_MOTION,
         tail_mass_criterion,
         tail_mass_bound,
@@ -703,7 +703,7 @@ EFFECTS = (
     ),
     Effect(
         "sag",
-        "sag of the belt between idlers",
+        "belt sag between idlers",
         IN_MOTION,
         sag_criterion,
         sag_bound,
@@ -712,7 +712,7 @@ EFFECTS = (
     ),
     Effect(
         "coulomb_idlers",
-        "idlers that stick and slide",
+        "stick-slip of the belt on the idlers",
         IN_MOTION,
         coulomb_criterion,
         coulomb_bound,
@@ -730,7 +730,7 @@ EFFECTS = (
     ),
     Effect(
         "viscous_idlers",
-        "resistance that goes with the speed",
+        "speed-dependent resistance",
         IN_MOTION,
         speed_criterion,
         speed_bound,
@@ -739,7 +739,7 @@ EFFECTS = (
     ),
     Effect(
         "belt_damping",
-        "damping in the belt",
+        "internal damping of the belt",
         IN_MOTION,
         damping_criterion,
         damping_bound,
@@ -748,14 +748,14 @@ EFFECTS = (
     ),
     Effect(
         "moving_belt",
-        "waves that go along with the belt",
+        "convection of waves by the moving belt",
         IN_MOTION,
         travel_criterion,
         travel_bound,
         part_of="belt_wave",
         calibrated=True,
     ),
-    Effect("slip", "slip at the drive drums", IN_MOTION, slip_criterion, slip_bound),
+    Effect("slip", "belt slip at the drive pulleys", IN_MOTION, slip_criterion, slip_bound),
     Effect(
         "gear_losses",
         "side of the gear losses during a stop",

@@ -19,9 +19,9 @@ from ptmcalc.machines.conveyor.moving import Moving, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
 
 START_LOADS = (
-    LoadInfo("motor_start_heat", "heat of a rotor in the start", units.ENERGY, headline=False),
-    LoadInfo("resonance_distance", "pulsation from the nearest frequency of the belt", units.SHARE, headline=False),
-    LoadInfo("start_residual", "swing that the profile leaves in the lowest mode", units.RATIO, headline=False),
+    LoadInfo("motor_start_heat", "rotor heat per start, one motor", units.ENERGY, headline=False),
+    LoadInfo("resonance_distance", "drive ripple separation from belt modes", units.SHARE, headline=False),
+    LoadInfo("start_residual", "residual first-mode oscillation (step = 1)", units.RATIO, headline=False),
 )
 """Loads of a start besides those of `loads.LOADS`."""
 

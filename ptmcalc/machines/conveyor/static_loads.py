@@ -19,15 +19,15 @@ from ptmcalc.machines.conveyor.spec import Conveyor, Run
 from ptmcalc.numerics.lanes import number, value
 
 STATIC_LOADS = (
-    LoadInfo("power_motor_empty", "power at the motors, empty", units.POWER, headline=False),
-    LoadInfo("section_fill", "stream over what the cross-section holds", units.SHARE, headline=False),
-    LoadInfo("capacity_max", "stream the cross-section holds", units.FLOW, headline=False),
-    LoadInfo("drum_diameter_required", "drum the belt asks for", units.LENGTH, headline=False),
-    LoadInfo("sag_carry", "sag over idler pitch, carry strand", units.SHARE, headline=False),
-    LoadInfo("sag_return", "sag over idler pitch, return strand", units.SHARE, headline=False),
-    LoadInfo("tension_curve_max", "belt tension in a hollow, largest", units.FORCE, headline=False),
-    LoadInfo("fibre_tension_max", "tension of the tightest fibre", units.LINE_FORCE, headline=False),
-    LoadInfo("fibre_tension_min", "tension of the slackest fibre", units.LINE_FORCE, headline=False),
+    LoadInfo("power_motor_empty", "power at motor shafts, empty belt", units.POWER, headline=False),
+    LoadInfo("section_fill", "filling ratio (mass flow/capacity)", units.SHARE, headline=False),
+    LoadInfo("capacity_max", "mass flow capacity of belt section", units.FLOW, headline=False),
+    LoadInfo("drum_diameter_required", "minimum drive pulley diameter of the belt", units.LENGTH, headline=False),
+    LoadInfo("sag_carry", "belt sag ratio h/a, carrying strand", units.SHARE, headline=False),
+    LoadInfo("sag_return", "belt sag ratio h/a, return strand", units.SHARE, headline=False),
+    LoadInfo("tension_curve_max", "belt tension in concave curve, maximum", units.FORCE, headline=False),
+    LoadInfo("fibre_tension_max", "belt fibre tension per width, maximum", units.LINE_FORCE, headline=False),
+    LoadInfo("fibre_tension_min", "belt fibre tension per width, minimum", units.LINE_FORCE, headline=False),
 )
 """Loads besides those of `loads.LOADS`, the most of them once for each part of the machine."""
 

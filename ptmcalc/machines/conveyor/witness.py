@@ -299,7 +299,7 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
 
 ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(
     name="elements",
-    title="the whole belt in finite elements: drives, brakes, idlers that stick and slide",
+    title="finite elements, whole belt (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=IN_MOTION,
     represents=frozenset(

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, no_repair
 from ptmcalc.machines.drivetrain.model import case_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
 from ptmcalc.spec.scene import Scene
@@ -53,7 +53,9 @@ def _torque_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 TORQUE: AnyCheck = Check(
     code="DRV101",
-    title="too much torque in a link",
+    title="peak link torque",
+    question="Is the peak torque or force of every rated link within its limit?",
+    failure="link is overloaded",
     scenes=ALL,
     loads=("torque_peak",),
     sense=Sense.AT_MOST,
@@ -98,7 +100,10 @@ def _motor_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estima
 
 START: Check[Drivetrain, Start] = Check(
     code="DRV102",
-    title="a start that takes too long",
+    title="starting time",
+    question="Does the shaft considered reach its speed within the limit?",
+    failure="start takes too long",
+    limit_state=LimitState("target speed is not reached"),
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
@@ -135,7 +140,10 @@ def _brake_torque(spec: Drivetrain, scene: TrainScene) -> KeyPath:
 
 STOP: Check[Drivetrain, Stop] = Check(
     code="DRV103",
-    title="a stop that takes too long",
+    title="stopping time",
+    question="Does the shaft considered come to rest within the limit, and stay at rest?",
+    failure="stop takes too long",
+    limit_state=LimitState("shaft does not stay at rest"),
     scenes=frozenset({Stop}),
     loads=("stop_time",),
     sense=Sense.AT_MOST,
@@ -165,7 +173,9 @@ def _whole(spec: Drivetrain, scene: Start) -> Estimate:
 
 REACHES: Check[Drivetrain, Start] = Check(
     code="DRV109",
-    title="share of the target speed reached",
+    title="speed ratio reached in the start",
+    question="Does the watched shaft reach its target speed?",
+    failure="target speed is not reached",
     scenes=frozenset({Start}),
     loads=("start_share",),
     sense=Sense.AT_LEAST,
@@ -192,7 +202,9 @@ def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
 
 RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
-    title="speed left after the stop",
+    title="speed after the stop",
+    question="Does the watched shaft come to rest and stay at rest?",
+    failure="shaft does not stay at rest",
     scenes=frozenset({Stop}),
     loads=("stop_speed_share",),
     sense=Sense.AT_MOST,
@@ -224,7 +236,9 @@ def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Sto
 
 WAY: Check[Drivetrain, Stop] = Check(
     code="DRV104",
-    title="a stop that takes too much way",
+    title="stopping angle or distance",
+    question="Is the travel from stop command to rest within the limit?",
+    failure="stopping travel is too long",
     scenes=frozenset({Stop}),
     loads=("stop_angle",),
     sense=Sense.AT_MOST,
@@ -266,7 +280,9 @@ def _heating_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 HEATING: AnyCheck = Check(
     code="DRV105",
-    title="a motor that gets too hot",
+    title="motor rms torque",
+    question="Is the rms torque of the cycle within the rated torque?",
+    failure="motor is thermally overloaded",
     scenes=RUNNING,
     loads=("motor_torque_rms",),
     sense=Sense.AT_MOST,
@@ -302,7 +318,9 @@ def _overload_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 OVERLOAD: AnyCheck = Check(
     code="DRV106",
-    title="a motor beyond its overload limit",
+    title="motor peak torque",
+    question="Is the peak motor torque within its overload limit?",
+    failure="motor exceeds its overload limit",
     scenes=DRIVEN,
     loads=("motor_torque_peak",),
     sense=Sense.AT_MOST,
@@ -341,7 +359,9 @@ def _resonance_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]
 
 RESONANCE: AnyCheck = Check(
     code="DRV107",
-    title="an excitation near resonance",
+    title="excitation separation from resonance",
+    question="Are all excitation frequencies far enough from the natural frequencies?",
+    failure="excitation is close to a natural frequency",
     scenes=RUNNING,
     loads=("resonance_separation",),
     sense=Sense.AT_LEAST,
@@ -377,7 +397,9 @@ def _wear_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 WEAR: AnyCheck = Check(
     code="DRV108",
-    title="a gear worn out",
+    title="gear tooth wear",
+    question="Is the tooth wear within the permissible share of the tooth thickness?",
+    failure="gear teeth are worn beyond the limit",
     scenes=ALL,
     loads=("wear_share",),
     sense=Sense.AT_MOST,

@@ -88,14 +88,14 @@ def backlash_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping
 
 ELASTICITY: Effect[Drivetrain, TrainScene] = Effect(
     name="elasticity",
-    title="elastic links",
+    title="elasticity of the links",
     scenes=frozenset({Run, Start, Stop}),
     criterion=elasticity_criterion,
     bound=elasticity_bound,
 )
 BACKLASH: Effect[Drivetrain, TrainScene] = Effect(
     name="backlash",
-    title="play in gears and couplings",
+    title="backlash in gears and couplings",
     scenes=frozenset({Run, Start, Stop}),
     criterion=backlash_criterion,
     bound=backlash_bound,

@@ -100,7 +100,7 @@ def valid(spec: Drivetrain, scene: TrainScene) -> Criterion | None:
 
 DORMAND_PRINCE: Solver[Drivetrain, TrainScene] = Solver(
     name="dormand_prince",
-    title="elastic links with play, by Runge-Kutta steps from event to event",
+    title="elastic train with backlash, DOP853 (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset({"elasticity", "backlash"}),

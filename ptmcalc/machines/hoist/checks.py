@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
@@ -64,7 +64,9 @@ def _safety_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
 ROPE: OneCheck = only(loaded)(
     Check(
         code="HST101",
-        title="too little rope strength",
+        title="rope safety factor Z_p",
+        question="Is the rope breaking force high enough for the largest steady rope pull?",
+        failure="rope safety factor is too low",
         scenes=RUNNING,
         loads=("rope_safety",),
         sense=Sense.AT_LEAST,
@@ -94,7 +96,9 @@ def _drum_limit(spec: Hoist, scene: Run) -> Estimate:
 DRUM_BEND: OneCheck = only(loaded)(
     Check(
         code="HST102",
-        title="a drum too small for its rope",
+        title="drum ratio D/d (h1)",
+        question="Is the drum large enough for the rope?",
+        failure="drum is too small for the rope",
         scenes=RUNNING,
         loads=("drum_ratio",),
         sense=Sense.AT_LEAST,
@@ -127,7 +131,9 @@ def _has_sheaves(spec: Hoist, scene: HoistScene) -> bool:
 SHEAVE_BEND: OneCheck = only(_has_sheaves)(
     Check(
         code="HST103",
-        title="sheaves too small for the rope",
+        title="sheave ratio D/d (h2)",
+        question="Are the sheaves large enough for the rope?",
+        failure="sheaves are too small for the rope",
         scenes=RUNNING,
         loads=("sheave_ratio",),
         sense=Sense.AT_LEAST,
@@ -160,7 +166,9 @@ def _has_equaliser(spec: Hoist, scene: HoistScene) -> bool:
 EQUALISER_BEND: OneCheck = only(_has_equaliser)(
     Check(
         code="HST104",
-        title="an equalising sheave too small for the rope",
+        title="equalising sheave ratio D/d (h3)",
+        question="Is the equalising sheave large enough for the rope?",
+        failure="equalising sheave is too small for the rope",
         scenes=RUNNING,
         loads=("equaliser_ratio",),
         sense=Sense.AT_LEAST,
@@ -189,7 +197,10 @@ def _slack_limit(spec: Hoist, scene: Run) -> Estimate:
 SLACK: OneCheck = only(lambda spec, scene: spec.hook_block > 0)(
     Check(
         code="HST105",
-        title="a hook block too light to come down empty",
+        title="minimum fall tension, empty hook",
+        question="Does the empty hook block keep every fall taut while lowering?",
+        failure="empty hook block leaves a fall without tension",
+        limit_state=LimitState("rope goes slack", 0),
         scenes=RUNNING,
         loads=("rope_pull_empty",),
         sense=Sense.AT_LEAST,
@@ -225,7 +236,9 @@ def _use_wanted(spec: Hoist, scene: HoistScene) -> bool:
 USE: OneCheck = only(_use_wanted)(
     Check(
         code="HST113",
-        title="a mechanism classed too low for its use",
+        title="required mechanism group",
+        question="Is the group required by hours and load spectrum covered by the declared group?",
+        failure="duty requires a higher mechanism group than declared",
         scenes=RUNNING,
         loads=("mechanism_group",),
         sense=Sense.AT_MOST,

@@ -5,7 +5,7 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import number_at
-from ptmcalc.contract.check import AnyCheck, Check, Sense, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
 from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded
@@ -53,7 +53,10 @@ def _raised(spec: Hoist, scene: HoistScene) -> bool:
 WEAK: OneCheck = only(_raised)(
     Check(
         code="HST114",
-        title="a motor too weak to lift the load",
+        title="starting torque reserve, lower limit",
+        question="Does the mean starting torque exceed the load torque with reserve?",
+        failure="starting torque reserve is too small",
+        limit_state=LimitState("hoist motor stalls", 1),
         scenes=frozenset({Run, Start}),
         loads=("starting_reserve",),
         sense=Sense.AT_LEAST,
@@ -83,7 +86,9 @@ def _excess_limit(spec: Hoist, scene: Run) -> Estimate:
 EXCESS: OneCheck = only(_driven)(
     Check(
         code="HST115",
-        title="a motor far too strong for the load",
+        title="starting torque reserve, upper limit",
+        question="Is the mean starting torque within its upper limit?",
+        failure="starting torque is too high for the load",
         scenes=RUNNING,
         loads=("starting_reserve",),
         sense=Sense.AT_MOST,
@@ -121,7 +126,9 @@ def _rating(spec: Hoist, scene: Run) -> KeyPath:
 HEATING: OneCheck = only(_on_duty)(
     Check(
         code="HST116",
-        title="a motor that gets too hot",
+        title="hoist motor thermal utilisation",
+        question="Is the rms torque within the permissible torque at this duty factor?",
+        failure="hoist motor is thermally overloaded",
         scenes=RUNNING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
@@ -156,7 +163,9 @@ def _starts_wanted(spec: Hoist, scene: HoistScene) -> bool:
 STARTS: OneCheck = only(_starts_wanted)(
     Check(
         code="HST117",
-        title="too many starts of the motor",
+        title="hoist motor starts per hour",
+        question="Is the number of starts per hour within the motor rating?",
+        failure="hoist motor starts too often",
         scenes=RUNNING,
         loads=("starts_per_hour",),
         sense=Sense.AT_MOST,
@@ -200,7 +209,10 @@ def _brake_key(spec: Hoist, scene: Run, loads: Loads) -> KeyPath:
 BRAKE: OneCheck = only(_brake_wanted)(
     Check(
         code="HST118",
-        title="a brake too weak to hold the load",
+        title="hoist brake holding torque reserve",
+        question="Does the brake torque exceed the load torque with the required reserve?",
+        failure="holding torque reserve of the brake is too small",
+        limit_state=LimitState("load drops with the brake applied", 1),
         scenes=frozenset({Run, Stop, LowerBrake}),
         loads=("brake_reserve_static",),
         sense=Sense.AT_LEAST,
@@ -236,7 +248,9 @@ def _heat_wanted(spec: Hoist, scene: HoistScene) -> bool:
 START_HEAT: OneCheck = only(_heat_wanted)(
     Check(
         code="HST119",
-        title="too much heat of a start in the rotor",
+        title="rotor heat per hoist start",
+        question="Is the rotor heat of a start within the data-sheet value?",
+        failure="rotor heat of the start exceeds the data-sheet value",
         scenes=RUNNING,
         loads=("start_heat",),
         sense=Sense.AT_MOST,

@@ -26,7 +26,9 @@ def _room(spec: Hoist, scene: Run) -> Estimate:
 CAPACITY: OneCheck = only(loaded)(
     Check(
         code="HST106",
-        title="too little room for the rope on the drum",
+        title="required drum length",
+        question="Does the drum take the whole rope in the specified layers?",
+        failure="drum is too short for the rope",
         scenes=RUNNING,
         loads=("drum_length_required",),
         sense=Sense.AT_MOST,
@@ -59,7 +61,9 @@ def _layers_limit(spec: Hoist, scene: Run) -> Estimate:
 LAYERS: OneCheck = only(loaded)(
     Check(
         code="HST107",
-        title="more layers of rope than allowed",
+        title="number of rope layers",
+        question="Is the number of rope layers within its limit?",
+        failure="drum carries too many rope layers",
         scenes=RUNNING,
         loads=("drum_layers",),
         sense=Sense.AT_MOST,
@@ -88,7 +92,9 @@ def _flange_limit(spec: Hoist, scene: Run) -> Estimate:
 FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.flange_height is not None)(
     Check(
         code="HST108",
-        title="a flange too low for the rope",
+        title="flange height above the top layer",
+        question="Do the flanges stand high enough above the top rope layer?",
+        failure="drum flanges are too low",
         scenes=RUNNING,
         loads=("flange_margin",),
         sense=Sense.AT_LEAST,
@@ -117,7 +123,9 @@ def _slender_limit(spec: Hoist, scene: Run) -> Estimate:
 SLENDER: OneCheck = only(loaded)(
     Check(
         code="HST109",
-        title="a drum too slender",
+        title="drum slenderness L/D",
+        question="Is the drum short enough for its diameter?",
+        failure="drum is too slender",
         scenes=RUNNING,
         loads=("drum_slenderness",),
         sense=Sense.AT_MOST,
@@ -147,7 +155,9 @@ def _wraps_limit(spec: Hoist, scene: Run) -> Estimate:
 DEAD_WRAPS: OneCheck = only(loaded)(
     Check(
         code="HST110",
-        title="too few turns that stay on the drum",
+        title="dead wraps on the drum",
+        question="Do enough wraps stay on the drum at the lowest hook position?",
+        failure="too few dead wraps stay on the drum",
         scenes=RUNNING,
         loads=("dead_wraps",),
         sense=Sense.AT_LEAST,
@@ -187,7 +197,9 @@ def _fleet_wanted(spec: Hoist, scene: HoistScene) -> bool:
 FLEET: OneCheck = only(_fleet_wanted)(
     Check(
         code="HST111",
-        title="too large a fleet angle at the drum",
+        title="fleet angle at the drum",
+        question="Is the fleet angle within its limit?",
+        failure="fleet angle is too large",
         scenes=RUNNING,
         loads=("fleet_angle",),
         sense=Sense.AT_MOST,
@@ -229,7 +241,9 @@ def _hoop_wanted(spec: Hoist, scene: HoistScene) -> bool:
 HOOP: OneCheck = only(_hoop_wanted)(
     Check(
         code="HST112",
-        title="too much hoop stress in the drum shell",
+        title="drum shell hoop stress",
+        question="Is the hoop stress of the drum shell within its limit?",
+        failure="drum shell is overstressed",
         scenes=RUNNING,
         loads=("hoop_stress",),
         sense=Sense.AT_MOST,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import number_at
-from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair
 from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.moving import Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
@@ -55,7 +55,9 @@ def _where_lifted(spec: Hoist, scene: Lift) -> Iterable[AnyCheck]:
 
 LIFT_OFF: Check[Hoist, Lift] = Check(
     code="HST120",
-    title="too hard a lift-off",
+    title="lift-off dynamic factor",
+    question="Is the dynamic factor of lifting off the ground within phi2 or the given limit?",
+    failure="dynamic factor at lift-off is too high",
     scenes=_LIFT,
     loads=("lift_off_factor",),
     sense=Sense.AT_MOST,
@@ -99,7 +101,9 @@ def _where_to_lift(spec: Hoist, scene: Lift) -> Iterable[AnyCheck]:
 
 STALL: Check[Hoist, Lift] = Check(
     code="HST121",
-    title="a motor that cannot lift the load",
+    title="time to load lift-off",
+    question="Does the drive lift the load off the ground at all?",
+    failure="motor stalls and the load stays on the ground",
     scenes=_LIFT,
     loads=("lift_off_time",),
     sense=Sense.AT_MOST,
@@ -149,7 +153,10 @@ def _where_lowering(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
 
 WAY: Check[Hoist, Stop] = Check(
     code="HST122",
-    title="too long a way of a lowered load to its stop",
+    title="lowering stopping distance",
+    question="Does the brake stop the lowered load within the permissible distance, above the ground?",
+    failure="load drops too far before it stops",
+    limit_state=LimitState("brake does not stop the load"),
     scenes=_BRAKED,
     loads=("stop_distance_lowering",),
     sense=Sense.AT_MOST,
@@ -184,7 +191,9 @@ def _where_hard(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
 
 HARD: Check[Hoist, Moving] = Check(
     code="HST123",
-    title="too hard a start or stop of the hanging load",
+    title="dynamic factor, start or stop",
+    question="Is the dynamic factor of starting or stopping the suspended load within its limit?",
+    failure="dynamic factor of the start or stop is too high",
     scenes=_HANGING,
     loads=("lowering_brake_factor",),
     sense=Sense.AT_MOST,
@@ -212,7 +221,10 @@ def _slack_limit(spec: Hoist, scene: Moving) -> Estimate:
 
 SLACK: Check[Hoist, Moving] = Check(
     code="HST124",
-    title="a slack rope",
+    title="minimum rope force ratio",
+    question="Does the rope stay taut while the suspended load starts or stops?",
+    failure="rope force falls below its minimum",
+    limit_state=LimitState("rope goes slack", 0),
     scenes=_HANGING,
     loads=("rope_force_share",),
     sense=Sense.AT_LEAST,
@@ -245,7 +257,10 @@ def _share_key(spec: Hoist, scene: Release) -> KeyPath:
 
 SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     code="HST126",
-    title="rope force after a release of the load",
+    title="rope force ratio after load release",
+    question="Does the rope stay taut when part of the load is released?",
+    failure="rope force after the release falls below its limit",
+    limit_state=LimitState("rope goes slack", 0),
     scenes=frozenset({Release}),
     loads=("rope_force_min",),
     sense=Sense.AT_LEAST,
@@ -277,7 +292,9 @@ def _where_play(spec: Hoist, scene: Moving) -> Iterable[AnyCheck]:
 
 IMPACT: Check[Hoist, Moving] = Check(
     code="HST125",
-    title="too hard a blow through the gear's play",
+    title="gear dynamic torque factor",
+    question="Is the peak gear torque, backlash impacts included, within its factor on the steady torque?",
+    failure="gear torque peak is too high",
     scenes=_LIFT | _HANGING,
     loads=("gear_impact_factor",),
     sense=Sense.AT_MOST,

@@ -34,7 +34,9 @@ def _least_detuning(spec: Hoist, scene: WindUp) -> Estimate:
 
 WINDING_STRESS: Check[Hoist, WindUp] = Check(
     code="HST140",
-    title="too much dynamic stress as the rope climbs a layer",
+    title="dynamic rope stress ratio, layer change",
+    question="Is the dynamic rope stress of a layer change within its limit?",
+    failure="layer change stresses the rope too much",
     scenes=WINDING,
     loads=("winding_stress_ratio",),
     sense=Sense.AT_MOST,
@@ -50,7 +52,9 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
 )
 CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
     code="HST141",
-    title="a resonance of the load with the rope's crossovers",
+    title="crossover separation from load resonance",
+    question="Is the crossover frequency far enough from the load's natural frequency?",
+    failure="rope crossovers excite the suspended load",
     scenes=WINDING,
     loads=("winding_detuning",),
     sense=Sense.AT_LEAST,

@@ -122,13 +122,13 @@ def place_of_the_climb(spec: Hoist, scene: WindUp) -> tuple[Finding, ...]:
     heights = model.layer_heights(spec)
     if scene.hook_height is not None or (scene.layer <= len(heights) and heights[scene.layer - 1] <= 0):
         return ()
-    takes = f"scene `{scene.label}` takes the hook at its lowest, where the rope is longest;"
+    assumes = f"scene `{scene.label}` assumes the lowest hook position (longest rope);"
     if scene.layer > len(heights):
-        message = f"{takes} on this drum it never climbs to layer {scene.layer}"
+        message = f"{assumes} the rope never reaches layer {scene.layer} on this drum"
         hint = f"write `layer: {len(heights)}`" if len(heights) > 1 else "delete the scene"
         return (Finding("NUM104", message, ("scenes",), hint),)
     said = units.show(heights[scene.layer - 1], units.SPAN)
-    message = f"{takes} on this drum it climbs to layer {scene.layer} with the hook at {said}"
+    message = f"{assumes} layer {scene.layer} starts at hook height {said}"
     return (Finding("NUM104", message, ("scenes",), f"write `hook_height: {said}`"),)
 
 

@@ -115,10 +115,10 @@ def drive_criterion(spec: Hoist, scene: Moving) -> Criterion:
 
 
 ROPE_ELASTICITY: Effect[Hoist, Moving] = Effect(
-    "rope_elasticity", "elastic rope", SCENES, rope_criterion, anything_bound
+    "rope_elasticity", "rope elasticity", SCENES, rope_criterion, anything_bound
 )
 DRIVE_MOTION: Effect[Hoist, Moving] = Effect(
-    "drive_motion", "mass and torque of the drive", SCENES, drive_criterion, anything_bound
+    "drive_motion", "inertia and torque limit of the drive", SCENES, drive_criterion, anything_bound
 )
 
 # -- structure ------------------------------------------------------------------------------------------------------
@@ -153,7 +153,7 @@ def structure_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
 
 
 STRUCTURE: Effect[Hoist, Moving] = Effect(
-    "structure", "structure that gives and has mass", SCENES, structure_criterion, structure_bound
+    "structure", "flexibility and mass of the supporting structure", SCENES, structure_criterion, structure_bound
 )
 
 # -- gear -----------------------------------------------------------------------------------------------------------
@@ -185,7 +185,9 @@ def gear_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
     return _anything(loads) if elastic else {}
 
 
-GEAR_ELASTICITY: Effect[Hoist, Moving] = Effect("gear_elasticity", "elastic gear", SCENES, gear_criterion, gear_bound)
+GEAR_ELASTICITY: Effect[Hoist, Moving] = Effect(
+    "gear_elasticity", "gear elasticity", SCENES, gear_criterion, gear_bound
+)
 
 
 def backlash_criterion(spec: Hoist, scene: Moving) -> Criterion:
@@ -220,7 +222,7 @@ def backlash_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
 
 
 BACKLASH: Effect[Hoist, Moving] = Effect(
-    "gear_backlash", "play of the gear", SCENES, backlash_criterion, backlash_bound, part_of="gear_elasticity"
+    "gear_backlash", "gear backlash", SCENES, backlash_criterion, backlash_bound, part_of="gear_elasticity"
 )
 
 # -- rope mass ------------------------------------------------------------------------------------------------------
@@ -316,7 +318,7 @@ def _relative(one: Estimate, share: float) -> Interval:
 
 
 ROPE_MASS: Effect[Hoist, Moving] = Effect(
-    "rope_mass", "mass of the hanging rope", SCENES, rope_mass_criterion, rope_mass_bound, calibrated=True
+    "rope_mass", "mass of the suspended rope", SCENES, rope_mass_criterion, rope_mass_bound, calibrated=True
 )
 
 # -- rope that gets shorter -----------------------------------------------------------------------------------------
@@ -419,7 +421,7 @@ def shortening_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
 
 ROPE_SHORTENING: Effect[Hoist, Moving] = Effect(
     "rope_shortening",
-    "rope that gets shorter or longer",
+    "rope length change during the scene",
     SCENES,
     shortening_criterion,
     shortening_bound,

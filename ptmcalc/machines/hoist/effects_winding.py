@@ -54,7 +54,7 @@ def layer_map_bound(spec: Hoist, scene: WindUp, loads: Mapping[str, Estimate]) -
 
 LAYER_MAP: Effect[Hoist, WindUp] = Effect(
     name="layer_map",
-    title="climb and crossovers of the layer",
+    title="layer change and crossovers of the rope",
     scenes=frozenset({WindUp}),
     criterion=layer_map_criterion,
     bound=layer_map_bound,

@@ -257,7 +257,7 @@ def valid_chain(spec: Hoist, scene: Moving) -> Criterion | None:
 
 DORMAND_PRINCE: Solver[Hoist, Moving] = Solver(
     name="dormand_prince",
-    title="motor, gear with play, drum, rope, load and structure, by Runge-Kutta steps from event to event",
+    title="full hoist train, DOP853 (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=SCENES,
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash"},
@@ -272,7 +272,7 @@ DORMAND_PRINCE: Solver[Hoist, Moving] = Solver(
 ROPE_CHAIN: Solver[Hoist, Moving] = replace(
     DORMAND_PRINCE,
     name="rope_chain",
-    title="the same with the rope a chain of masses",
+    title="full hoist train with a lumped-mass rope (reference)",
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_mass"},
     run=run_chain,

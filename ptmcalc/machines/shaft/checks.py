@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import ConstantMotor, ConverterMotor, InductionBase, LinearMotor, TableMotor
-from ptmcalc.contract.check import Check, Sense, no_needs
+from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
 from ptmcalc.machines.shaft.cases import is_braked
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, ShaftScene, Steady
 from ptmcalc.spec.scene import Scene
@@ -66,7 +66,9 @@ def _motion_value(spec: Shaft, scene: Steady, loads: Loads) -> Estimate:
 
 MOTION: Check[Shaft, Steady] = Check(
     code="SHF101",
-    title="a cycle the motor cannot drive",
+    title="cycle loss factor",
+    question="Can the motor drive the shaft through the whole cycle?",
+    failure="motor stalls within the cycle",
     scenes=frozenset({Steady}),
     loads=("loss_factor", "speed_min"),
     value=_motion_value,
@@ -98,7 +100,9 @@ def _even_limit(spec: Shaft, scene: Steady) -> Estimate:
 
 EVEN: Check[Shaft, Steady] = Check(
     code="SHF102",
-    title="too uneven a speed",
+    title="coefficient of speed fluctuation",
+    question="Is the speed fluctuation of the steady cycle within its limit?",
+    failure="shaft speed fluctuates too much",
     scenes=frozenset({Steady}),
     loads=("irregularity",),
     sense=Sense.AT_MOST,
@@ -135,7 +139,10 @@ def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
 
 RUN_UP: Check[Shaft, RunUp] = Check(
     code="SHF103",
-    title="too slow a run-up",
+    title="run-up time",
+    question="Does the motor bring the shaft to speed within the limit?",
+    failure="run-up takes too long",
+    limit_state=LimitState("motor stalls in the run-up"),
     scenes=frozenset({RunUp}),
     loads=("run_up_time",),
     sense=Sense.AT_MOST,
@@ -168,7 +175,9 @@ def _rated_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
 
 HEAT: Check[Shaft, Steady] = Check(
     code="SHF104",
-    title="a motor that overheats in the cycle",
+    title="motor rms torque over the cycle",
+    question="Is the rms motor torque within the rated torque?",
+    failure="motor is thermally overloaded",
     scenes=frozenset({Steady}),
     loads=("torque_motor_rms",),
     sense=Sense.AT_MOST,
@@ -232,7 +241,9 @@ def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
 
 STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
     code="SHF105",
-    title="a stop over too wide an angle",
+    title="shaft stopping angle",
+    question="Does the shaft stop within the permissible angle?",
+    failure="shaft turns too far before it stops",
     scenes=frozenset({RunOut}),
     loads=("run_out_angle",),
     sense=Sense.AT_MOST,
@@ -249,7 +260,9 @@ STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
 
 STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
     code="SHF106",
-    title="too long a stop",
+    title="shaft stopping time",
+    question="Does the shaft stop within the limit?",
+    failure="shaft takes too long to stop",
     scenes=frozenset({RunOut}),
     loads=("run_out_time",),
     sense=Sense.AT_MOST,
@@ -288,7 +301,9 @@ def _overload_needs(spec: Shaft, scene: ShaftScene) -> tuple[KeyPath, ...]:
 
 OVERLOAD: Check[Shaft, Steady] = Check(
     code="SHF107",
-    title="a motor close to its breakdown torque",
+    title="peak motor torque",
+    question="Is the peak motor torque far enough below breakdown torque or overload limit?",
+    failure="motor torque comes too close to breakdown",
     scenes=frozenset({Steady}),
     loads=("torque_motor_max",),
     sense=Sense.AT_MOST,

@@ -169,14 +169,14 @@ def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
 EFFECTS = (
     Effect(
         "varying_inertia",
-        "inertia that changes with the angle",
+        "angle-dependent inertia",
         frozenset({RunUp, Steady, RunOut}),
         inertia_criterion,
         inertia_bound,
     ),
     Effect(
         "motor_slope",
-        "motor torque that follows the speed within a cycle",
+        "motor torque-speed slope within the cycle",
         frozenset({Steady}),
         slope_criterion,
         slope_bound,

@@ -317,7 +317,7 @@ def _effect(effect: EffectReport) -> Entry:
     number, change = effect.criterion, effect.change
     state = effect.state.value + (" (forced)" if effect.forced else "")
     if number is None and effect.state is EffectState.SKIPPED and not effect.forced:
-        state = "no input for it"
+        state = "not assessed (input missing)"
     changed = ""
     if change is not None:
         within = "" if change.clear else ", within the bars"

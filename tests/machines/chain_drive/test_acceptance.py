@@ -119,7 +119,7 @@ def test_ch08_life() -> None:
     assert one(mean, "life").estimate.value == pytest.approx(2 * one(report, "life").estimate.value, rel=1e-12)
     assert "sum" in one(report, "life").note
     assert "mean" in one(mean, "life").note
-    assert "life by wear" in (shown := table.render((report,), width=120, color=False))
+    assert "wear life" in (shown := table.render((report,), width=120, color=False))
     assert f" {one(report, 'life').estimate.value / 3600:.0f}" in shown
 
 

@@ -13,14 +13,14 @@ def test_the_report_begins_with_rope_and_drum(tmp_path: Path) -> None:
     assert done.status == 0
     rows = [
         "rope pull at the drum",
-        "rope safety Zp",
-        "D/d of the drum",
+        "rope safety factor Z_p",
+        "drum ratio D/d (h1)",
         "torque at the drum",
-        "motor torque, hoisting evenly",
+        "motor torque, steady hoisting",
         "heating motor torque",
-        "brake torque over that of the load",
-        "largest rope force, at the hook",
-        "way of the lowered load to its stop",
+        "brake holding torque reserve",
+        "total rope force at hook, maximum",
+        "lowering stopping distance, deepest",
     ]
     loads = done.out[: done.out.index("Checks")]
     places = [loads.index(row) for row in rows]

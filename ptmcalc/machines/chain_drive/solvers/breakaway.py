@@ -74,7 +74,7 @@ def _hindrances(scene: Start, case: StartCase) -> tuple[bool, ...]:
 
 BREAKAWAY: Solver[ChainDrive, Start] = Solver(
     name="chain_breakaway",
-    title="two masses, a spring that never pushes, a load that sticks",
+    title="breakaway of a slack chain, two-mass model",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Start}),
     represents=frozenset({"chain_elasticity", "chain_sticking"}),

@@ -123,7 +123,7 @@ def _life(spec: ChainDrive, line: ChainLine) -> Iterator[tuple[str, Found]]:
 
 CHAIN_SELECTION: Solver[ChainDrive, Run] = Solver(
     name="chain_selection",
-    title="choice of the chain: safety, sizes, wear and life",
+    title="chain selection: safety, geometry, wear, life",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),

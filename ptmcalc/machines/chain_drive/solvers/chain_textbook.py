@@ -53,7 +53,7 @@ def valid(spec: ChainDrive, scene: Run) -> Criterion:
 
 CHAIN_TEXTBOOK: Solver[ChainDrive, Run] = Solver(
     name="chain_textbook",
-    title="textbook formulas of polygon force and resonance speed",
+    title="textbook formulas: polygon force, resonance speed",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset({POLYGON}),

@@ -106,7 +106,7 @@ def _without_bound(bound: float, count: int) -> tuple[Finding, ...]:
 
 DISTRIBUTED_STRAND: Solver[ChainDrive, Run] = Solver(
     name="distributed_strand",
-    title="polygon effect on strands with mass and elasticity",
+    title="polygon effect on continuous elastic strands",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Run}),
     represents=frozenset({POLYGON, FAR, WEAK}),

@@ -31,7 +31,7 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
 POLYGON_BOUND: Solver[ChainDrive, Run] = Solver(
     name="polygon_bound",
-    title="polygon effect, sum of its absolute harmonics",
+    title="upper bound of the polygon effect (sum of harmonics)",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset({POLYGON, FAR, WEAK}),

@@ -116,7 +116,7 @@ _GIVES = frozenset(
 )
 RIGID_START: Solver[ChainDrive, Start] = Solver(
     name="chain_rigid_start",
-    title="start of the rigid chain",
+    title="start, rigid chain",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
@@ -159,7 +159,7 @@ def notes(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -
 
 START_NOTES: Solver[ChainDrive, Start] = Solver(
     name="chain_start_notes",
-    title="textbook start: reduced inertia, start time, start force",
+    title="textbook start: reduced inertia, time, force",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),

@@ -346,7 +346,7 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
 
 ONE_MODE: Solver[ChainDrive, Start] = Solver(
     name="chain_one_mode",
-    title="two masses on a spring, of the chain's first frequency",
+    title="start, two-mass model of the first mode",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Start}),
     represents=frozenset({"chain_elasticity"}),
@@ -360,7 +360,7 @@ ONE_MODE: Solver[ChainDrive, Start] = Solver(
 )
 WAVES: Solver[ChainDrive, Start] = Solver(
     name="chain_start_waves",
-    title="waves on both strands, as the sum of their modes",
+    title="start, modal superposition of both strands",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Start}),
     represents=frozenset({"chain_elasticity", "higher_modes"}),

@@ -54,7 +54,7 @@ def _of_tensions(line: ChainLine) -> dict[str, float]:
 
 STATICS: Solver[ChainDrive, Run] = Solver(
     name="chain_statics",
-    title="strand tensions of a chain that runs evenly",
+    title="steady-running strand tensions",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),

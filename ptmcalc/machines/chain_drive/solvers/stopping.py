@@ -239,7 +239,7 @@ _SCENES: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})
 _NOTES = "lecture notes Kramatorsk 2007"
 STOPPED: Solver[ChainDrive, Stopping] = Solver(
     name="chain_stop",
-    title="stop of the rigid chain",
+    title="stop, rigid chain",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset(),
@@ -269,7 +269,7 @@ STOP_NOTES: Solver[ChainDrive, Stopping] = Solver(
 )
 HELD: Solver[ChainDrive, Hold] = Solver(
     name="chain_hold",
-    title="what runs a stopped chain back",
+    title="rollback torque of the stopped chain",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Hold}),
     represents=frozenset(),
@@ -280,7 +280,7 @@ HELD: Solver[ChainDrive, Hold] = Solver(
 )
 STOP_WAVES: Solver[ChainDrive, Stopping] = Solver(
     name="chain_stop_waves",
-    title="waves of a stop on both strands, as the sum of their modes",
+    title="stop, modal superposition of both strands",
     fidelity=Fidelity.MODAL,
     scenes=_SCENES,
     represents=frozenset({"chain_elasticity"}),

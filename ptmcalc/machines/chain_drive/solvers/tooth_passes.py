@@ -320,7 +320,7 @@ def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
 
 RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(
     name="chain_range_notes",
-    title="textbook polygon force at the fastest speed",
+    title="textbook polygon force at the highest speed",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({SpeedRange}),
     represents=frozenset(),
@@ -332,7 +332,7 @@ RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(
 )
 RANGE: Solver[ChainDrive, SpeedRange] = Solver(
     name="chain_run_through",
-    title="every mode through the range, tooth after tooth",
+    title="speed sweep, modal superposition with polygon excitation",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({SpeedRange}),
     represents=frozenset({"tooth_passing"}),
@@ -346,7 +346,7 @@ RANGE: Solver[ChainDrive, SpeedRange] = Solver(
 )
 START_TEETH: Solver[ChainDrive, Start] = Solver(
     name="chain_start_teeth",
-    title="every mode of the start, tooth after tooth",
+    title="start, modal superposition with polygon excitation",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Start}),
     represents=frozenset({"chain_elasticity", "higher_modes", "tooth_passing"}),

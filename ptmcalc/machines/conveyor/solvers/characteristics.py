@@ -491,7 +491,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
 
 CHARACTERISTICS: Solver[Conveyor, Start] = Solver(
     name="characteristics",
-    title="waves on both strands, all effects in one run",
+    title="method of characteristics, carrying and return strand",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave", "tail_jump", "tail_mass", "slip", "sag"}),

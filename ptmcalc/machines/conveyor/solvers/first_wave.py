@@ -66,7 +66,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
 
 FIRST_WAVE: Solver[Conveyor, Start] = Solver(
     name="first_wave",
-    title="textbook formula of the direct wave",
+    title="textbook first-wave formula",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave"}),

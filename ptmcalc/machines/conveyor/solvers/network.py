@@ -535,7 +535,7 @@ def _simulable(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
 
 NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
     name="network",
-    title="the whole belt in cells: drives, brakes, idlers that stick and slide",
+    title="method of characteristics with lumped idlers, whole belt",
     fidelity=Fidelity.TRANSIENT,
     scenes=IN_MOTION,
     represents=frozenset(
@@ -565,7 +565,7 @@ NETWORK: Solver[Conveyor, ConveyorScene] = Solver(
 RUNNING_NETWORK: Solver[Conveyor, ConveyorScene] = replace(
     NETWORK,
     name="running_network",
-    title="the whole belt in cells, in a plain start: what the running belt carries along",
+    title="method of characteristics with lumped idlers, plain start of a moving belt",
     always=NETWORK.always | {"moving_belt"},
     valid=valid_running,
 )
@@ -573,6 +573,6 @@ RUNNING_NETWORK: Solver[Conveyor, ConveyorScene] = replace(
 CELLS: Solver[Conveyor, ConveyorScene] = replace(
     NETWORK,
     name="cells",
-    title="the whole belt in cells, as a witness of what the delay lines find in a plain start",
+    title="method of characteristics with lumped idlers, plain start (reference)",
     valid=valid_witness,
 )

@@ -54,7 +54,7 @@ def _of_the_drive(name: str, loads: dict[str, float]) -> dict[str, float]:
 
 RIGID: Solver[Conveyor, Start] = Solver(
     name="rigid",
-    title="rigid body, with intervals that hold the waves",
+    title="start, rigid-belt model with wave bounds",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),

@@ -171,7 +171,7 @@ def _formula(
 _NOTES = "lecture notes Kramatorsk 2007"
 BRAKING = _formula(
     "brake_statics",
-    "brake torque for the way of the file",
+    "required brake torque for the stopping distance",
     brake,
     {Stop, EmergencyStop},
     {"brake_torque_required", "tension_overload_braking"},
@@ -179,7 +179,7 @@ BRAKING = _formula(
 )
 BRAKING_NOTES = _formula(
     "brake_notes",
-    "textbook brake torque for the way of the file",
+    "textbook brake torque for the stopping distance",
     brake_notes,
     {Stop, EmergencyStop},
     {"brake_torque_required"},
@@ -188,16 +188,16 @@ BRAKING_NOTES = _formula(
 )
 IDENTIFY = _formula(
     "run_out",
-    "resistance coefficient of the measured way",
+    "friction coefficient from the measured coasting distance",
     identify,
     {Coast},
     {"resistance_coefficient_identified"},
     _NOTES,
 )
-HOLDING = _formula("holding", "what wants to run back", hold, {Hold}, {"backstop_torque"}, _NOTES)
+HOLDING = _formula("holding", "rollback torque of the stopped belt", hold, {Hold}, {"backstop_torque"}, _NOTES)
 RIGID_STOP = _formula(
     "rigid_stop",
-    "textbook stop of the rigid conveyor",
+    "textbook stop, rigid conveyor",
     rigid_stop,
     {Stop, EmergencyStop, Coast},
     OF_STOP,

@@ -187,7 +187,7 @@ def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
 
 STATICS: Solver[Conveyor, Run] = Solver(
     name="statics",
-    title="strand tensions of steady running",
+    title="steady-running belt tensions",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),

@@ -84,7 +84,7 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 
 STIFF_STOP: Solver[Conveyor, ConveyorScene] = Solver(
     name="stiff_stop",
-    title="stop of a belt too short for its waves to be counted",
+    title="stop, rigid-belt model for short belts",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Stop, EmergencyStop, Coast, Jam}),
     represents=frozenset(),

@@ -107,7 +107,7 @@ def _tau(case: StartCase) -> float:
 
 TWO_INTERVAL: Solver[Conveyor, Start] = Solver(
     name="two_interval",
-    title="uniform loop, closed form over two contour times",
+    title="closed-form waves of a uniform loop, two transit times",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset({"belt_wave"}),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import number_at
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
@@ -59,7 +59,10 @@ def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 
 STALL: OneCheck = Check(
     code="CRN101",
-    title="a start torque below friction and wind: a stall",
+    title="slewing starting torque reserve",
+    question="Does the mean starting torque exceed friction, steady wind and slope with reserve?",
+    failure="starting torque reserve is too small",
+    limit_state=LimitState("slewing drive stalls", 1),
     scenes=SLEWING,
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
@@ -88,7 +91,10 @@ def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 SLOW: OneCheck = only(reaches)(
     Check(
         code="CRN102",
-        title="a start that takes too long",
+        title="maximum slewing start time",
+        question="Does the crane reach its slewing speed within the limit?",
+        failure="slewing start takes too long",
+        limit_state=LimitState("slewing drive stalls"),
         scenes=SLEWING,
         loads=("start_time",),
         sense=Sense.AT_MOST,
@@ -117,7 +123,9 @@ def _at_least_steady(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is not None)(
     Check(
         code="CRN118",
-        title="a motor that does not come to the crane's speed",
+        title="slewing torque reserve up to full speed",
+        question="Does the motor curve stay above the steady slewing torque up to full speed?",
+        failure="motor torque falls below the steady slewing torque",
         scenes=SLEWING,
         loads=("speed_reserve",),
         sense=Sense.AT_LEAST,
@@ -147,7 +155,9 @@ def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 HARSH: OneCheck = only(turns)(
     Check(
         code="CRN103",
-        title="a start that is too harsh",
+        title="minimum slewing start time",
+        question="Is the slewing start gentle enough?",
+        failure="slewing start is too abrupt",
         scenes=SLEWING,
         loads=("start_time",),
         sense=Sense.AT_LEAST,
@@ -176,7 +186,9 @@ def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 SHORT: OneCheck = only(turns)(
     Check(
         code="CRN106",
-        title="a rotation too short for start and stop",
+        title="rotation share of start and stop",
+        question="Do start and stop fit into the slewing angle of the cycle?",
+        failure="slewing angle is too short to reach full speed",
         scenes=SLEWING,
         loads=("rotation_used",),
         sense=Sense.AT_MOST,
@@ -207,7 +219,9 @@ def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 BRAKE_ANGLE: OneCheck = only(starts)(
     Check(
         code="CRN104",
-        title="a stop over too large an angle",
+        title="slewing stopping angle",
+        question="Does the brake stop the crane within the permissible angle against in-service wind?",
+        failure="crane slews too far before it stops",
         scenes=SLEWING,
         loads=("brake_angle",),
         sense=Sense.AT_MOST,
@@ -236,7 +250,10 @@ def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 BRAKE_TIME: OneCheck = only(starts)(
     Check(
         code="CRN105",
-        title="a stop that takes too long",
+        title="maximum slewing stop time",
+        question="Does the brake stop the crane within the limit against in-service wind?",
+        failure="slewing stop takes too long",
+        limit_state=LimitState("brake does not stop the crane"),
         scenes=SLEWING,
         loads=("brake_time",),
         sense=Sense.AT_MOST,
@@ -265,7 +282,9 @@ def _shortest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 HARSH_STOP: OneCheck = only(turns)(
     Check(
         code="CRN119",
-        title="a stop that is too harsh",
+        title="minimum slewing stop time",
+        question="Is the slewing stop gentle enough?",
+        failure="slewing stop is too abrupt",
         scenes=SLEWING,
         loads=("brake_time",),
         sense=Sense.AT_LEAST,
@@ -300,7 +319,9 @@ def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 HEATING: OneCheck = only(turns)(
     Check(
         code="CRN107",
-        title="a motor that gets too hot",
+        title="slewing motor thermal utilisation",
+        question="Is the rms torque within the permissible torque at this duty factor?",
+        failure="slewing motor is thermally overloaded",
         scenes=SLEWING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
@@ -330,7 +351,9 @@ def _largest_torque(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not None)(
     Check(
         code="CRN108",
-        title="a motor overloaded by the start",
+        title="slewing motor starting torque",
+        question="Is the starting torque within the short-time overload limit of the motors?",
+        failure="slewing motor is overloaded during the start",
         scenes=SLEWING,
         loads=("torque_motor_start",),
         sense=Sense.AT_MOST,
@@ -360,7 +383,9 @@ def _gearbox_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)(
     Check(
         code="CRN109",
-        title="too much torque in the gearbox",
+        title="slewing gearbox equivalent torque",
+        question="Is the equivalent input torque within the gearbox rating?",
+        failure="slewing gearbox is overloaded",
         scenes=SLEWING,
         loads=("torque_worm",),
         sense=Sense.AT_MOST,
@@ -390,7 +415,9 @@ def _pinion_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)(
     Check(
         code="CRN116",
-        title="too much torque of the open pinion",
+        title="slewing pinion equivalent torque",
+        question="Is the equivalent torque of the open pinion within its rating?",
+        failure="slewing pinion is overloaded",
         scenes=SLEWING,
         loads=("torque_pinion",),
         sense=Sense.AT_MOST,
@@ -419,7 +446,9 @@ def _driven_back(spec: SlewingCrane, scene: SlewingScene) -> bool:
 LOCKS: OneCheck = only(_driven_back)(
     Check(
         code="CRN114",
-        title="a self-locking gear that jams as it is braked",
+        title="jam ratio of the self-locking gear",
+        question="Is the rotor inertia large enough to prevent jamming of the self-locking gear during braking?",
+        failure="self-locking gear jams during braking",
         scenes=SLEWING,
         loads=("gear_locks",),
         sense=Sense.AT_MOST,
@@ -463,7 +492,10 @@ def _wind_key(spec: SlewingCrane) -> KeyPath:
 WIND_MOTOR: OneCheck = only(_blown)(
     Check(
         code="CRN112",
-        title="a motor that cannot hold against the wind",
+        title="slewing motor reserve against wind",
+        question="Can the motor turn the crane against the maximum in-service wind?",
+        failure="motor reserve against in-service wind is too small",
+        limit_state=LimitState("slewing motor cannot turn against the in-service wind", 1),
         scenes=SLEWING,
         loads=("wind_reserve_motor",),
         sense=Sense.AT_LEAST,
@@ -480,7 +512,10 @@ WIND_MOTOR: OneCheck = only(_blown)(
 WIND_BRAKE: OneCheck = only(_blown)(
     Check(
         code="CRN113",
-        title="a brake that cannot hold against the wind",
+        title="slewing brake reserve against wind",
+        question="Can the brake hold the crane against the maximum in-service wind?",
+        failure="brake reserve against in-service wind is too small",
+        limit_state=LimitState("slewing brake cannot hold against the in-service wind", 1),
         scenes=SLEWING,
         loads=("wind_reserve_brake",),
         sense=Sense.AT_LEAST,

@@ -34,7 +34,9 @@ def _swings(spec: SlewingCrane, scene: SlewingScene) -> bool:
 RADIAL: OneCheck = only(_swings)(
     Check(
         code="CRN110",
-        title="too much swing of the load outwards",
+        title="radial load sway",
+        question="Is the radial sway angle of the hoist rope within its limit?",
+        failure="load sways too far radially",
         scenes=SLEWING,
         loads=("sway_radial_max",),
         sense=Sense.AT_MOST,
@@ -67,7 +69,9 @@ def _thrown_by(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 TANGENTIAL: OneCheck = only(_swings)(
     Check(
         code="CRN111",
-        title="too much swing of the load along its way",
+        title="tangential load sway",
+        question="Is the tangential sway angle of the hoist rope within its limit?",
+        failure="load sways too far tangentially",
         scenes=SLEWING,
         loads=("sway_tangential_max",),
         sense=Sense.AT_MOST,
@@ -96,7 +100,9 @@ def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
     Check(
         code="CRN115",
-        title="too much tilting moment of the slewing ring",
+        title="slewing ring utilisation",
+        question="Is the tilting moment within the slewing ring limit curve at this axial load?",
+        failure="tilting moment exceeds the limit curve of the slewing ring",
         scenes=SLEWING,
         loads=("ring_utilisation",),
         sense=Sense.AT_MOST,
@@ -129,7 +135,9 @@ def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 GROUP: OneCheck = only(lambda spec, scene: spec.classes.cycles is not None)(
     Check(
         code="CRN117",
-        title="more use of the crane than its group allows",
+        title="required crane group",
+        question="Is the group required by cycles and load spectrum covered by the declared group?",
+        failure="duty requires a higher crane group than declared",
         scenes=SLEWING,
         loads=("crane_group",),
         sense=Sense.AT_MOST,

@@ -239,13 +239,13 @@ def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> 
 
 EFFECTS: tuple[AnyEffect, ...] = (
     Effect(
-        "efficiency_direction", "losses of the gear by the direction of the power", SCENES, direction_criterion,
+        "efficiency_direction", "gear losses by direction of power flow", SCENES, direction_criterion,
         direction_bound,
     ),
-    Effect("slewing_motor_curve", "torque of the motor over its speed", SCENES, curve_criterion, curve_bound),
-    Effect("wind_gust", "gust of the wind against the start", SCENES, gust_criterion, gust_bound),
-    Effect("load_swing", "swing of the load under the jib", SCENES, swing_criterion, swing_bound),
+    Effect("slewing_motor_curve", "motor torque-speed curve", SCENES, curve_criterion, curve_bound),
+    Effect("wind_gust", "wind gust during the start", SCENES, gust_criterion, gust_bound),
+    Effect("load_swing", "load sway below the jib", SCENES, swing_criterion, swing_bound),
     Effect(
-        "centrifugal_offset", "lean of the load outwards", SCENES, centrifugal_criterion, centrifugal_bound
+        "centrifugal_offset", "centrifugal offset of the load", SCENES, centrifugal_criterion, centrifugal_bound
     ),
 )  # fmt: skip

@@ -314,7 +314,7 @@ def valid(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
 
 CARTESIAN: Solver[SlewingCrane, SlewingScene] = Solver(
     name="cartesian",
-    title="the rotation with the load in Cartesian coordinates, by Runge-Kutta steps",
+    title="slewing motion, Cartesian load, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Slew}),
     represents=ALWAYS | {"slewing_motor_curve", "wind_gust"},

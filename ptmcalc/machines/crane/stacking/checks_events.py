@@ -52,7 +52,9 @@ def _stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 STROKE: OneCheck = Check(
     code="CRN281",
-    title="a buffer of a stacker crane that bottoms out",
+    title="stacker buffer stroke",
+    question="Do the buffers stop the machine within their stroke?",
+    failure="buffer bottoms out",
     scenes=HITS,
     loads=("buffer_stroke",),
     sense=Sense.AT_MOST,
@@ -80,7 +82,9 @@ def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 FORCE: OneCheck = Check(
     code="CRN282",
-    title="a buffer of a stacker crane pressed too hard",
+    title="stacker buffer force",
+    question="Is the buffer force within the rating of buffer and end stop?",
+    failure="buffer force exceeds its rating",
     scenes=HITS,
     loads=("buffer_force",),
     sense=Sense.AT_MOST,
@@ -126,7 +130,9 @@ def _speed_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not None)(
     Check(
         code="CRN283",
-        title="a buffer of a stacker crane hit too fast",
+        title="stacker buffer impact speed",
+        question="Is the impact speed within the limit of buffer and plant rules?",
+        failure="buffer impact speed is too high",
         scenes=HITS,
         loads=("collision_speed",),
         sense=Sense.AT_MOST,
@@ -183,7 +189,9 @@ def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate])
 FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is not None)(
     Check(
         code="CRN284",
-        title="a caught fork that pulls harder than the hoist is built for",
+        title="rope force factor, fork snagged",
+        question="Is the rope force of a snagged fork within the design factor of the hoist?",
+        failure="snagged fork overloads the hoist",
         scenes=CAUGHT,
         loads=("rope_force_caught",),
         value=_of_rated,
@@ -215,7 +223,9 @@ def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 ROPE: OneCheck = Check(
     code="CRN285",
-    title="a rope that a caught fork tears",
+    title="total rope force, fork snagged",
+    question="Do the rope falls withstand a snagged fork?",
+    failure="rope force of a snagged fork exceeds the breaking force",
     scenes=CAUGHT,
     loads=("rope_force_caught",),
     sense=Sense.AT_MOST,
@@ -245,7 +255,9 @@ RACK: OneCheck = only(
 )(
     Check(
         code="CRN286",
-        title="a rack that a caught fork lifts off or breaks",
+        title="uplift on the rack, fork snagged",
+        question="Does the rack beam withstand the uplift of a snagged fork?",
+        failure="snagged fork lifts off or breaks the rack beam",
         scenes=CAUGHT,
         loads=("rack_force",),
         sense=Sense.AT_MOST,
@@ -273,7 +285,9 @@ def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 PUSH: OneCheck = Check(
     code="CRN287",
-    title="a rack that the fork pushes over",
+    title="fork thrust on the rack",
+    question="Does the rack withstand the thrust of the extending fork?",
+    failure="fork thrust overloads the rack",
     scenes=PUSHES,
     loads=("fork_push_force",),
     sense=Sense.AT_MOST,
@@ -311,7 +325,9 @@ def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fork.rating is not None)(
     Check(
         code="CRN288",
-        title="a fork pushed harder than it bears",
+        title="fork thrust on the telescopic fork",
+        question="Is the fork thrust within the rating of the telescopic fork?",
+        failure="fork thrust overloads the telescopic fork",
         scenes=PUSHES,
         loads=("fork_push_force",),
         sense=Sense.AT_MOST,
@@ -340,7 +356,9 @@ def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 LIMITER: OneCheck = only(lambda spec, scene: spec.hoisting.limiter is not None)(
     Check(
         code="CRN289",
-        title="a limiter that trips while the carriage is hoisted as usual",
+        title="load limiter trip reserve",
+        question="Is the limiter set above the force of normal hoisting?",
+        failure="limiter trips during normal hoisting",
         scenes=CAUGHT,
         loads=("limiter_reserve",),
         sense=Sense.AT_LEAST,
@@ -376,7 +394,9 @@ def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 GEAR_STROKE: OneCheck = Check(
     code="CRN290",
-    title="a safety gear that comes to the end of its stroke",
+    title="safety gear stopping distance",
+    question="Does the safety gear stop the carriage within its stroke?",
+    failure="safety gear reaches the end of its stroke",
     scenes=FALLS,
     loads=("safety_gear_distance",),
     sense=Sense.AT_MOST,
@@ -403,7 +423,9 @@ def _holding_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 
 HOLDS: OneCheck = Check(
     code="CRN291",
-    title="a safety gear that does not hold the carriage",
+    title="safety gear holding reserve",
+    question="Does the braking force of the safety gear exceed the suspended weight?",
+    failure="safety gear does not hold the carriage",
     scenes=FALLS,
     loads=("safety_gear_factor",),
     sense=Sense.AT_LEAST,
@@ -431,7 +453,9 @@ def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
     Check(
         code="CRN292",
-        title="a safety gear that stops the carriage too hard",
+        title="safety gear deceleration",
+        question="Is the deceleration of the caught carriage within its limit?",
+        failure="safety gear stops the carriage too hard",
         scenes=FALLS,
         loads=("safety_gear_deceleration",),
         sense=Sense.AT_MOST,
@@ -476,7 +500,9 @@ def _rail_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 CONTACT: OneCheck = Check(
     code="CRN293",
-    title="a rail so uneven that a wheel of the stacker leaves it",
+    title="wheel load ratio on uneven rail",
+    question="Do the wheels keep contact on steps, gaps and waves of the rail?",
+    failure="wheel leaves the uneven rail",
     scenes=ROLLS,
     loads=("rail_contact",),
     sense=Sense.AT_LEAST,
@@ -504,7 +530,9 @@ def _detuning_limit(spec: Stacker, scene: StackerScene) -> Estimate:
 RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and spec.rail.waviness is not None)(
     Check(
         code="CRN294",
-        title="a wavy rail that shakes the stacker in resonance",
+        title="rail wave separation from resonance",
+        question="Is the passing frequency of the rail waves away from the natural frequencies?",
+        failure="rail waves excite a resonance of the machine",
         scenes=ROLLS,
         loads=("rail_detuning",),
         sense=Sense.AT_LEAST,

@@ -57,7 +57,9 @@ def _asks_deflection(spec: Stacker, scene: StackerScene) -> bool:
 DEFLECTION: OneCheck = only(_asks_deflection)(
     Check(
         code="CRN251",
-        title="a column that swings too far",
+        title="dynamic mast tip deflection",
+        question="Is the dynamic deflection of the mast tip within its limit?",
+        failure="mast deflects too far",
         scenes=DRIVEN,
         loads=("mast_deflection_max",),
         sense=Sense.AT_MOST,
@@ -90,7 +92,9 @@ def _asks_force(spec: Stacker, scene: StackerScene) -> bool:
 PULL: OneCheck = only(_asks_force)(
     Check(
         code="CRN252",
-        title="a column that pulls too hard in a start or a stop",
+        title="dynamic mast force",
+        question="Is the dynamic force of the mast in a start or stop within its limit?",
+        failure="mast is overloaded in a start or stop",
         scenes=DRIVEN,
         loads=("mast_force_max",),
         sense=Sense.AT_MOST,
@@ -138,7 +142,9 @@ def _settling_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath
 SETTLES: OneCheck = only(_asks_wait)(
     Check(
         code="CRN253",
-        title="a column that swings too long for the fork to go out",
+        title="mast settling time",
+        question="Does the mast tip settle into the positioning tolerance within the permitted wait?",
+        failure="mast takes too long to settle",
         scenes=frozenset({Brake}),
         loads=("settling_time",),
         sense=Sense.AT_MOST,
@@ -171,7 +177,9 @@ def _asks_window(spec: Stacker, scene: StackerScene) -> bool:
 LEANS: OneCheck = only(_asks_window)(
     Check(
         code="CRN254",
-        title="a column that leans out of the window of its fork at rest",
+        title="static mast tip deflection",
+        question="Is the static lean of the mast smaller than the positioning tolerance?",
+        failure="static mast deflection exceeds the positioning tolerance",
         scenes=frozenset({Brake}),
         loads=("rest_deflection",),
         sense=Sense.AT_MOST,
@@ -197,7 +205,9 @@ def _speed_blame(spec: Stacker, scene: StackerScene, loads: Loads) -> KeyPath:
 BLOW: OneCheck = only(_asks_force)(
     Check(
         code="CRN255",
-        title="a column bent too hard by an obstacle",
+        title="mast force in a collision",
+        question="Is the force of the mast in a collision within its limit?",
+        failure="mast is overloaded by the collision",
         scenes=HITS,
         loads=("collision_force",),
         sense=Sense.AT_MOST,
@@ -230,7 +240,9 @@ def _asks_contact(spec: Stacker, scene: StackerScene) -> bool:
 STRUCK: OneCheck = only(_asks_contact)(
     Check(
         code="CRN256",
-        title="an obstacle struck too hard",
+        title="obstacle contact force",
+        question="Is the contact force with the obstacle within its limit?",
+        failure="obstacle contact force is too high",
         scenes=HITS,
         loads=("contact_force",),
         sense=Sense.AT_MOST,
@@ -263,7 +275,9 @@ def _asks_speed(spec: Stacker, scene: StackerScene) -> bool:
 FAST: OneCheck = only(_asks_speed)(
     Check(
         code="CRN257",
-        title="an obstacle met too fast",
+        title="obstacle collision speed",
+        question="Is the collision speed within its limit?",
+        failure="collision speed is too high",
         scenes=HITS,
         loads=("collision_speed",),
         sense=Sense.AT_MOST,

@@ -2,7 +2,7 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.crane.stacking import model, starts
 from ptmcalc.machines.crane.stacking.drives import Rotation
@@ -24,7 +24,9 @@ def _roller_limit(spec: Stacker, scene: HoistScene) -> Estimate:
 
 ROLLERS: OneCheck = Check(
     code="CRN201",
-    title="a guide roller loaded too heavily",
+    title="guide roller load",
+    question="Is the load of each guide roller within its rating?",
+    failure="guide roller is overloaded",
     scenes=frozenset({HoistScene}),
     loads=("roller_load",),
     sense=Sense.AT_MOST,
@@ -53,7 +55,10 @@ def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
 JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
     Check(
         code="CRN202",
-        title="a carriage that jams on its column",
+        title="carriage guide friction ratio",
+        question="Does the weight overcome the guide friction on the way down?",
+        failure="guide friction is too large for the weight",
+        limit_state=LimitState("carriage jams on its guides", 1),
         scenes=frozenset({HoistScene}),
         loads=("jamming",),
         sense=Sense.AT_MOST,
@@ -89,7 +94,9 @@ def _rope_needs(spec: Stacker, scene: HoistScene) -> tuple[KeyPath, ...]:
 
 ROPE: OneCheck = Check(
     code="CRN203",
-    title="a rope too weak for the carriage",
+    title="carriage rope safety factor",
+    question="Is the rope breaking force high enough for its largest pull?",
+    failure="carriage rope is overloaded",
     scenes=frozenset({HoistScene}),
     loads=("rope_safety",),
     sense=Sense.AT_LEAST,
@@ -145,7 +152,10 @@ def _brake_limit(spec: Stacker, scene: Braked) -> Estimate:
 
 START_TIME: OneCheck = Check(
     code="CRN204",
-    title="a mechanism that starts too slowly",
+    title="mechanism start time",
+    question="Does the mechanism reach its speed within the limit?",
+    failure="mechanism takes too long to start",
+    limit_state=LimitState("mechanism drive stalls"),
     scenes=frozenset({Start}),
     loads=("start_time",),
     sense=Sense.AT_MOST,
@@ -161,7 +171,9 @@ START_TIME: OneCheck = Check(
 )
 BRAKE_TIME: OneCheck = Check(
     code="CRN205",
-    title="a mechanism that stops too slowly",
+    title="mechanism stop time",
+    question="Does the mechanism stop within the limit?",
+    failure="mechanism takes too long to stop",
     scenes=frozenset({Brake}),
     loads=("brake_time",),
     sense=Sense.AT_MOST,
@@ -206,7 +218,9 @@ _STARTING: frozenset[type[Scene]] = frozenset((Start, HoistScene))
 STARTS: OneCheck = only(_counts)(
     Check(
         code="CRN206",
-        title="a mechanism started too often",
+        title="starts per hour, share of rating",
+        question="Is the number of starts per hour within the rating of motor and brake?",
+        failure="mechanism starts too often",
         scenes=_STARTING,
         loads=("starts_ratio",),
         sense=Sense.AT_MOST,

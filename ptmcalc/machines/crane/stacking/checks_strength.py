@@ -6,7 +6,7 @@ from typing import Any
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.stacking import model, strength
 from ptmcalc.machines.crane.stacking.judging import Loads, OneCheck, given
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
@@ -60,7 +60,10 @@ def _travels(spec: Stacker, scene: StackerScene) -> bool:
 ALONG: OneCheck = _on_a_side("along", _travels)(
     Check(
         code="CRN207",
-        title="a rack stacker that tips along its rail",
+        title="stability ratio along the aisle",
+        question="Does the machine keep both wheels on the rail in a start or stop?",
+        failure="stability ratio along the aisle is too small",
+        limit_state=LimitState("machine tips along the aisle", 1),
         scenes=frozenset({Start, Brake}),
         loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
@@ -98,7 +101,10 @@ def _across_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 ACROSS: OneCheck = _on_a_side("across", _leans)(
     Check(
         code="CRN208",
-        title="a rack stacker that tips across the aisle",
+        title="stability ratio across the aisle",
+        question="Do rails or the top guide hold the machine against the extended fork?",
+        failure="stability ratio across the aisle is too small",
+        limit_state=LimitState("machine tips across the aisle", 1),
         scenes=frozenset({Stand, ForkPush}),
         loads=("stability_reserve",),
         sense=Sense.AT_LEAST,
@@ -150,7 +156,9 @@ def _governs(part: str, shares: Shares) -> Callable[[Stacker, StackerScene, Load
 COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not None and _of_travel(spec, scene))(
     Check(
         code="CRN209",
-        title="a column stressed too highly",
+        title="mast stress",
+        question="Is the stress at the mast root within the permissible stress in every load combination?",
+        failure="mast is overstressed",
         scenes=EVENTS,
         loads=("column_stress",),
         sense=Sense.AT_MOST,
@@ -187,7 +195,9 @@ def _has_girders(spec: Stacker, scene: StackerScene) -> bool:
 BRIDGE: OneCheck = only(_has_girders)(
     Check(
         code="CRN210",
-        title="a bridge stressed too highly",
+        title="bridge girder stress",
+        question="Is the girder stress within the permissible stress in every load combination?",
+        failure="bridge girder is overstressed",
         scenes=UNDER_A_BRIDGE,
         loads=("bridge_stress",),
         sense=Sense.AT_MOST,

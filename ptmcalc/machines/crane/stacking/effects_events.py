@@ -316,13 +316,13 @@ def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:
 
 
 EFFECTS_OF_EVENTS: tuple[AnyEffect, ...] = (
-    Effect(CATCHING, "drive and motor that pull on a caught fork", CAUGHT, catching_criterion, catching_bound),
-    Effect(RACK, "rack that gives and throws the carriage back", CAUGHT, rack_criterion, rack_bound),
-    Effect(SLOPE, "motor that pulls less the faster it runs", CAUGHT, slope_criterion, slope_bound),
-    Effect(LIMITER, "limiter that switches the hoist off", CAUGHT, limiter_criterion, limiter_bound),
-    Effect(PUSHING, "fork that runs against the rack", PUSHED, pushing_criterion, pushing_bound),
-    Effect(YIELDING, "column that gives way under the fork", PUSHED, yield_criterion, yield_bound),
-    Effect(UNEVEN, "steps, gaps and waves of the rail", ROLLS, uneven_criterion, uneven_bound),
-    Effect(JUMPING, "wheels that leave the rail", ROLLS, jump_criterion, jump_bound),
-    Effect(GEAR, "safety gear that catches the carriage", FALLS, gear_criterion, gear_bound),
+    Effect(CATCHING, "drive and motor force on a snagged fork", CAUGHT, catching_criterion, catching_bound),
+    Effect(RACK, "rack elasticity and rebound of the carriage", CAUGHT, rack_criterion, rack_bound),
+    Effect(SLOPE, "torque-speed slope of the hoist motor", CAUGHT, slope_criterion, slope_bound),
+    Effect(LIMITER, "load limiter", CAUGHT, limiter_criterion, limiter_bound),
+    Effect(PUSHING, "fork thrust against the rack", PUSHED, pushing_criterion, pushing_bound),
+    Effect(YIELDING, "mast flexibility under fork thrust", PUSHED, yield_criterion, yield_bound),
+    Effect(UNEVEN, "rail steps, gaps and waviness", ROLLS, uneven_criterion, uneven_bound),
+    Effect(JUMPING, "wheel lift-off from the rail", ROLLS, jump_criterion, jump_bound),
+    Effect(GEAR, "safety gear engagement", FALLS, gear_criterion, gear_bound),
 )

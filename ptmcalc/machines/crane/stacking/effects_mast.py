@@ -261,11 +261,18 @@ def guide_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
 
 
 EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
-    Effect(FLEXIBLE, "column that bends", BENT, flexible_criterion, anything_bound),
-    Effect(MASS, "mass of the column", BENT, mass_criterion, anything_bound),
-    Effect(MODES, "higher modes of the column", DRIVEN, modes_criterion, modes_bound, calibrated=True),
-    Effect(GRAVITY, "weights on the bent column", BENT | {Stand}, gravity_criterion, gravity_bound, calibrated=True),
+    Effect(FLEXIBLE, "mast flexibility", BENT, flexible_criterion, anything_bound),
+    Effect(MASS, "mast mass", BENT, mass_criterion, anything_bound),
+    Effect(MODES, "higher mast modes", DRIVEN, modes_criterion, modes_bound, calibrated=True),
+    Effect(
+        GRAVITY,
+        "second-order effect of gravity on the mast",
+        BENT | {Stand},
+        gravity_criterion,
+        gravity_bound,
+        calibrated=True,
+    ),
     Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
-    Effect(HOLDING, "what holds the base after the stop", DRIVEN, holding_criterion, holding_bound),
-    Effect(GUIDE, "guide at the head of the column", DRIVEN, guide_criterion, guide_bound),
+    Effect(HOLDING, "holding of the base after the stop", DRIVEN, holding_criterion, holding_bound),
+    Effect(GUIDE, "top guide of the mast", DRIVEN, guide_criterion, guide_bound),
 )

@@ -7,73 +7,73 @@ from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 OF_THE_HOIST = (
-    LoadInfo("roller_reaction", "largest reaction of a set of guide rollers", units.FORCE, governing=True),
-    LoadInfo("roller_load", "largest load of a roller", units.FORCE),
-    LoadInfo("carriage_resistance", "resistance of the guide", units.FORCE),
-    LoadInfo("jamming", "resistance of the guide over the weight", units.RATIO),
-    LoadInfo("rope_force", "largest pull of a rope at the drum", units.FORCE, governing=True),
-    LoadInfo("rope_safety", "breaking force over the pull of a rope", units.RATIO),
+    LoadInfo("roller_reaction", "guide roller set reaction, maximum", units.FORCE, governing=True),
+    LoadInfo("roller_load", "guide roller load, maximum", units.FORCE),
+    LoadInfo("carriage_resistance", "carriage guide friction force", units.FORCE),
+    LoadInfo("jamming", "guide friction / weight", units.RATIO),
+    LoadInfo("rope_force", "rope pull at drum, maximum", units.FORCE, governing=True),
+    LoadInfo("rope_safety", "rope safety factor", units.RATIO),
 )
 OF_THE_COLUMN = (
-    LoadInfo("column_stiffness", "stiffness of the column at its far end", units.STIFFNESS),
-    LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY),
-    LoadInfo("period", "period of the first swing", units.TIME),
+    LoadInfo("column_stiffness", "mast stiffness at mast tip", units.STIFFNESS),
+    LoadInfo("natural_frequency", "mast natural frequency", units.ANGULAR_FREQUENCY),
+    LoadInfo("period", "period of first mast mode", units.TIME),
 )
 OF_STANDING = (
-    LoadInfo("total_weight", "weight of crane and load", units.FORCE, governing=True),
-    LoadInfo("starts_ratio", "starts per hour over the permitted ones", units.RATIO),
+    LoadInfo("total_weight", "total weight of crane and load", units.FORCE, governing=True),
+    LoadInfo("starts_ratio", "starts per hour / permitted starts", units.RATIO),
 )
 OF_MOTION = (
-    LoadInfo("start_time", "start time", units.TIME, governing=True),
-    LoadInfo("brake_time", "time of the stop", units.TIME, governing=True),
-    LoadInfo("mast_deflection_max", "largest swing of the far end of the column", units.LENGTH, governing=True),
-    LoadInfo("mast_force_max", "largest force of the column", units.FORCE, governing=True),
-    LoadInfo("mast_moment_max", "largest moment at the root of the column", units.TORQUE),
-    LoadInfo("rest_deflection", "lean of the far end at rest under weights beside its axis", units.LENGTH),
-    LoadInfo("settling_time", "from standstill until the far end stays in the window", units.TIME, governing=True),
+    LoadInfo("start_time", "starting time", units.TIME, governing=True),
+    LoadInfo("brake_time", "stopping time", units.TIME, governing=True),
+    LoadInfo("mast_deflection_max", "dynamic mast tip deflection, maximum", units.LENGTH, governing=True),
+    LoadInfo("mast_force_max", "dynamic mast force, maximum", units.FORCE, governing=True),
+    LoadInfo("mast_moment_max", "mast root moment, maximum", units.TORQUE),
+    LoadInfo("rest_deflection", "static mast tip deflection", units.LENGTH),
+    LoadInfo("settling_time", "mast settling time to tolerance", units.TIME, governing=True),
 )
 OF_THE_OBSTACLE = (
-    LoadInfo("collision_force", "largest force of the column", units.FORCE, governing=True),
-    LoadInfo("collision_deflection", "largest deflection of the column", units.LENGTH),
-    LoadInfo("collision_speed", "speed of the collision", units.SPEED),
-    LoadInfo("contact_force", "largest force between column and obstacle", units.FORCE, governing=True),
+    LoadInfo("collision_force", "mast force in collision, maximum", units.FORCE, governing=True),
+    LoadInfo("collision_deflection", "mast deflection, collision, maximum", units.LENGTH),
+    LoadInfo("collision_speed", "collision speed", units.SPEED),
+    LoadInfo("contact_force", "obstacle contact force, maximum", units.FORCE, governing=True),
 )
 OF_THE_BUFFERS = (
-    LoadInfo("buffer_force", "force of a buffer", units.FORCE, governing=True),
-    LoadInfo("buffer_stroke", "stroke of a buffer", units.LENGTH, governing=True),
-    LoadInfo("buffer_speed_left", "speed at which the buffer bottoms out", units.SPEED),
-    LoadInfo("buffer_deceleration", "largest deceleration at the buffers", units.ACCELERATION),
-    LoadInfo("phi7", "phi7, buffers", units.RATIO, governing=True),
+    LoadInfo("buffer_force", "force per buffer", units.FORCE, governing=True),
+    LoadInfo("buffer_stroke", "buffer compression", units.LENGTH, governing=True),
+    LoadInfo("buffer_speed_left", "residual speed, end of buffer stroke", units.SPEED),
+    LoadInfo("buffer_deceleration", "deceleration at buffers, maximum", units.ACCELERATION),
+    LoadInfo("phi7", "phi7, buffer forces", units.RATIO, governing=True),
 )
 OF_THE_FORK = (
-    LoadInfo("fork_push_force", "force of the fork on the rack", units.FORCE, governing=True),
-    LoadInfo("fork_caught_factor", "force of the ropes of a caught fork over the weight", units.RATIO, governing=True),
-    LoadInfo("rope_force_caught", "force of all falls at the carriage, fork caught", units.FORCE, governing=True),
-    LoadInfo("rack_force", "force of the caught fork on the rack", units.FORCE, governing=True),
-    LoadInfo("limiter_reserve", "force of the limiter over that of a start upward", units.RATIO),
+    LoadInfo("fork_push_force", "fork thrust on rack", units.FORCE, governing=True),
+    LoadInfo("fork_caught_factor", "rope force / weight, fork snagged", units.RATIO, governing=True),
+    LoadInfo("rope_force_caught", "total rope force, fork snagged", units.FORCE, governing=True),
+    LoadInfo("rack_force", "uplift on rack beam, fork snagged", units.FORCE, governing=True),
+    LoadInfo("limiter_reserve", "limiter trip reserve", units.RATIO),
 )
 OF_THE_RAIL = (
-    LoadInfo("phi4", "phi4, unevenness of the rail", units.RATIO, governing=True),
-    LoadInfo("rail_contact", "least wheel load over the static one", units.RATIO),
-    LoadInfo("wheel_force", "largest load of a wheel", units.FORCE, governing=True),
-    LoadInfo("rail_detuning", "distance of the waves of the rail from resonance", units.RATIO),
+    LoadInfo("phi4", "phi4, travelling on uneven surface", units.RATIO, governing=True),
+    LoadInfo("rail_contact", "minimum / static wheel load", units.RATIO),
+    LoadInfo("wheel_force", "wheel load on uneven rail, maximum", units.FORCE, governing=True),
+    LoadInfo("rail_detuning", "rail wave separation from resonance", units.RATIO),
 )
 OF_THE_SAFETY_GEAR = (
-    LoadInfo("safety_gear_force", "force of the safety gear", units.FORCE, governing=True),
-    LoadInfo("safety_gear_distance", "way of the safety gear", units.LENGTH, governing=True),
-    LoadInfo("safety_gear_factor", "force of the safety gear over the weight", units.RATIO),
-    LoadInfo("safety_gear_deceleration", "deceleration of the carriage", units.ACCELERATION),
-    LoadInfo("safety_gear_speed", "speed at which the safety gear grips", units.SPEED),
-    LoadInfo("safety_gear_drop", "free fall before it grips", units.LENGTH),
-    LoadInfo("safety_gear_moment", "moment of the safety gear on the column", units.TORQUE),
-    LoadInfo("safety_gear_shock", "force along the column at its foot", units.FORCE),
+    LoadInfo("safety_gear_force", "safety gear braking force", units.FORCE, governing=True),
+    LoadInfo("safety_gear_distance", "safety gear stopping distance", units.LENGTH, governing=True),
+    LoadInfo("safety_gear_factor", "safety gear force / suspended weight", units.RATIO),
+    LoadInfo("safety_gear_deceleration", "carriage deceleration in safety gear", units.ACCELERATION),
+    LoadInfo("safety_gear_speed", "speed at safety gear engagement", units.SPEED),
+    LoadInfo("safety_gear_drop", "free fall before engagement", units.LENGTH),
+    LoadInfo("safety_gear_moment", "mast moment from safety gear", units.TORQUE),
+    LoadInfo("safety_gear_shock", "axial force at mast foot", units.FORCE),
 )
 OF_STRENGTH = (
-    LoadInfo("column_stress", "stress of the column", units.STRESS, governing=True),
-    LoadInfo("bridge_stress", "stress of the girders", units.STRESS, governing=True),
-    LoadInfo("stability_reserve", "moment that holds over the one that tips", units.RATIO, governing=True),
+    LoadInfo("column_stress", "mast stress, maximum", units.STRESS, governing=True),
+    LoadInfo("bridge_stress", "girder stress, maximum", units.STRESS, governing=True),
+    LoadInfo("stability_reserve", "stability ratio (resisting/tipping)", units.RATIO, governing=True),
 )
-OF_THE_TABLES = (LoadInfo("combination_force", "load that marks the combination", units.FORCE, headline=False),)
+OF_THE_TABLES = (LoadInfo("combination_force", "leading load of the combination", units.FORCE, headline=False),)
 
 LOADS = (
     *OF_THE_HOIST,

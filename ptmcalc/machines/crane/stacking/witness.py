@@ -78,7 +78,7 @@ def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:
 _SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I; derived in ptmcalc.witness"
 CAUGHT: Solver[Stacker, ForkCaught] = Solver(
     name="caught_runge_kutta",
-    title="drive, rope, carriage and rack, by Runge-Kutta steps from event to event",
+    title="snagged fork, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({ForkCaught}),
     represents=frozenset({CATCHING, RACK_GIVES, SLOPE, LIMITER}),
@@ -91,7 +91,7 @@ CAUGHT: Solver[Stacker, ForkCaught] = Solver(
 )
 PUSHED: Solver[Stacker, ForkPush] = Solver(
     name="push_runge_kutta",
-    title="drive, rack and carriage on its column, by Runge-Kutta steps",
+    title="fork thrust, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({ForkPush}),
     represents=frozenset({PUSHING, YIELDING}),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import number_at
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.scenes import (
     Brake,
@@ -84,7 +84,10 @@ def _start_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 SLOW: OneCheck = Check(
     code="CRN150",
-    title="a travel drive that starts too slowly",
+    title="travel start time",
+    question="Does the crane reach travel speed within the limit against wind and slope?",
+    failure="crane takes too long to start travelling",
+    limit_state=LimitState("travel drive stalls"),
     scenes=STARTS,
     loads=("start_time",),
     sense=Sense.AT_MOST,
@@ -111,7 +114,10 @@ def _stop_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 LONG_STOP: OneCheck = Check(
     code="CRN151",
-    title="a travel drive that stops too slowly",
+    title="travel stop time",
+    question="Does the crane stop within the limit with wind and slope behind it?",
+    failure="crane takes too long to stop",
+    limit_state=LimitState("brakes do not stop the crane"),
     scenes=frozenset({Brake}),
     loads=("brake_time",),
     sense=Sense.AT_MOST,
@@ -140,7 +146,9 @@ def _distance_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not None)(
     Check(
         code="CRN152",
-        title="too long a way to a stop",
+        title="travel stopping distance",
+        question="Does the crane stop within the permissible distance?",
+        failure="stopping distance is too long",
         scenes=frozenset({Brake}),
         loads=("brake_distance",),
         sense=Sense.AT_MOST,
@@ -171,7 +179,9 @@ def _sway_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 SWAY: OneCheck = only(hangs)(
     Check(
         code="CRN153",
-        title="a load that swings too far",
+        title="maximum load sway angle",
+        question="Is the sway angle of the load within its limit?",
+        failure="load sways too far",
         scenes=MOVES,
         loads=("sway_angle_max",),
         sense=Sense.AT_MOST,
@@ -201,7 +211,9 @@ def _residual_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks.residual_sway is not None)(
     Check(
         code="CRN154",
-        title="a load that goes on swinging too far",
+        title="residual load sway",
+        question="Is the sway left after the start or stop within its limit?",
+        failure="residual sway is too large",
         scenes=MOVES,
         loads=("sway_residual",),
         sense=Sense.AT_MOST,
@@ -236,7 +248,10 @@ def _skid_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
 
 SKID: OneCheck = Check(
     code="CRN155",
-    title="a driven wheel that skids",
+    title="wheel adhesion reserve",
+    question="Does every driven or braked wheel transmit its force without slip?",
+    failure="adhesion reserve of a driven wheel is too small",
+    limit_state=LimitState("driven wheel slips on the rail", 1),
     scenes=MOVES,
     loads=("skid_reserve_min",),
     sense=Sense.AT_LEAST,
@@ -265,7 +280,9 @@ def _ramp_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) is not None)(
     Check(
         code="CRN156",
-        title="a ramp that the motors cannot follow",
+        title="motor torque demand on the speed ramp",
+        question="Can the motors deliver the torque that the speed ramp requires?",
+        failure="motors cannot follow the speed ramp",
         scenes=MOVES,
         loads=("drive_utilisation",),
         sense=Sense.AT_MOST,
@@ -296,7 +313,9 @@ def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 WHEEL: OneCheck = Check(
     code="CRN157",
-    title="a wheel loaded above its rating",
+    title="maximum wheel load",
+    question="Is the largest wheel load within the rating of wheel and rail?",
+    failure="wheel load exceeds its rating",
     scenes=MOVES | RUNNING,
     loads=("wheel_load_max",),
     sense=Sense.AT_MOST,
@@ -323,7 +342,9 @@ def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 LIFTS: OneCheck = Check(
     code="CRN158",
-    title="a wheel that lifts off its rail",
+    title="minimum wheel load",
+    question="Do all wheels stay in contact with the rail?",
+    failure="wheel lifts off the rail",
     scenes=MOVES | RUNNING,
     loads=("wheel_load_min",),
     sense=Sense.AT_LEAST,
@@ -350,7 +371,10 @@ def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 TIPS: OneCheck = Check(
     code="CRN159",
-    title="a crane that tips",
+    title="stability ratio",
+    question="Do the stabilising moments exceed the tipping moments by the required ratio?",
+    failure="stability ratio is too small",
+    limit_state=LimitState("crane tips", 1),
     scenes=MOVES | RUNNING | {Storm},
     loads=("stability_reserve",),
     sense=Sense.AT_LEAST,

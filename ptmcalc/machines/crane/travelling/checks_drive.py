@@ -4,7 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling.checks import (
     RUNNING,
     Loads,
@@ -36,7 +36,10 @@ def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 STALL: OneCheck = Check(
     code="CRN160",
-    title="a motor that stalls: too weak to start",
+    title="travel starting torque reserve",
+    question="Does the mean starting torque exceed the steady travel torque with reserve?",
+    failure="starting torque reserve is too small",
+    limit_state=LimitState("travel motors stall", 1),
     scenes=frozenset({Run, Start}),
     loads=("starting_reserve",),
     sense=Sense.AT_LEAST,
@@ -65,7 +68,10 @@ def _wind_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
     Check(
         code="CRN161",
-        title="a motor that does not hold against the wind",
+        title="travel drive reserve against wind",
+        question="Can the motors drive the crane against the maximum in-service wind?",
+        failure="drive reserve against in-service wind is too small",
+        limit_state=LimitState("travel motors cannot drive against the in-service wind", 1),
         scenes=RUNNING,
         loads=("wind_reserve",),
         sense=Sense.AT_LEAST,
@@ -106,7 +112,9 @@ def _heat_needs(spec: Travelling, scene: TravelScene) -> tuple[KeyPath, ...]:
 HEAT: OneCheck = only(_on_duty)(
     Check(
         code="CRN162",
-        title="a travel motor that gets too hot",
+        title="travel motor thermal utilisation",
+        question="Is the rms torque within the permissible torque at this duty factor?",
+        failure="travel motors are thermally overloaded",
         scenes=RUNNING,
         loads=("heating_utilisation",),
         sense=Sense.AT_MOST,
@@ -140,7 +148,9 @@ def _counts_starts(spec: Travelling, scene: TravelScene) -> bool:
 STARTS: OneCheck = only(_counts_starts)(
     Check(
         code="CRN163",
-        title="a travel motor started too often",
+        title="travel motor starts per hour",
+        question="Is the number of starts per hour within the motor rating?",
+        failure="travel motors start too often",
         scenes=RUNNING,
         loads=("starts_per_hour",),
         sense=Sense.AT_MOST,
@@ -174,7 +184,9 @@ def _classed(spec: Travelling, scene: TravelScene) -> bool:
 CLASS: OneCheck = only(_classed)(
     Check(
         code="CRN164",
-        title="a crane classed too low for its use",
+        title="required crane group",
+        question="Is the group required by cycles and load spectrum covered by the declared group?",
+        failure="duty requires a higher crane group than declared",
         scenes=RUNNING,
         loads=("crane_group",),
         sense=Sense.AT_MOST,

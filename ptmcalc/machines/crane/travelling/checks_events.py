@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling.checks import RUNNING, OneCheck
 from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
@@ -34,7 +34,9 @@ def _stroke_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 STROKE: OneCheck = Check(
     code="CRN170",
-    title="a buffer that bottoms out",
+    title="buffer stroke",
+    question="Do the buffers stop the crane within their stroke?",
+    failure="buffer bottoms out",
     scenes=HITS,
     loads=("buffer_stroke",),
     sense=Sense.AT_MOST,
@@ -61,7 +63,9 @@ def _force_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 FORCE: OneCheck = Check(
     code="CRN171",
-    title="a buffer pressed too hard",
+    title="buffer force",
+    question="Is the buffer force within the rating of buffer and end stop?",
+    failure="buffer force exceeds its rating",
     scenes=HITS,
     loads=("buffer_force",),
     sense=Sense.AT_MOST,
@@ -99,7 +103,9 @@ def _has_speed(spec: Travelling, scene: TravelScene) -> bool:
 HIT: OneCheck = only(_has_speed)(
     Check(
         code="CRN172",
-        title="a buffer hit too fast",
+        title="buffer impact speed",
+        question="Is the impact speed within the limit of buffer and plant rules?",
+        failure="buffer impact speed is too high",
         scenes=HITS,
         loads=("collision_speed",),
         sense=Sense.AT_MOST,
@@ -129,7 +135,9 @@ def _contact_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 CONTACT: OneCheck = Check(
     code="CRN173",
-    title="a step of the rail that a wheel jumps off",
+    title="wheel load ratio at rail steps and gaps",
+    question="Do the wheels keep contact on the largest step and gap of the rail?",
+    failure="wheel leaves the rail at a step or gap",
     scenes=STEPS,
     loads=("rail_contact",),
     sense=Sense.AT_LEAST,
@@ -156,7 +164,9 @@ def _guide_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 GUIDE: OneCheck = Check(
     code="CRN174",
-    title="a guide pressed too hard as the crane runs askew",
+    title="skewing guide force",
+    question="Is the skewing force on the front guide within its rating?",
+    failure="skewing force overloads the guide",
     scenes=frozenset({Skew}),
     loads=("skew_force",),
     sense=Sense.AT_MOST,
@@ -189,7 +199,10 @@ def _storm_key(spec: Travelling, scene: TravelScene) -> KeyPath:
 
 STORM: OneCheck = Check(
     code="CRN175",
-    title="a parked crane that the wind drives away",
+    title="holding reserve, out-of-service wind",
+    question="Do brakes and rail clamps hold the parked crane in out-of-service wind?",
+    failure="holding reserve in out-of-service wind is too small",
+    limit_state=LimitState("parked crane drifts away", 1),
     scenes=frozenset({Storm}),
     loads=("storm_reserve",),
     sense=Sense.AT_LEAST,
@@ -233,12 +246,14 @@ def _factor(
     needs: Callable[[Travelling, TravelScene], tuple[KeyPath, ...]] = no_needs,
 ) -> OneCheck:
     """The check of one declared factor."""
-    side = "below" if sense is Sense.AT_LEAST else "above"
+    falls = sense is Sense.AT_LEAST
     repair: Callable[[Travelling, TravelScene], KeyPath] = at("declared", name) if name != "phi3" else no_repair
     return only(_declared(name))(
         Check(
             code=code,
-            title=f"a {name} {side} the declared one",
+            title=f"dynamic factor {name}",
+            question=f"Is {name} covered by the declared value{', i.e. not below it' if falls else ''}?",
+            failure=f"{name} {'falls below' if falls else 'exceeds'} the declared value",
             scenes=scenes,
             loads=(name,),
             sense=sense,

@@ -340,12 +340,18 @@ def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:
 
 
 EFFECTS_OF_TRAVEL: tuple[AnyEffect, ...] = (
-    Effect(SWAY, "swing of the load", MOVING_SCENES, sway_criterion, anything_bound),
-    Effect(REACTION, "pull of the load on a crane driven by torque", MOVING_SCENES, reaction_criterion, reaction_bound),
-    Effect(HOISTING, "hoisting while the load swings", MOVING_SCENES, hoisting_criterion, hoisting_bound),
-    Effect(WIND, "wind and slope", MOVING_SCENES, wind_criterion, wind_bound),
-    Effect(LARGE, "finite angles of the load", MOVING_SCENES, large_criterion, large_bound),
-    Effect(CURVE, "torque of the motor over its speed", MOVING_SCENES, curve_criterion, curve_bound),
-    Effect(RAIL, "steps and gaps of the rail", frozenset({RailStep}), rail_criterion, rail_bound),
-    Effect(SLIP, "driven wheels that slide", MOVING_SCENES, slip_criterion, slip_bound),
+    Effect(SWAY, "load sway", MOVING_SCENES, sway_criterion, anything_bound),
+    Effect(
+        REACTION,
+        "reaction of the swinging load on a torque-controlled drive",
+        MOVING_SCENES,
+        reaction_criterion,
+        reaction_bound,
+    ),
+    Effect(HOISTING, "rope length change during sway", MOVING_SCENES, hoisting_criterion, hoisting_bound),
+    Effect(WIND, "wind and rail slope", MOVING_SCENES, wind_criterion, wind_bound),
+    Effect(LARGE, "finite sway angles (nonlinear pendulum)", MOVING_SCENES, large_criterion, large_bound),
+    Effect(CURVE, "motor torque-speed curve", MOVING_SCENES, curve_criterion, curve_bound),
+    Effect(RAIL, "rail steps and gaps", frozenset({RailStep}), rail_criterion, rail_bound),
+    Effect(SLIP, "slip of driven wheels", MOVING_SCENES, slip_criterion, slip_bound),
 )

@@ -211,7 +211,7 @@ def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:
 
 SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(
     name="sway_cartesian",
-    title="start or stop with the load in Cartesian coordinates, by Runge-Kutta steps",
+    title="start or stop, Cartesian load, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=MOVING_SCENES,
     represents=IN_PLANE | {LARGE, CURVE},

@@ -462,7 +462,7 @@ def _priced(seconds: float) -> Any:
 
 COLLISION_IN_TIME: Solver[Travelling, Collision] = Solver(
     name="collision_runge_kutta",
-    title="crane and buffers over time, by Runge-Kutta steps",
+    title="buffer impact, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Collision}),
     represents=frozenset(),
@@ -478,7 +478,7 @@ COLLISION_IN_TIME: Solver[Travelling, Collision] = Solver(
 )  # fmt: skip
 RAIL_IN_TIME: Solver[Travelling, RailStep] = Solver(
     name="rail_runge_kutta",
-    title="a wheel on a step or gap and the mass above it, by Runge-Kutta steps",
+    title="wheel over a rail step or gap, Runge-Kutta (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({RailStep}),
     represents=frozenset({RAIL}),
@@ -491,7 +491,7 @@ RAIL_IN_TIME: Solver[Travelling, RailStep] = Solver(
 )
 SKEW_BY_ROOTS: Solver[Travelling, Skew] = Solver(
     name="skewing_roots",
-    title="a crane that runs askew, by roots of the balances",
+    title="skewing, root finding on the force balance (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Skew}),
     represents=frozenset(),
@@ -502,7 +502,7 @@ SKEW_BY_ROOTS: Solver[Travelling, Skew] = Solver(
 )
 STORM_BALANCED: Solver[Travelling, Storm] = Solver(
     name="storm_balances",
-    title="a parked crane in the wind, by balances as equations and a linear programme",
+    title="parked crane in wind, linear programme (reference)",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Storm}),
     represents=frozenset(),

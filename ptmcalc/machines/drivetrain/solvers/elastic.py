@@ -83,7 +83,7 @@ def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: in
 
 ELASTIC: Solver[Drivetrain, TrainScene] = Solver(
     name="elastic",
-    title="elastic links with play, exact from event to event",
+    title="elastic train with backlash, event-driven exact solution",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset({"elasticity", "backlash"}),

@@ -46,7 +46,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
 
 MODAL: Solver[Drivetrain, TrainScene] = Solver(
     name="modal_train",
-    title="natural frequencies",
+    title="natural frequencies of the drivetrain",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset(),

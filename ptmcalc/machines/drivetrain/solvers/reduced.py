@@ -78,7 +78,7 @@ def valid(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
 REDUCED: Solver[Drivetrain, TrainScene] = Solver(
     name="reduced",
-    title="one rigid shaft, with intervals that hold the links' swings",
+    title="rigid-train model with bounds for link oscillation",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset(),
@@ -108,7 +108,7 @@ def _elastic(spec: Drivetrain, scene: TrainScene) -> Criterion:
 ONE_SHAFT: Solver[Drivetrain, TrainScene] = replace(
     REDUCED,
     name="one_shaft",
-    title="the whole train reduced to one shaft",
+    title="textbook reduction to one shaft",
     valid=_elastic,
     decides=False,
 )

@@ -41,7 +41,7 @@ def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> 
 
 HOIST_HANDBOOK: Solver[Hoist, HoistScene] = Solver(
     name="hoist_handbook",
-    title="rope pull and torques of the handbook",
+    title="handbook rope pull and torques",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),

@@ -210,7 +210,7 @@ def _use(duty: Duty | None, spectrum: list[tuple[float, float]]) -> Numbers:
 
 HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     name="hoist_statics",
-    title="rope, drum, torques, brake and heat of a hoist that runs evenly",
+    title="steady hoisting: rope, drum, torque, brake, heating",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
@@ -248,8 +248,8 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
         if layer > 1:
             said = units.show(height, units.SPAN)
             message = (
-                f"scene `{scene.label}` takes the hook at its lowest, where the brake holds the load; from {said} up,"
-                f" with the rope on layer {layer}, it does not"
+                f"scene `{scene.label}` assumes the lowest hook position, where the brake holds the load; above hook"
+                f" height {said}, with the rope on layer {layer}, the brake does not hold it"
             )
             yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to see such a stop")
         return
@@ -257,7 +257,7 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
 
 HOLDING: Solver[Hoist, HoistScene] = Solver(
     name="holding_brake",
-    title="the load on the closed brake",
+    title="brake holding torque",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Stop, LowerBrake}),
     represents=frozenset(),
@@ -282,7 +282,7 @@ def start(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -
 
 STARTING: Solver[Hoist, HoistScene] = Solver(
     name="starting_reserve",
-    title="the motor over the hanging load",
+    title="starting torque reserve over the suspended load",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),

@@ -32,7 +32,7 @@ def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> flo
 
 TRAIN: Solver[Hoist, Moving] = Solver(
     name="hoist_train",
-    title="motor, gear with play, drum, rope, load and structure, exact from event to event",
+    title="full hoist train with backlash and structure, event-driven",
     fidelity=Fidelity.TRANSIENT,
     scenes=SCENES,
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash"},

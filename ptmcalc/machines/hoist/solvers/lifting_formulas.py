@@ -225,7 +225,7 @@ def _cost(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -
 
 TAKEUP: Solver[Hoist, Lift] = Solver(
     name="takeup",
-    title="lift-off by a constant drive force",
+    title="lift-off at constant drive force",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Lift}),
     represents=frozenset(),
@@ -237,7 +237,7 @@ TAKEUP: Solver[Hoist, Lift] = Solver(
 )
 STANDARD: Solver[Hoist, Lift] = Solver(
     name="standard_phi2",
-    title="lift-off factor of the crane standards",
+    title="phi2 of the crane standards",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Lift}),
     represents=frozenset(),
@@ -250,7 +250,7 @@ STANDARD: Solver[Hoist, Lift] = Solver(
 )
 SPEED_SOURCE: Solver[Hoist, Lift] = Solver(
     name="speed_source",
-    title="lift-off at a kept speed",
+    title="lift-off at constant speed",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Lift}),
     represents=frozenset(),
@@ -262,7 +262,7 @@ SPEED_SOURCE: Solver[Hoist, Lift] = Solver(
 )
 BRAKING: Solver[Hoist, LowerBrake | Stop] = Solver(
     name="braked_two_mass",
-    title="rope force and way of a stop",
+    title="stop, two-mass formulas: rope force and stopping distance",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({LowerBrake, Stop}),
     represents=frozenset(),
@@ -274,7 +274,7 @@ BRAKING: Solver[Hoist, LowerBrake | Stop] = Solver(
 )
 HANGING: Solver[Hoist, Start] = Solver(
     name="hanging_start",
-    title="rope force of a start with a hanging load",
+    title="start of a suspended load, two-mass formula",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
@@ -286,7 +286,7 @@ HANGING: Solver[Hoist, Start] = Solver(
 )
 RELEASE: Solver[Hoist, Release] = Solver(
     name="standard_phi3",
-    title="release factor of the crane standards",
+    title="phi3 of the crane standards",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Release}),
     represents=frozenset(),
@@ -298,7 +298,7 @@ RELEASE: Solver[Hoist, Release] = Solver(
 )
 ROD: Solver[Hoist, HoistScene] = Solver(
     name="rod",
-    title="frequency of a rope with mass",
+    title="natural frequency, rope with distributed mass",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=frozenset(),
@@ -311,7 +311,7 @@ ROD: Solver[Hoist, HoistScene] = Solver(
 )
 THIRD_MASS: Solver[Hoist, HoistScene] = Solver(
     name="third_mass",
-    title="frequency with a third of the rope's mass, the drum held",
+    title="natural frequency with one third of the rope mass",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=frozenset(),
@@ -324,7 +324,7 @@ THIRD_MASS: Solver[Hoist, HoistScene] = Solver(
 )
 BY_DEFLECTION: Solver[Hoist, Lift] = Solver(
     name="phi2_by_deflection",
-    title="lift-off factor of the standards, the class by the stretch under the load",
+    title="phi2 with the hoisting class from the deflection",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Lift}),
     represents=frozenset(),

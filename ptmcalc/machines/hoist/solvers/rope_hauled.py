@@ -49,7 +49,7 @@ def valid(spec: Hoist, scene: Moving) -> Criterion | None:
 
 ROPE_HAULED: Solver[Hoist, Moving] = Solver(
     name="rope_hauled",
-    title="drive and load on a rope that gets shorter or longer",
+    title="drive and load on a rope of varying length",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_shortening"},

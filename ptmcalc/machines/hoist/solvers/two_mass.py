@@ -35,7 +35,7 @@ def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> flo
 
 TWO_MASS: Solver[Hoist, Moving] = Solver(
     name="two_mass",
-    title="drive and load on a rope, exact from event to event",
+    title="drive and load on an elastic rope, event-driven",
     fidelity=Fidelity.TRANSIENT,
     scenes=SCENES,
     represents=ALWAYS,

@@ -88,15 +88,15 @@ def _claim(scene: WindUp, of_paper: float, ratio: float) -> Finding:
     """What the paper claims, what its own equations give, and what follows with its errors put right."""
     low, high, own, right = (units.show(share, units.SHARE) for share in (*CLAIMED, of_paper, ratio))
     message = (
-        f"scene `{scene.label}`: dynamic stresses of {low} to {high} of the mean, as published for multilayer winding,"
-        f" do not follow: the paper's own equations give {own} here, with tackle, rope and layer put right {right}"
+        f"scene `{scene.label}`: published dynamic stresses of {low} to {high} of the mean stress in multilayer winding"
+        f" are not confirmed: the published equations give {own} here, the corrected ones {right}"
     )
     return Finding("NUM107", message, ("scenes",))
 
 
 WINDING_CORRECTED: Solver[Hoist, WindUp] = Solver(
     name="winding_corrected",
-    title="one climb to the next layer, in closed form",
+    title="one layer change, corrected closed form",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({WindUp}),
     represents=frozenset(),

@@ -83,7 +83,7 @@ def cost(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> flo
 
 WINDING_MAP: Solver[Hoist, WindUp] = Solver(
     name="winding_map",
-    title="climb and crossovers of a layer on a shortening rope",
+    title="layer change and crossovers on a rope of varying length",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({WindUp}),
     represents=frozenset({"layer_map"}),

@@ -72,7 +72,7 @@ def _pulse(spec: Hoist, scene: WindUp) -> DecayPulse:
 
 WINDING_PAPER: Solver[Hoist, WindUp] = Solver(
     name="winding_paper",
-    title="formulas of the paper on multilayer winding",
+    title="published formulas for multilayer winding",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({WindUp}),
     represents=frozenset(),

@@ -169,7 +169,7 @@ def cost(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> flo
 
 CLOSED_CYCLE: Solver[Shaft, Steady] = Solver(
     name="closed_cycle",
-    title="the cycle that closes, with the motor's curve",
+    title="periodic cycle, motor curve and varying inertia",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Steady}),
     represents=frozenset({"varying_inertia", "motor_slope"}),
@@ -182,7 +182,7 @@ CLOSED_CYCLE: Solver[Shaft, Steady] = Solver(
 
 MEAN_CYCLE: Solver[Shaft, Steady] = Solver(
     name="closed_mean_cycle",
-    title="the cycle that closes, with the motor's curve and the mean inertia",
+    title="periodic cycle, motor curve and mean inertia",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Steady}),
     represents=frozenset({"motor_slope"}),

@@ -150,7 +150,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
 
 ENERGY_STEP: Solver[Shaft, Steady] = Solver(
     name="energy_step",
-    title="energy method in steps of the angle, motor torque held at its mean",
+    title="energy method in angle steps, mean motor torque",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Steady}),
     represents=frozenset({"varying_inertia"}),

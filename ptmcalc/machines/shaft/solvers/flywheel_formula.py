@@ -61,7 +61,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
 
 FLYWHEEL_FORMULA: Solver[Shaft, Steady] = Solver(
     name="flywheel_formula",
-    title="textbook formula of the flywheel",
+    title="textbook flywheel formula",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Steady}),
     represents=frozenset(),

@@ -82,7 +82,7 @@ def valid(spec: Shaft, scene: RunUp) -> Criterion:
 
 SPEED_QUADRATURE: Solver[Shaft, RunUp] = Solver(
     name="speed_quadrature",
-    title="run-up as an integral over the speed",
+    title="run-up, integration over the speed",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({RunUp}),
     represents=frozenset(),

@@ -137,7 +137,7 @@ def _departs(spec: Shaft, scene: RunOut) -> bool:
 
 STEP_TABLE: Solver[Shaft, Scene] = Solver(
     name="step_table",
-    title="step table of the textbook",
+    title="textbook step table",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({RunUp, RunOut}),
     represents=frozenset({"varying_inertia"}),

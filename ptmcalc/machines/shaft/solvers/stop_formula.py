@@ -69,7 +69,7 @@ def valid(spec: Shaft, scene: RunOut) -> Criterion:
 
 STOP_FORMULA: Solver[Shaft, RunOut] = Solver(
     name="stop_formula",
-    title="run-out of a constant inertia, closed form",
+    title="stop, closed form for constant inertia",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({RunOut}),
     represents=frozenset(),

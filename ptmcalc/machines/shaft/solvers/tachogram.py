@@ -225,7 +225,7 @@ def _solver(name: str, title: str, scene: type[RunUp] | type[RunOut], *, mean: b
     )
 
 
-RUN_UP = _solver("tachogram_up", "motion of a run-up from event to event", RunUp, mean=False)
-RUN_OUT = _solver("tachogram_out", "motion of a run-out from event to event", RunOut, mean=False)
-MEAN_RUN_UP = _solver("mean_tachogram_up", "motion of a run-up with the mean inertia", RunUp, mean=True)
-MEAN_RUN_OUT = _solver("mean_tachogram_out", "motion of a run-out with the mean inertia", RunOut, mean=True)
+RUN_UP = _solver("tachogram_up", "run-up, time integration", RunUp, mean=False)
+RUN_OUT = _solver("tachogram_out", "stop, time integration", RunOut, mean=False)
+MEAN_RUN_UP = _solver("mean_tachogram_up", "run-up, time integration, mean inertia", RunUp, mean=True)
+MEAN_RUN_OUT = _solver("mean_tachogram_out", "stop, time integration, mean inertia", RunOut, mean=True)

@@ -65,7 +65,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
 
 WORK_BALANCE: Solver[Shaft, Steady] = Solver(
     name="work_balance",
-    title="works of the cycle, motor torque and inertia held at their means",
+    title="work balance of the cycle at mean torque and inertia",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Steady}),
     represents=frozenset(),

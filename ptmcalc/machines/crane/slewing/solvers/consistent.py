@@ -138,7 +138,7 @@ _GIVEN = chain.GIVEN | {info.name for info in (*OF_THE_DRIVE, *OF_THE_RING, *OF_
 
 CONSISTENT: Solver[SlewingCrane, SlewingScene] = Solver(
     name="consistent",
-    title="the chain of a rotation, torque and time of its start fitting each other",
+    title="slewing cycle, start time consistent with motor torque",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
     represents=frozenset(),
@@ -149,7 +149,7 @@ CONSISTENT: Solver[SlewingCrane, SlewingScene] = Solver(
 )
 GEARED: Solver[SlewingCrane, SlewingScene] = Solver(
     name="geared",
-    title="the consistent chain, losses of the gear by the direction of the power",
+    title="slewing cycle, gear losses by direction of power flow",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
     represents=frozenset({"efficiency_direction"}),

@@ -44,7 +44,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
 
 HANDBOOK: Solver[SlewingCrane, SlewingScene] = Solver(
     name="handbook",
-    title="the chain of a rotation as course projects print it",
+    title="handbook slewing cycle",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
     represents=frozenset(),

@@ -36,7 +36,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
 
 LEANS: Solver[SlewingCrane, SlewingScene] = Solver(
     name="leans",
-    title="swing and lean of the load by textbook formulas",
+    title="textbook sway and centrifugal angle of the load",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
     represents=frozenset(),

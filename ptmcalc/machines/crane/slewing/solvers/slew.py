@@ -158,7 +158,7 @@ def _cost(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], leve
 
 SLEW: Solver[SlewingCrane, SlewingScene] = Solver(
     name="slew",
-    title="the rotation with a swinging load, piece by piece",
+    title="slewing motion with spherical pendulum, event-driven",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Slew}),
     represents=ALWAYS | {"slewing_motor_curve", "wind_gust"},

@@ -48,7 +48,7 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
 
 BUFFER_STOP: Solver[Stacker, BufferScene] = Solver(
     name="buffer_stop",
-    title="buffers by the energy of what hits them",
+    title="stacker buffer impact, energy balance",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({BufferScene}),
     represents=frozenset(),

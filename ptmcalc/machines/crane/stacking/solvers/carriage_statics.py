@@ -27,7 +27,7 @@ def run(spec: Stacker, scene: HoistScene, carried: frozenset[str], level: int) -
 
 CARRIAGE_STATICS: Solver[Stacker, HoistScene] = Solver(
     name="carriage_statics",
-    title="rollers, guide and ropes of the carriage, with inertia",
+    title="carriage rollers, guides and ropes, inertia included",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({HoistScene}),
     represents=frozenset(),

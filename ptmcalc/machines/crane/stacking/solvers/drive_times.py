@@ -32,7 +32,7 @@ def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Re
 
 DRIVE_TIMES: Solver[Stacker, Braked] = Solver(
     name="drive_times",
-    title="time of starts and stops by momentum",
+    title="starting and stopping times by momentum balance",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start, Brake}),
     represents=frozenset(),

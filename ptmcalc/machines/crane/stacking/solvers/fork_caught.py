@@ -117,7 +117,7 @@ def not_too_stiff(spec: Stacker, scene: ForkCaught) -> Criterion:
 
 CAUGHT_HANDBOOK: Solver[Stacker, ForkCaught] = Solver(
     name="caught_handbook",
-    title="formula of a caught fork, the motor as strong as the weight",
+    title="handbook snagged-fork force, motor force equal to weight",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset(),
@@ -129,7 +129,7 @@ CAUGHT_HANDBOOK: Solver[Stacker, ForkCaught] = Solver(
 )
 CAUGHT_STOPPED: Solver[Stacker, ForkCaught] = Solver(
     name="caught_stopped",
-    title="closed form of a caught fork, the motor at its largest force, the carriage stopped dead",
+    title="snagged fork, closed form with rigid rack and full motor force",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset({CATCHING}),
@@ -141,7 +141,7 @@ CAUGHT_STOPPED: Solver[Stacker, ForkCaught] = Solver(
 )
 CAUGHT_TRAIN: Solver[Stacker, ForkCaught] = Solver(
     name="caught_train",
-    title="drive, rope, carriage and rack, exact from event to event",
+    title="snagged fork, event-driven drive, rope, carriage and rack",
     fidelity=Fidelity.TRANSIENT,
     scenes=_SCENES,
     represents=frozenset({CATCHING, RACK, SLOPE, LIMITER}),

@@ -78,7 +78,7 @@ def not_too_stiff(spec: Stacker, scene: ForkPush) -> Criterion:
 
 PUSH_HANDBOOK: Solver[Stacker, ForkPush] = Solver(
     name="push_handbook",
-    title="formula of a pushing fork, rack and column in series",
+    title="handbook fork thrust, rack and mast in series",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset(),
@@ -90,7 +90,7 @@ PUSH_HANDBOOK: Solver[Stacker, ForkPush] = Solver(
 )
 PUSH_RIGID: Solver[Stacker, ForkPush] = Solver(
     name="push_rigid",
-    title="closed form of a pushing fork on a rigid column",
+    title="fork thrust, closed form with rigid mast",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset({PUSHING}),
@@ -102,7 +102,7 @@ PUSH_RIGID: Solver[Stacker, ForkPush] = Solver(
 )
 PUSH_TRAIN: Solver[Stacker, ForkPush] = Solver(
     name="push_train",
-    title="drive, rack and carriage on its column, exact from event to event",
+    title="fork thrust, event-driven drive, rack and mast",
     fidelity=Fidelity.TRANSIENT,
     scenes=_SCENES,
     represents=frozenset({PUSHING, YIELDING}),

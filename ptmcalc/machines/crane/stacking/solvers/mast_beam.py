@@ -69,7 +69,7 @@ def _period(frequency: Estimate) -> Estimate:
 
 MAST_BEAM: Solver[Stacker, StackerScene] = Solver(
     name="mast_beam",
-    title="stiffness and frequencies of the column as a beam",
+    title="mast stiffness and frequencies, beam theory",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Stand, Start, Brake}),
     represents=frozenset(),

@@ -80,10 +80,10 @@ def remarks(one: Swinging, scene: DrivenScene, moved: bool) -> tuple[Finding, ..
     if max(abs(frequency), abs(deflection)) <= LARGEST_ERROR:
         return ()
     text = (
-        f"scene `{scene.label}`: the notes' share {coefficient(one):g} of the column at its tip makes the frequency"
-        f" {_percent(frequency)} and the deflection {_percent(deflection)}"
+        f"scene `{scene.label}`: with the share {coefficient(one):g} of the mast mass at its tip, as in the notes, the"
+        f" frequency is {_percent(frequency)} and the deflection {_percent(deflection)}"
     )
-    return (Finding("NUM107", text, ("column", "mass"), "go by the numbers of `mast_two_mass` or `mast_modal`"),)
+    return (Finding("NUM107", text, ("column", "mass"), "use the values of `mast_two_mass` or `mast_modal`"),)
 
 
 def _percent(share: float) -> str:
@@ -92,7 +92,7 @@ def _percent(share: float) -> str:
 
 MAST_HANDBOOK: Solver[Stacker, DrivenScene] = Solver(
     name="mast_handbook",
-    title="column of the lecture notes: 0.236 or 0.305 of it at its tip",
+    title="handbook mast: 0.236 or 0.305 of the mast mass at the tip",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start, Brake}),
     represents=frozenset(),

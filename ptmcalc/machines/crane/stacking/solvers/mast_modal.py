@@ -510,7 +510,7 @@ def _solver(
 
 MAST_MODAL = _solver(
     "mast_modal",
-    "the column in finite elements and modes, event by event",
+    "mast start or stop, finite-element modes",
     frozenset({Start, Brake}),
     ALWAYS | {MODES_HIGHER, HOLDING, GUIDE},
     frozenset(
@@ -520,7 +520,7 @@ MAST_MODAL = _solver(
 )
 COLLISION_MODAL = _solver(
     "collision_modal",
-    "the column in finite elements and modes that runs into an obstacle",
+    "collision with an obstacle, finite-element modes",
     frozenset({ObstacleScene}),
     ALWAYS | {CONTACT},
     frozenset({"collision_force", "collision_deflection", "mast_moment_max", "contact_force"}),
@@ -528,7 +528,7 @@ COLLISION_MODAL = _solver(
 )
 STANDING_MODAL = _solver(
     "standing_modal",
-    "frequencies of the column in finite elements",
+    "mast frequencies, finite elements",
     frozenset({Stand}),
     frozenset(),
     frozenset(),

@@ -115,7 +115,7 @@ def _cost(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int
 
 MAST_TWO_MASS: Solver[Stacker, DrivenScene] = Solver(
     name="mast_two_mass",
-    title="column as two coupled masses, event by event",
+    title="mast start or stop, two-mass model",
     fidelity=Fidelity.MODAL,
     scenes=frozenset({Start, Brake}),
     represents=ALWAYS | {GRAVITY},

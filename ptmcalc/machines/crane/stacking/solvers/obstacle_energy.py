@@ -110,7 +110,7 @@ def _below(most: float) -> Estimate:
 
 OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
     name="obstacle_energy",
-    title="energy of all that moves, less the work of the brake",
+    title="textbook collision, full kinetic energy less brake work",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
     represents=frozenset(),
@@ -122,7 +122,7 @@ OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
 )
 OBSTACLE_TIP_STOPPED: Solver[Stacker, ObstacleScene] = Solver(
     name="obstacle_tip_stopped",
-    title="energy of what is behind a tip that is stopped dead, less the work of the brake",
+    title="textbook collision, mast tip stopped dead",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
     represents=frozenset(),
@@ -134,7 +134,7 @@ OBSTACLE_TIP_STOPPED: Solver[Stacker, ObstacleScene] = Solver(
 )
 OBSTACLE_BOUND: Solver[Stacker, ObstacleScene] = Solver(
     name="obstacle_bound",
-    title="most the column can get: all energy bends it",
+    title="upper bound of the mast force in a collision",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
     represents=ALWAYS,

@@ -194,7 +194,7 @@ RAIL_STANDARD: Solver[RackStacker, RailScene] = Solver(
 )
 RAIL_RESPONSE: Solver[RackStacker, RailScene] = Solver(
     name="aisle_rail_answer",
-    title="answer of machine and column to an uneven rail, wheels on it",
+    title="rail unevenness response, wheels in contact",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset({UNEVEN}),
@@ -207,7 +207,7 @@ RAIL_RESPONSE: Solver[RackStacker, RailScene] = Solver(
 )
 RAIL_JUMP: Solver[RackStacker, RailScene] = Solver(
     name="aisle_rail_jump",
-    title="answer of machine and column to an uneven rail, wheels that may leave it",
+    title="rail unevenness response with wheel lift-off",
     fidelity=Fidelity.TRANSIENT,
     scenes=_SCENES,
     represents=frozenset({UNEVEN, JUMPING}),

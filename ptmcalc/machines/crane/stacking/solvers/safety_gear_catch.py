@@ -56,7 +56,7 @@ def _too_far(one: Fall) -> str:
 
 GEAR_CATCH: Solver[Stacker, SafetyGearScene] = Solver(
     name="safety_gear_catch",
-    title="fall and catch by a safety gear",
+    title="free fall and safety gear stop",
     fidelity=Fidelity.FORMULA,
     scenes=_SCENES,
     represents=frozenset({GEAR}),

@@ -28,7 +28,7 @@ def run(spec: Stacker, scene: Stand, carried: frozenset[str], level: int) -> Res
 
 WEIGHTS: Solver[Stacker, Stand] = Solver(
     name="weights",
-    title="weights, stiffness and stress of a stacker that stands",
+    title="weights, mast stiffness and static stress",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Stand}),
     represents=frozenset(),

@@ -99,7 +99,7 @@ def _bottoms(left: float) -> str:
 
 BUFFER_COLLISION: Solver[Travelling, Collision] = Solver(
     name="buffer_collision",
-    title="buffers on both rails, the crane turning as it hits them",
+    title="buffer impact on both rails, energy balance",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Collision}),
     represents=frozenset(),

@@ -72,7 +72,7 @@ def _factor(spec: Travelling, scene: RailStep, answer: float) -> float:
 
 RAIL_RESPONSE: Solver[Travelling, RailStep] = Solver(
     name="rail_response",
-    title="answer of the crane to a step or gap of the rail",
+    title="vertical response to a rail step or gap",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({RailStep}),
     represents=frozenset({RAIL}),

@@ -80,7 +80,7 @@ def _turn_alike(spec: Travelling, end: str) -> float:
 
 SKEWING: Solver[Travelling, Skew] = Solver(
     name="skewing",
-    title="forces of a crane that runs askew",
+    title="skewing forces",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Skew}),
     represents=frozenset(),

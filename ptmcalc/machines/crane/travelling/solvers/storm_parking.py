@@ -58,7 +58,7 @@ def _held_by_wheels(spec: Travelling, brakes: float, hook: float, state: State) 
 
 STORM_PARKING: Solver[Travelling, Storm] = Solver(
     name="storm_parking",
-    title="a parked crane in the wind",
+    title="parked crane in out-of-service wind",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Storm}),
     represents=frozenset(),

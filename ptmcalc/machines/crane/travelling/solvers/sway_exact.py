@@ -43,7 +43,7 @@ def valid(spec: Travelling, scene: Moving) -> Criterion:
 
 SWAY_EXACT: Solver[Travelling, Moving] = Solver(
     name="sway_exact",
-    title="swing of any angle under a ramp of speed, closed form",
+    title="finite-angle sway under a speed ramp, elliptic functions",
     fidelity=Fidelity.FORMULA,
     scenes=MOVING_SCENES,
     represents=IN_PLANE | {LARGE},

@@ -51,7 +51,7 @@ def _histories(motion: Motion) -> dict[str, History]:
 
 SWAY_LINEAR: Solver[Travelling, Moving] = Solver(
     name="sway_linear",
-    title="small swing of the load, exact from event to event",
+    title="small-angle sway, event-driven exact solution",
     fidelity=Fidelity.MODAL,
     scenes=MOVING_SCENES,
     represents=IN_PLANE,

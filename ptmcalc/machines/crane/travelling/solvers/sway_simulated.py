@@ -66,7 +66,7 @@ def valid(spec: Travelling, scene: Moving) -> Criterion | None:
 
 SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
     name="sway_simulated",
-    title="swing of any angle with motor curve and gear, simulated",
+    title="finite-angle sway with motor curve and gear, time integration",
     fidelity=Fidelity.TRANSIENT,
     scenes=MOVING_SCENES,
     represents=IN_PLANE | {LARGE, CURVE},

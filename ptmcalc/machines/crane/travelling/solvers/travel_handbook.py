@@ -57,7 +57,7 @@ def _mean_reserve(spec: Travelling, scene: Moving, acceleration: float) -> float
 
 TRAVEL_HANDBOOK: Solver[Travelling, Moving] = Solver(
     name="travel_handbook",
-    title="start, stop, sway and mean grip of the handbook",
+    title="handbook start, stop, sway and mean adhesion",
     fidelity=Fidelity.FORMULA,
     scenes=MOVING_SCENES,
     represents=frozenset(),

@@ -95,7 +95,7 @@ def _of_the_use(given: Duty, spectrum: list[tuple[float, float]]) -> Numbers:
 
 TRAVEL_STATICS: Solver[Travelling, TravelScene] = Solver(
     name="travel_statics",
-    title="resistance, power, wheel loads and heat of even travel",
+    title="steady travel: resistance, power, wheel loads, heating",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
@@ -122,7 +122,7 @@ def reserve(spec: Travelling, scene: TravelScene, carried: frozenset[str], level
 
 STARTING: Solver[Travelling, TravelScene] = Solver(
     name="travel_starting_reserve",
-    title="the motors over the resistance",
+    title="starting torque reserve over the travel resistance",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
