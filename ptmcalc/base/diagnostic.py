@@ -216,7 +216,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Repair the design, or renew `until` with a reason that still holds.",
         ),
         "SPC204": CodeText(
-            "a file without any check",
+            "file without any check",
             "No check of the file was made: all are switched off, or none applies to its scenes. A file that checked"
             " nothing has not passed.",
             "Delete an `off`, or add a scene to which checks apply.",
@@ -282,12 +282,12 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Please report it with the file: one of the error bars is wrong.",
         ),
         "NUM113": CodeText(
-            "a safety device that acts",
+            "safety device in operation",
             "A limiter or a slip clutch does in the scene what it is made for.",
             "Nothing: the loads are those with the device.",
         ),
         "NUM112": CodeText(
-            "a window that ends before the motion is steady",
+            "window ends before the motion is steady",
             "The computation ends while the machine still moves otherwise than it will. Loads that can still grow have"
             " no bound beyond the window.",
             "Choose a longer window with `window_factor` of the scene.",

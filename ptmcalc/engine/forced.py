@@ -45,12 +45,12 @@ def why_not(kind: AnyKind, spec: MachineSpec, scene: ScenePlan, planned: Planned
         return "an input that it needs is not given"
     whole = planned.effect.part_of
     if whole and whole in scene.excluded:
-        return f"it is part of {quote(whole)}, which the file leaves out"
+        return f"it is part of {quote(whole)}, forced off in the file"
     able = [one for one in kind.solvers if one.decides and name in one.represents and type(scene.scene) in one.scenes]
     for solver in able:
         off = sorted(solver.always & scene.withheld)
         if off:
-            return f"{quote(solver.name)} always simulates {quote(off[0])} too, which the file leaves out"
+            return f"{quote(solver.name)} always simulates {quote(off[0])} too, forced off in the file"
         criterion = solver.valid(spec, scene.scene)
         if criterion is not None and criterion.exceeded:
             return f"{quote(solver.name)} cannot be used: {criterion.meaning}"

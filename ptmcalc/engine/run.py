@@ -436,7 +436,7 @@ def _closest(asked: float, settled: Settled, names: list[str]) -> str:
     """Loads that are not as accurate as asked, and how close the one stands that is known least closely."""
     known = [(settled.loads[name].estimate.value, _bar_within(settled.loads[name], name)) for name in names]
     wide = max(bar / abs(value) if value else math.inf for value, bar in known)
-    how = f"the widest bar is {show(wide, SHARE, 2)}" if math.isfinite(wide) else "one has no bound"
+    how = f"the widest bar is {show(wide, SHARE, 2)}" if math.isfinite(wide) else "one load has no error bound"
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     return f"{', '.join(f'`{name}`' for name in names[:_NAMED])}{more} to {show(asked, SHARE)}: {how}"
 

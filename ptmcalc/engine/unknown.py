@@ -29,16 +29,16 @@ def why_open(kind: AnyKind, spec: MachineSpec, settled: Settled, names: Iterable
         )
         said.setdefault(reason, []).append(name)
         shared |= dict.fromkeys(others)
-    return "; ".join([*(f"{_list(names)} {reason}" for reason, names in said.items()), *shared])
+    return "; ".join([*(f"{_list(names)}: {reason}" for reason, names in said.items()), *shared])
 
 
 def _of_nothing(kind: AnyKind, spec: MachineSpec, settled: Settled, name: str) -> Iterator[str]:
     """A load that no run has given."""
     givers = [one for one in _deciding(kind, settled) if family(name) in one.gives]
     if not givers:
-        yield "is computed by no solver in this scene"
+        yield "no solver computes it in this scene"
         return
-    yield "is not computed"
+    yield "not computed"
     yield from _out_of_range(spec, settled, givers)
 
 
@@ -49,12 +49,12 @@ def _of_best(kind: AnyKind, spec: MachineSpec, settled: Settled, known: Best, na
         yield f"can still change: {known.open_end}"
         return
     if not found.estimate.bounded:
-        yield f"has no bound in `{solver.name}`" + (f": {found.note}" if found.note else "")
+        yield f"no error bound in `{solver.name}`" + (f": {found.note}" if found.note else "")
         others = (one for one in _deciding(kind, settled) if family(name) in one.gives)
         yield from _out_of_range(spec, settled, others)
         return
     endless = list(_endless(spec, settled, known, name))
-    yield f"has no bound while `{solver.name}` leaves out {_list(endless)}"
+    yield f"no error bound, `{solver.name}` neglects {_list(endless)}"
     yield from _out_of_range(
         spec, settled, [one for one in _deciding(kind, settled) if one.represents.intersection(endless)]
     )
@@ -87,7 +87,7 @@ def _out_of_range(spec: MachineSpec, settled: Settled, solvers: Iterable[AnySolv
     for solver in solvers:
         off = sorted(solver.always & settled.plan.withheld)
         if off:
-            said.setdefault(f"it always simulates {_list(off)}, which the file leaves out", solver.name)
+            said.setdefault(f"it always simulates {_list(off)}, forced off in the file", solver.name)
             continue
         criterion = solver.valid(spec, settled.plan.scene)
         if criterion is not None and criterion.exceeded:

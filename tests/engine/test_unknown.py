@@ -25,13 +25,13 @@ def said(kind: str, seed: int, code: str) -> str:
 
 def test_effects_without_a_bound_are_named_and_what_keeps_their_solvers_out() -> None:
     reason = said("conveyor", 5, "CNV102")
-    assert "`belt_safety_min` has no bound while `rigid` leaves out `belt_wave`, `slip`" in reason
+    assert "`belt_safety_min`: no error bound, `rigid` neglects `belt_wave`, `slip`" in reason
     assert "`characteristics` cannot be used: static resistance over the drive's force" in reason
 
 
 def test_a_load_that_nobody_gives_names_who_might() -> None:
     reason = said("conveyor", 11, "CNV105")
-    assert "`slack_margin_min` is not computed" in reason or "`slack_margin_min` has no bound" in reason
+    assert "`slack_margin_min`: not computed" in reason or "`slack_margin_min`: no error bound" in reason
     assert "cannot be used: " in reason
 
 

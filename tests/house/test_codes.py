@@ -31,7 +31,7 @@ def test_a_code_is_three_letters_and_three_digits(code: str) -> None:
 
 
 @pytest.mark.parametrize(("code", "title"), TITLES.items(), ids=TITLES)
-def test_a_title_finishes_the_sentence_is_there(code: str, title: str) -> None:
+def test_a_title_is_a_noun_phrase(code: str, title: str) -> None:
     """`drive pulley traction reserve`: no sentence of its own, and nothing that cannot be there."""
     assert title == title.strip()
     assert re.match("[a-z0-9]|YAML", title), title

@@ -64,7 +64,7 @@ def test_the_worst_come_first(path: str) -> None:
             "open_bar",
             [
                 "toy.yaml:2:7: undecided TOY101 weight on the hook [hang]: 8 kN (no bound), limit ≤ 10 kN;"
-                " `pull` has no bound while `hanging` leaves out `waves`"
+                " `pull`: no error bound, `hanging` neglects `waves`"
             ],
         ),
         (

@@ -22,7 +22,7 @@ LOADS = (
     LoadInfo("slip_heat", "slip heat at drive pulley", units.ENERGY),
     LoadInfo("stop_time", "stopping time", units.TIME, governing=True),
     LoadInfo("stop_distance", "stopping distance", units.SPAN, governing=True),
-    LoadInfo("stop_distance_max", "way to come to rest, longest anywhere", units.SPAN, governing=True),
+    LoadInfo("stop_distance_max", "stopping distance, maximum of all points", units.SPAN, governing=True),
     LoadInfo("coast_distance", "coasting distance, no brakes", units.SPAN, governing=True),
     LoadInfo("brake_torque_required", "required brake torque, pulley shaft", units.TORQUE, governing=True),
     LoadInfo("tension_overload_braking", "belt tension added by braking", units.FORCE),

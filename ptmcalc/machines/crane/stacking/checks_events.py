@@ -454,7 +454,7 @@ DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration
     Check(
         code="CRN292",
         title="safety gear deceleration",
-        question="Is the deceleration of the caught carriage within its limit?",
+        question="Is the deceleration of the carriage in the safety gear within its limit?",
         failure="safety gear stops the carriage too hard",
         scenes=FALLS,
         loads=("safety_gear_deceleration",),

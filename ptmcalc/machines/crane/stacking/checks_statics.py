@@ -56,7 +56,7 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
     Check(
         code="CRN202",
         title="carriage guide friction ratio",
-        question="Does the weight overcome the guide friction on the way down?",
+        question="Does the weight overcome the guide friction while lowering?",
         failure="guide friction is too large for the weight",
         limit_state=LimitState("carriage jams on its guides", 1),
         scenes=frozenset({HoistScene}),

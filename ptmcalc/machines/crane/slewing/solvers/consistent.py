@@ -160,7 +160,7 @@ GEARED: Solver[SlewingCrane, SlewingScene] = Solver(
 )
 CURVED: Solver[SlewingCrane, SlewingScene] = Solver(
     name="curved",
-    title="the chain of a rotation, the start along the motor's curve",
+    title="slewing cycle, start along the motor torque-speed curve",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Slew}),
     represents=frozenset({"efficiency_direction", "slewing_motor_curve"}),

@@ -61,7 +61,7 @@ def valid(spec: Travelling, scene: Moving) -> Criterion | None:
         return Criterion("m/m_t", 1.0, 1.0, "nothing hangs on the rope: give the mass of the hook block", "the file")
     if motion.reacts or motion.ramp is not None or not motion.load:
         return None
-    return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, which the file leaves out", "the file")
+    return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, forced off in the file", "the file")
 
 
 SWAY_SIMULATED: Solver[Travelling, Moving] = Solver(
