@@ -10,6 +10,11 @@ from ptmcalc.base.diagnostic import CODES
 from ptmcalc.contract.check import LimitState
 
 HOUSE_WORDS = (
+    "askew bears blow caught dear even evenly grip honest hollow ledger march play purse rim rung sound stray strays"
+    " surely told way witness run-on run-off"
+).split()
+"""Words that mean something else in this field, or nothing."""
+_WORDS = (
     *("askew", "bears", "blow", "caught", "dear", "even", "evenly", "grip", "honest", "hollow", "ledger", "march"),
     *(
         "play",
@@ -35,8 +40,8 @@ _NO_TITLE = re.compile(r"^(a|an|the|too|what|who|that)\b", re.IGNORECASE)
 def titles() -> Iterator[tuple[str, str]]:
     """(name, title) of every check, load, effect, solver and finding."""
     for kind in KINDS:
-        for one in (*kind.checks,):
-            yield f"{kind.label} {one.code}", one.title
+        for check in kind.checks:
+            yield f"{kind.label} {check.code}", check.title
         for group in (kind.loads, kind.effects, kind.solvers):
             yield from ((f"{kind.label} {one.name}", one.title) for one in group)
     yield from ((code, text.title) for code, text in CODES.items())

@@ -68,10 +68,12 @@ RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(PO
         blame=blames(*_SPEED),
         repair=at(*_SPEED),
         forbids_band=True,
-        what="The speed of the chain keeps away from every speed at which a harmonic of its teeth meets a natural"
-        " frequency of the chain and the force in resonance would be half of m a_max or more. The loads"
-        " `safe_speed_below` and `safe_speed_above` name the nearest speeds that do.",
-        why="In resonance the polygon effect pulls at the chain ten times as hard as beside it, once a tooth, all day.",
+        what="The relative distance of the chain speed from every relevant resonance speed is at least the band. At a"
+        " resonance speed, a harmonic of the tooth frequency equals a natural frequency of the chain. A resonance"
+        " is relevant if its force reaches at least half of m a_max. The loads `safe_speed_below` and"
+        " `safe_speed_above` state the nearest speeds that meet the criterion.",
+        why="In resonance, the polygon effect loads the chain ten times as much as away from it. This load acts"
+        " continuously, once per tooth.",
         formula="|V/V_nk - 1| >= max(15 %, 2 zeta_k),   V_nk = p f_k/n,   for (2/(pi n)) |D(w_k)|/(m w_k^2) >= 0.5",
         source="tooth frequency V/p and the frequency equations of the strands; the band is an engineering rule",
     )
@@ -119,9 +121,9 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     needs=no_needs,
     blame=_blame_strength,
     repair=_unless_resonant(at(*_BREAKING)),
-    what="The breaking load exceeds the largest tension of steady running, polygon effect and centrifugal force in it,"
-    " by the safety factor.",
-    why="The polygon effect loads the chain once a tooth: plates and pins tire, and a chain that breaks runs away.",
+    what="The breaking load is at least the safety factor times the maximum tension of steady running. This tension"
+    " includes the polygon effect and the centrifugal force.",
+    why="The polygon effect loads the chain once per tooth and fatigues plates and pins. A broken chain runs away.",
     formula="F_B/(c (S_static + S_polygon + m V^2)) >= n",
     source="chain makers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
 )
@@ -138,8 +140,8 @@ STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     needs=no_needs,
     blame=blames(*_BREAKING),
     repair=at(*_BREAKING),
-    what="The breaking load exceeds the static tension with the centrifugal one by the safety factor.",
-    why="Wear, shocks and the uneven share of parallel chains use up what looks like a reserve.",
+    what="The breaking load is at least the safety factor times the sum of static and centrifugal tension.",
+    why="Wear, shocks and the uneven load share of parallel chains consume the apparent reserve.",
     formula="F_B/(c (S_static + m V^2)) >= n",
     source="chain makers' handbooks; lecture notes Kramatorsk 2007",
 )
@@ -171,8 +173,9 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
         needs=lambda spec, scene: (("chain", "pin_diameter"), ("chain", "bush_length")),
         blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "pin_diameter"),
         repair=_unless_resonant(at("chain", "pin_diameter")),
-        what="The largest tension of a chain spreads over pin and bush with no more than the pressure of the file.",
-        why="Above it the film of oil breaks, and joints wear many times as fast.",
+        what="The bearing pressure between pin and bush at the maximum tension of a chain is at most the limit of the"
+        " file.",
+        why="Above the limit the oil film breaks, and the link joints wear many times as fast.",
         formula="c S/(d b) <= p",
         source="ISO 606:2015, bearing area; chain makers' handbooks",
     )
@@ -208,8 +211,9 @@ SLACK: Check[ChainDrive, Run] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else _tension_key(spec, scene),
     repair=_unless_resonant(_tension_key),
-    what="No strand loses its tension in steady running, swings of the polygon effect in it.",
-    why="A slack chain piles up before the sprocket, jumps teeth and is caught again with a blow.",
+    what="In steady running, the minimum tension of every strand is at least the limit, 0 N by default. This tension"
+    " includes the oscillations of the polygon effect.",
+    why="A slack chain piles up before the sprocket and jumps teeth. An impact loads it when it becomes taut again.",
     formula="min(S_static + S_polygon) >= S_least",
     source="equilibrium strand by strand",
 )
@@ -249,8 +253,9 @@ LIFE = only(lambda spec, scene: spec.checks.life is not None or spec.wear is not
             ("wear", "coefficient") if spec.wear is not None and spec.wear.archard is None else ("wear", "archard")
         ),
         repair=no_repair,
-        what="The chain runs the wanted time before wear of its joints has lengthened it by the share allowed.",
-        why="A lengthened chain climbs its teeth and jumps them.",
+        what="The chain reaches the required life before the wear of its link joints elongates it by the permissible"
+        " share.",
+        why="An elongated chain rides up on its teeth and jumps them.",
         formula="T = (e p/D) L/V,   D = sum (S_in + S_out) l f t_B   or by pressure and path (archard)",
         source="lecture notes Kramatorsk 2007; Archard 1953",
     )
@@ -280,10 +285,10 @@ FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
         needs=lambda spec, scene: (("chain", "section"),),
         blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "section"),
         repair=no_repair,
-        what="The polygon effect swings the stress of the plates by no more than the amplitude of the file, which is"
-        " that for the tooth passes of the wanted life; the mean stress counts by Goodman's line where the strength"
-        " of the plates is given.",
-        why="A chain passes millions of teeth; plates crack at their holes.",
+        what="The fatigue utilisation of the link plates is at most the limit. It compares the stress amplitude of the"
+        " polygon effect with the amplitude of the file. The amplitude of the file applies to the tooth passes of"
+        " the required life. The mean stress counts by Goodman's line if the strength of the plates is given.",
+        why="A chain passes millions of teeth. Overstressed plates crack at their holes.",
         formula="s_a/s_lim + s_m/R_m <= 1,   s_a = c (S_max - S_min)/(2 A)",
         source="J. Goodman 1899; limits by chain makers",
     )
@@ -325,8 +330,8 @@ WRAP = only(_between_shafts)(
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
-        what="The chain lies on the smaller sprocket over 120 deg at least.",
-        why="Few teeth in mesh carry the whole pull: they wear, and the chain jumps them.",
+        what="The wrap angle of the chain on the smaller sprocket is at least the limit, 120 deg by default.",
+        why="Few teeth in mesh carry the whole chain tension. They wear, and the chain jumps them.",
         formula="gamma = pi - 2 arcsin((R_2 - R_1)/C) >= 120 deg",
         source="geometry of the tangents; ACA",
     )
@@ -362,8 +367,10 @@ TEETH: Check[ChainDrive, Run] = Check(
     needs=no_needs,
     blame=_small_sprocket,
     repair=no_repair,
-    what="The smaller sprocket has 6 teeth at least on a conveyor, 17 on a drive.",
-    why="Few teeth make the chain run unevenly: its speed swings by 1 - cos(pi/z), its joints bend far and meet hard.",
+    what="The number of teeth of the smaller sprocket is at least the limit. The default is 6 for a conveyor and 17"
+    " for a drive.",
+    why="With few teeth, the chain speed fluctuates by 1 - cos(pi/z). The link joints turn through large angles and"
+    " engage with an impact.",
     formula="min(z_1, z_2) >= z",
     source="ISO 1977:2006; ISO 10823:2004",
 )
@@ -392,8 +399,9 @@ RATIO = only(_between_shafts)(
         needs=no_needs,
         blame=blames("layout", "driven", "teeth"),
         repair=no_repair,
-        what="The teeth of both sprockets are in a ratio of no more than 6.",
-        why="A large ratio takes wrap from the small sprocket, and a worn chain climbs a large one soon.",
+        what="The ratio of the teeth of both sprockets is at most the limit, 6 by default.",
+        why="A large ratio reduces the wrap angle of the small sprocket. A worn chain soon rides up on a large"
+        " sprocket.",
         formula="z_2/z_1 <= 6",
         source="ISO 10823:2004; ACA",
     )
@@ -433,8 +441,8 @@ NEAR_SHAFTS = only(_between_shafts)(
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
-        what="The shafts stand 30 pitches apart at least.",
-        why="In a short chain every joint bends often: it wears fast.",
+        what="The centre distance of the shafts is at least the limit, 30 pitches by default.",
+        why="In a short chain every link joint bends often and wears fast.",
         formula="C/p >= 30",
         source="ISO 10823:2004; ACA: 30 to 50 pitches",
     )
@@ -453,8 +461,8 @@ FAR_SHAFTS = only(_between_shafts)(
         needs=no_needs,
         blame=lambda spec, scene, loads: _distance_key(spec, scene),
         repair=_distance_repair,
-        what="The shafts stand no more than 80 pitches apart.",
-        why="A long free strand is heavy, whips and rubs.",
+        what="The centre distance of the shafts is at most the limit, 80 pitches by default.",
+        why="A long unsupported strand is heavy, oscillates and rubs.",
         formula="C/p <= 80",
         source="ISO 10823:2004; ACA",
     )
@@ -487,8 +495,10 @@ POWER = only(lambda spec, scene: isinstance(spec.layout, TwoShafts) and spec.lay
         needs=no_needs,
         blame=blames("layout", "rated_power"),
         repair=at("layout", "rated_power"),
-        what="The power, with the factors of service, teeth and rows, is no more than the maker's chart allows.",
-        why="The chart knows what wears and tires a chain of this pitch at this speed.",
+        what="The design power is at most the rated power of the manufacturer's chart. It includes the factors of"
+        " service, teeth and rows.",
+        why="The chart accounts for wear and fatigue of a chain of this pitch at this speed. A higher power shortens"
+        " the chain life.",
         formula="P f_1 f_2/k <= P_rated,   f_2 = (19/z_1)^1.08",
         source="ISO 10823:2004; ACA for the rows",
     )

@@ -65,9 +65,10 @@ WEAK: Check[ChainDrive, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec),
     repair=_torque_repair,
-    what="The mean starting force at the chain, or along a motor's curve the smallest up to nine tenths of the rated"
-    " speed, exceeds what resists at the start, or what an imposed speed asks for.",
-    why="A motor that does not move the chain burns, or trips its overload relay.",
+    what="The mean starting force at the chain exceeds the resistance at the start, or the force that an imposed speed"
+    " requires. With a motor curve, the minimum force up to nine tenths of the rated speed replaces the mean"
+    " force.",
+    why="A motor that does not move the chain overheats or trips its overload relay.",
     formula="M i eta/R >= W_start                     torque\nM i eta/R >= W_start + (m + m_drive) a    speed",
     source="Newton's law; resistance at the start 1.2 to 1.5 times that in motion by practice",
 )
@@ -103,8 +104,8 @@ SLOW: Check[ChainDrive, Start] = Check(
     blame=lambda spec, scene, loads: _profile_key(spec, scene),
     repair=_profile_repair,
     each=_where_timed,
-    what="The rigid body reaches the speed of the file within the time it allows.",
-    why="A motor draws its starting current all that time, and heats up.",
+    what="The rigid body reaches the speed of the file within the time limit of the file.",
+    why="The motor draws its starting current during the whole start and heats up.",
     formula="J_red w/(M - M_s) <= limit",
     source="lecture notes Kramatorsk 2007; the motor's data sheet",
 )
@@ -134,10 +135,11 @@ STRENGTH: Check[ChainDrive, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _hard_start(spec, scene),
     repair=lambda spec, scene: ("chain", "breaking_load"),
-    what="The largest tension at the run-on in the start leaves the breaking load its safety: static tension, the force"
-    " that accelerates the chain, the swing of an elastic chain, the centrifugal tension of full speed.",
-    why="A start of a full conveyor after a jam is the hardest pull of its life; a torque step pulls twice as hard as"
-    " the rigid body does.",
+    what="The breaking load is at least the safety factor times the maximum tension of the chain entering the sprocket"
+    " at the start. This tension includes the static tension and the force that accelerates the chain. It also"
+    " includes the oscillation of the elastic chain and the centrifugal tension of full speed.",
+    why="The start of a full conveyor after a jam is the highest load in the life of the chain. A torque step produces"
+    " twice the force of the rigid body.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
     source="makers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
 )
@@ -179,8 +181,8 @@ SLACK: Check[ChainDrive, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: tension_key(spec),
     repair=lambda spec, scene: tension_key(spec) if isinstance(spec.layout, ConveyorLayout) else (),
-    what="Every section of both strands keeps some tension at every moment of the start.",
-    why="A slack chain leaves its teeth, and snatches when it comes taut again.",
+    what="Every section of both strands stays in tension at every moment of the start.",
+    why="A slack chain leaves its teeth. An impact loads it when it becomes taut again.",
     formula="min over sections and time of S >= 0",
     source="a chain never pushes",
 )

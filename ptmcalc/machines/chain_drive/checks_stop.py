@@ -82,8 +82,8 @@ WAY: Check[ChainDrive, Stopping] = Check(
     blame=lambda spec, scene, loads: _way_key(spec, scene),
     repair=lambda spec, scene: _way_key(spec, scene) if acting_brake(spec, scene) is not None else (),
     each=lambda spec, scene: _where_limited(spec, scene, WAY),
-    what="The chain comes to rest within the way the file allows, with the lowest resistance there can be.",
-    why="A chain that runs on drags along whoever it has caught, and overfills what it feeds.",
+    what="With the lowest possible resistance, the chain stops within the distance given in the file.",
+    why="A long stopping distance endangers persons caught by the chain and overfills the next conveyor.",
     formula="s = integral of v dt until v = 0 <= limit",
     source="the plant's safety rules",
 )
@@ -120,8 +120,9 @@ TIME: Check[ChainDrive, Stopping] = Check(
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
     each=_where_timed,
-    what="The chain comes to rest within the time the file allows, or at all.",
-    why="A loaded chain that falls faster than its resistance holds it runs away when the drive is off.",
+    what="The chain stops within the time given in the file. Without that time, a chain that moves longer than one"
+    " hour counts as not stopping.",
+    why="When the drive is off, a descending loaded chain runs away if its resistance does not hold it.",
     formula="t(v = 0) <= limit",
     source="the plant's rules; balance of the rigid chain",
 )
@@ -155,8 +156,8 @@ TORQUE: Check[ChainDrive, Stopping] = Check(
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
     each=lambda spec, scene: _where_limited(spec, scene, TORQUE),
-    what="The brake holds what the rigid chain needs to stop within the way the file allows.",
-    why="A brake sized without the sign of the resistance is too weak downhill and needlessly violent uphill.",
+    what="The brake torque is at least the torque that stops the rigid chain within the distance given in the file.",
+    why="A brake sized without the sign of the resistance is too weak downhill and unnecessarily severe uphill.",
     formula="F_b R e/i + J a i/R <= M_brake,   F_b = m a - W,   a = v^2/(2 s)",
     source="lecture notes Kramatorsk 2007, in the signed form",
 )
@@ -195,8 +196,9 @@ SLACK: Check[ChainDrive, Stopping] = Check(
     blame=lambda spec, scene, loads: _TENSION,
     repair=lambda spec, scene: _TENSION,
     each=_of_conveyors,
-    what="Every section of both strands keeps some tension from the moment the motors let go until the chain rests.",
-    why="A slack chain leaves its teeth, folds where it is pushed, and snatches in the next start.",
+    what="Every section of both strands stays in tension from the switch-off of the motors until the chain is at"
+    " standstill.",
+    why="A slack chain leaves its teeth and folds where it is pushed. An impact loads it in the next start.",
     formula="min over sections and time of S >= 0",
     source="a chain never pushes",
 )
@@ -224,10 +226,11 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("chain", "breaking_load"),
     repair=lambda spec, scene: ("chain", "breaking_load"),
-    what="The largest tension of a stop, or of a run through a range of speeds with its resonances, leaves the"
-    " breaking load its safety; the centrifugal tension of full speed counts.",
-    why="A brake at the upper end of a descent stops the whole load by the strand below it; teeth that pass at a"
-    " natural frequency wind a chain up within a few turns.",
+    what="The breaking load is at least the safety factor times the maximum tension of a stop or a speed sweep. The"
+    " sweep includes the resonances in its range of speeds. The tension includes the centrifugal tension of full"
+    " speed.",
+    why="A brake at the upper end of a descent stops the whole load through the strand below it. Teeth that pass at a"
+    " natural frequency excite large chain oscillations within a few revolutions.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
     source="makers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
 )
@@ -276,8 +279,8 @@ HELD: Check[ChainDrive, Hold] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _hold_key(spec),
     repair=lambda spec, scene: _hold_key(spec) if len(_hold_key(spec)) > 1 else (),
-    what="What pulls the loaded chain back is held by friction, the backstop with its reserve, and the closed brake.",
-    why="A conveyor that runs back buries its tail, turns the motors backward and tears its flights off.",
+    what="Friction, the backstop with its reserve and the closed brake hold the rollback torque of the loaded chain.",
+    why="A conveyor that rolls back buries its tail, drives the motors backward and breaks off its flights.",
     formula="(q_G g H - W_friction at its lowest) R <= M_backstop/reserve + M_brake i",
     source="lecture notes Kramatorsk 2007",
 )

@@ -155,8 +155,9 @@ SLIP: Check[Conveyor, ConveyorScene] = Check(
     blame=_blame_slip,
     repair=_takeup_tension,
     each=_slip_checks,
-    what="The grip of the drum exceeds what it must transmit by the reserve k_T, at every moment and in both senses.",
-    why="A belt that slips on the drum wears the lagging, overheats and can burn; it does not recover by itself.",
+    what="The traction of every drive pulley exceeds the force that it transmits by the reserve k_T. The criterion"
+    " applies at every moment and in both directions of the force.",
+    why="A slipping belt wears the pulley lagging, overheats and can burn. Slip does not end by itself.",
     formula="k = S_slack (exp(mu alpha) - 1)/(S_tight - S_slack) >= k_T, and U < 1   (definition `force`)\n"
     "1/U >= k_T,  U = (S_tight - rho_B v^2)/((S_slack - rho_B v^2) exp(mu alpha))   (definition `ratio`)",
     source="Euler-Eytelwein; k_T 1.1 to 1.5, lecture notes Kramatorsk 2007; 1.2 in handbooks",
@@ -178,8 +179,8 @@ STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     needs=safety_needs,
     blame=lambda spec, scene, loads: strength_key(spec, scene),
     repair=strength_key,
-    what="The belt's breaking force exceeds the largest tension of any section by the safety factor.",
-    why="A belt that breaks runs off the conveyor; splices fail first and by fatigue.",
+    what="The breaking force of the belt is at least the safety factor times the maximum tension of any section.",
+    why="A broken belt runs off the conveyor. Splices fail first, by fatigue.",
     formula="breaking force / S_max >= safety",
     source="DIN 22101:1982-02 as quoted by belt makers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
 )
@@ -213,8 +214,8 @@ SAG: Check[Conveyor, Run] = Check(
     needs=_idler_pitches,
     blame=_blame_tension,
     repair=_takeup_tension,
-    what="The belt sags no more than the limit between any two idlers in steady running.",
-    why="A sagging belt spills its load, flexes it at every idler and costs power.",
+    what="In steady running, the sag ratio of the belt between any two idlers is at most the limit.",
+    why="Excessive sag spills the load, flexes the load at every idler and increases the power demand.",
     formula="w l/(8 S_min) <= limit",
     source="DIN 22101: at most 1 % in steady running",
 )
@@ -244,7 +245,8 @@ START: Check[Conveyor, Start] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: starting_torque_key(spec),
     repair=lambda spec, scene: () if (key := starting_torque_key(spec))[-1] == "curve" else key,
-    what="The mean starting force at the rim exceeds the static resistance (torque) or what the profile asks (speed).",
+    what="With a torque profile, the mean starting force at the pulley surface exceeds the static resistance. With an"
+    " imposed speed, it exceeds the force that the profile requires.",
     why="A drive that cannot move the belt stalls, and its motors overheat.",
     formula="n M i eta/R > W   (torque)      n M i eta/R >= max(m a + S_on - S_off)   (imposed speed)",
     source="lecture notes Kramatorsk 2007",
@@ -275,8 +277,8 @@ SLACK: Check[Conveyor, ConveyorScene] = Check(
     needs=no_needs,
     blame=_blame_tension,
     repair=_takeup_tension,
-    what="Every section keeps more tension than a slack belt, at every moment.",
-    why="A slack belt lifts off its idlers, folds, runs off, and snatches when it comes taut again.",
+    what="At every moment, the tension of every belt section is at least the slack limit.",
+    why="A slack belt lifts off its idlers, folds and runs off. An impact loads it when it becomes taut again.",
     formula="S_min - w l/(8 h_slack) >= 0 on either strand   (h_slack 10 %; without idler pitches S_min >= 0)",
     source="shallow parabola; slack as the end of the linear belt, lecture notes Kramatorsk 2007",
 )
@@ -354,10 +356,10 @@ STOP: Check[Conveyor, ConveyorScene] = Check(
     blame=lambda spec, scene, loads: _stop_key(spec, scene),
     repair=_stop_repair,
     each=_only_with("CNV106", Conveyor.stop_distance_limit),
-    what="Every point of the belt comes to rest within the distance the file allows: at the head, at the tail and"
-    " between them.",
-    why="A belt that runs on overfills the chute below and drags along a person it has caught. The tail of a long belt"
-    " runs on at full speed until the wave of the brake arrives.",
+    what="Every point of the belt stops within the distance given in the file. The criterion applies at the head, at"
+    " the tail and between them.",
+    why="A long stopping distance overfills the chute below and endangers persons caught by the belt. The tail of a"
+    " long belt continues at full speed until the wave of the brake arrives.",
     formula="max over the belt of the integral of v dt until v = 0 <= limit",
     source="the plant's safety rules",
 )
@@ -393,9 +395,10 @@ STOP_TIME: Check[Conveyor, ConveyorScene] = Check(
     blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=_brake_repair,
     each=_where_timed,
-    what="The belt at the head comes to rest within the time the file allows, or at all.",
-    why="Conveyors that feed one another must stop in order, or the transfer points choke; a load that lowers itself"
-    " faster than the brakes hold it runs away.",
+    what="The belt at the head stops within the time given in the file. Without that time, a belt that moves longer"
+    " than one hour counts as not stopping.",
+    why="Conveyors that feed one another must stop in sequence; otherwise the transfer points block. A load that"
+    " lowers itself against too weak brakes runs away.",
     formula="t(v = 0) <= limit",
     source="the plant's rules; balance of the whole belt",
 )
@@ -427,8 +430,9 @@ BRAKE: Check[Conveyor, ConveyorScene] = Check(
     blame=lambda spec, scene, loads: _brake_key(spec, scene),
     repair=_brake_repair,
     each=_only_with("CNV108", Conveyor.stop_distance_limit),
-    what="The brakes together hold what the rigid body needs to stop within the way the file allows.",
-    why="A brake sized without the resistance's sign is too weak downhill and needlessly violent uphill.",
+    what="The total brake torque is at least the torque that stops the rigid body within the distance given in the"
+    " file.",
+    why="A brake sized without the sign of the resistance is too weak downhill and unnecessarily severe uphill.",
     formula="(m v^2/(2 s) - W) R <= sum M_brake on the drum shaft",
     source="lecture notes Kramatorsk 2007, in the signed form",
 )
@@ -471,8 +475,9 @@ BACKSTOP: Check[Conveyor, Hold] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _holding_key(spec),
     repair=lambda spec, scene: _holding_key(spec) if spec.backstop or spec.brakes else (),
-    what="The pull of the load on the stopped belt is held by idler resistance, backstop and closed brakes.",
-    why="A belt that runs back buries its tail and turns the motors backward.",
+    what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"
+    " torque is at most the torque of backstop and brakes, divided by the reserve.",
+    why="A belt that rolls back buries its tail and drives the motors backward.",
     formula="(climb of the load - idler friction at rest) D/2 <= (M_backstop + M_brakes)/reserve",
     source="lecture notes Kramatorsk 2007",
 )
@@ -501,10 +506,11 @@ STROKE: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("takeup", "stroke"),
     repair=lambda spec, scene: ("takeup", "stroke"),
     each=_only_with("CNV110", lambda spec, scene: spec.takeup.stroke),
-    what="The take-up can follow the belt from the new one at rest, closed with the take-up's tension S_0 all round, to"
-    " the old one in steady running. A weight follows the elastic and the permanent elongation; a screw moves for the"
-    " permanent one alone, because its belt runs with the mean S_0 it was set to.",
-    why="A take-up at its end lets the tension fall, and the belt slips.",
+    what="The required take-up travel is at most the stroke. It starts from the new belt at standstill, closed with"
+    " the take-up tension S_0 all round. It ends at the old belt in steady running. A take-up weight follows the"
+    " elastic and the permanent elongation. A take-up screw moves for the permanent elongation only, because its"
+    " belt runs with the set mean tension S_0.",
+    why="A take-up at the end of its stroke lets the tension fall, and the belt slips.",
     formula="L_loop ((S_mean - S_0)/EA + permanent)/2 <= stroke",
     source="DIN 22101, elongation of the belt",
 )
@@ -542,8 +548,8 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
     blame=_blame_tension,
     repair=no_repair,
     each=_heat_checks,
-    what="A drum that slips for a moment burns off no more than the file allows.",
-    why="A slipping drum sets the belt on fire before anybody sees it.",
+    what="The frictional heat of temporary belt slip at a drive pulley is at most the limit of the file.",
+    why="A slipping pulley sets the belt on fire before the operator notices.",
     formula="integral of |S_on - S_off| |v_drum - v_belt| dt <= limit",
     source="work of friction",
 )

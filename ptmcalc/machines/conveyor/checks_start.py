@@ -76,8 +76,8 @@ MOTOR_HEAT: Check[Conveyor, Start] = Check(
     blame=lambda spec, scene, loads: starting_torque_key(spec),
     repair=no_repair,
     each=_heat_checks,
-    what="The rotor of each motor on the mains takes up no more heat in a start than its maker allows.",
-    why="A rotor that is slow to come up to speed melts its bars before any relay in the stator notices.",
+    what="The rotor heat of each mains-fed motor in a start is at most the manufacturer's value.",
+    why="A rotor that accelerates slowly melts its bars before any relay in the stator circuit responds.",
     formula="integral of M (w_0 - w) dt <= allowed",
     source="power of the air gap less that of the shaft; the motor's data sheet",
 )
@@ -125,9 +125,10 @@ SHARP: Check[Conveyor, Start] = Check(
     blame=lambda spec, scene, loads: _sharp_key(spec, scene),
     repair=_sharp_repair,
     each=_sharp_checks,
-    what="The largest acceleration of the profile stays below the limit of the file, and below what grip and slack"
-    " surely bear where the file asks for that.",
-    why="Load slides back on a slope, the drum slips, the belt goes slack behind the wave of a hard start.",
+    what="The maximum acceleration of the profile is at most the limit of the file. If the file requires it, the"
+    " acceleration is also at most the bound set by traction and slack.",
+    why="In a hard start, load slides back on a slope and the pulley slips. The belt goes slack behind the starting"
+    " wave.",
     formula="v q'_max <= a   (speed)      (F - W)/M <= a   (torque)",
     source="practice: 0.1 to 0.3 m/s^2; bounds of `laws.loop_bounds`",
 )
@@ -163,8 +164,9 @@ RESIDUAL: Check[Conveyor, Start] = Check(
     blame=lambda spec, scene, loads: _time_key(spec, scene),
     repair=lambda spec, scene: () if scene.profile.points else _time_key(spec, scene),
     each=_residual_checks,
-    what="The swing that the profile leaves in the lowest mode of the belt stays below the limit of the file.",
-    why="A belt that swings on after its start wears splices and take-up; a rise of whole periods leaves it at rest.",
+    what="The residual oscillation of the profile in the lowest belt mode is at most the limit of the file.",
+    why="A belt that oscillates after its start wears splices and take-up. A rise time of whole periods leaves no"
+    " oscillation.",
     formula="R = |integral of q'(t) exp(i w_1 t) dt| <= limit,   1 for a step",
     source="`laws.start_profile.residual`; frequencies of `laws.belt_modes`",
 )
@@ -198,8 +200,9 @@ RESONANCE: Check[Conveyor, Start] = Check(
     blame=lambda spec, scene, loads: _ripple_key(spec, scene),
     repair=_ripple_key,
     each=_band_checks,
-    what="The control of the drive does not pulsate near one of the three lowest natural frequencies of the belt.",
-    why="A small pulsation in resonance winds the belt up until the drum slips or a splice gives.",
+    what="The relative distance of the drive ripple from each of the three lowest belt natural frequencies is at least"
+    " the band.",
+    why="A small ripple in resonance amplifies the belt oscillation until the pulley slips or a splice fails.",
     formula="min over k = 1, 2, 3 of |f/f_k - 1| >= band",
     source="frequencies of `laws.belt_modes`; the band is an engineering choice",
 )

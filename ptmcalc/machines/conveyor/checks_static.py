@@ -52,8 +52,9 @@ FILL: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: _WIDTH,
     repair=lambda spec, scene: _WIDTH,
     each=_fill_checks,
-    what="The cross-section of the load on the belt holds the stream at the steepest place of the route.",
-    why="An overfull belt spills its load over the edges and at the loading point.",
+    what="The load cross-section carries the mass flow at the steepest point of the route. The filling ratio is at"
+    " most the limit.",
+    why="An overfilled belt spills its load over the edges and at the loading point.",
     formula="Q/(rho v (S_2 + k S_1)) <= limit,   S_2 = (l + e cos(lambda)) e sin(lambda),\n"
     "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/6,   e = (0.9 B - 0.05 m - l)/2,   k^2 = 1 - sin^2 delta/sin^2 theta",
     source="ISO 5048:1989; DIN 22101 (k)",
@@ -96,8 +97,9 @@ DRUM: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: (*spec.main_path, "drum", "diameter"),
     repair=lambda spec, scene: (*spec.main_path, "drum", "diameter"),
     each=_drum_checks,
-    what="Every drive drum is as large as the maker of the belt, or its carcass, asks for.",
-    why="A belt bent too sharply at full tension breaks its plies or cords, at the splice first.",
+    what="The diameter of every drive pulley is at least the diameter that the belt manufacturer or the belt carcass"
+    " requires.",
+    why="A belt bent too sharply at full tension breaks its plies or cords, first at the splice.",
     formula="c d <= D,   c = 80 cotton, 90 polyamide, 108 polyester, 138 aramid, 145 steel cord\n"
     "D_min <= D   (the diameter the maker of the belt gives)",
     source="DIN 22101, drums of group A",
@@ -183,9 +185,9 @@ FIBRE: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("transitions",),
     repair=no_repair,
     each=_fibre_checks,
-    what="No fibre of the belt is stretched too far where the trough opens or the belt runs over a crest or through a"
-    " hollow, whatever part of it is loaded.",
-    why="Edges that are stretched beyond their strength crack, and the belt runs off ever after.",
+    what="The maximum fibre tension per width is at most the limit in every transition, convex curve and concave"
+    " curve. The criterion applies to every partial loading of the belt.",
+    why="Edges stretched beyond their strength crack, and the belt then runs off permanently.",
     formula=_FIBRES,
     source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
 )
@@ -203,9 +205,10 @@ PRESSED: Check[Conveyor, Run] = Check(
     blame=lambda spec, scene, loads: ("transitions",),
     repair=no_repair,
     each=_least_checks,
-    what="Every fibre of the belt keeps some tension where the trough opens, over a crest and through a hollow,"
-    " whatever part of it is loaded.",
-    why="A fibre under pressure folds: the middle buckles on a crest, the edges flutter in a hollow, and load spills.",
+    what="Every fibre of the belt stays in tension in every transition, convex curve and concave curve. The criterion"
+    " applies to every partial loading of the belt.",
+    why="A fibre under compression folds. The centre buckles in a convex curve, the edges flutter in a concave curve,"
+    " and load spills.",
     formula=_FIBRES + "; k >= 0",
     source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
 )
@@ -250,9 +253,10 @@ LIFT: Check[Conveyor, ConveyorScene] = Check(
     blame=lambda spec, scene, loads: ("route",),
     repair=no_repair,
     each=_lift_checks,
-    what="The bare belt stays on its idlers in every concave curve: in steady running whatever part of it is loaded,"
-    " and in every scene of the file with the tension it has there.",
-    why="A belt that lifts off drops its load beside the conveyor, or comes down beside its idlers.",
+    what="The empty belt stays on its idlers in every concave curve: its tension there is at most the lift-off"
+    " tension. In steady running, the criterion applies to every partial loading of the belt. Every scene of the"
+    " file is verified with its own tension in the curve.",
+    why="A belt that lifts off drops its load next to the conveyor, or comes down next to its idlers.",
     formula="S_max in the curve <= rho_belt g R cos(delta)",
     source="DIN 22101 and CEMA, concave vertical curves; derived from the equilibrium of an element",
 )

@@ -74,9 +74,9 @@ ROPE: OneCheck = only(loaded)(
         needs=_safety_needs,
         blame=blames("rope", "breaking_force"),
         repair=at("rope", "breaking_force"),
-        what="The breaking force of the rope exceeds its largest pull in even hoisting by the coefficient Zp of the"
-        " group of the mechanism (ISO 4308-1:2003).",
-        why="A rope bends and wears at every lift: what looks like a reserve is its life.",
+        what="The breaking force of the rope is at least Zp times its maximum force in steady hoisting. Zp is the"
+        " coefficient of the mechanism group (ISO 4308-1:2003).",
+        why="A rope bends and wears at every lift. The apparent reserve determines the rope life.",
         formula="F_min/S >= Z_p,   S = ((Q + G) g/(m eta_r) + rope)/eta_deflection",
         source="ISO 4308-1:2003, GOST 33710-2015; quoted from secondary sources",
     )
@@ -106,8 +106,8 @@ DRUM_BEND: OneCheck = only(loaded)(
         needs=_group_needs("drum_ratio"),
         blame=blames("drum", "diameter"),
         repair=at("drum", "diameter"),
-        what="The drum, measured to the middle of the rope, is h1 rope diameters large at least.",
-        why="A rope bent sharply breaks wire by wire.",
+        what="The drum diameter, measured to the centre of the rope, is at least h1 rope diameters.",
+        why="A sharply bent rope breaks wire by wire.",
         formula="(D + d)/d >= h_1",
         source="ISO 4308-1:2003; quoted from secondary sources, to be confirmed",
     )
@@ -141,8 +141,9 @@ SHEAVE_BEND: OneCheck = only(_has_sheaves)(
         needs=lambda spec, scene: (("reeving", "sheave_diameter"), *_group_needs("sheave_ratio")(spec, scene)),
         blame=blames("reeving", "sheave_diameter"),
         repair=at("reeving", "sheave_diameter"),
-        what="The sheaves, measured to the middle of the rope, are h2 rope diameters large at least.",
-        why="On a sheave the rope is bent and straightened again at every pass: twice as often as on the drum.",
+        what="The sheave diameter, measured to the centre of the rope, is at least h2 rope diameters.",
+        why="On a sheave, the rope is bent and straightened again at every pass. This occurs twice as often as on the"
+        " drum.",
         formula="(D + d)/d >= h_2",
         source="ISO 4308-1:2003; quoted from secondary sources, to be confirmed",
     )
@@ -176,8 +177,9 @@ EQUALISER_BEND: OneCheck = only(_has_equaliser)(
         needs=_group_needs("equaliser_ratio"),
         blame=blames("reeving", "equaliser_diameter"),
         repair=at("reeving", "equaliser_diameter"),
-        what="The equalising sheave, measured to the middle of the rope, is h3 rope diameters large at least.",
-        why="It hardly turns, but it works the same piece of rope all its life.",
+        what="The diameter of the equalising sheave, measured to the centre of the rope, is at least h3 rope"
+        " diameters.",
+        why="The equalising sheave turns little. It bends the same piece of rope during the whole rope life.",
         formula="(D + d)/d >= h_3",
         source="ISO 4308-1:2003; quoted from secondary sources, to be confirmed",
     )
@@ -208,8 +210,10 @@ SLACK: OneCheck = only(lambda spec, scene: spec.hook_block > 0)(
         needs=no_needs,
         blame=blames("hook_block"),
         repair=at("hook_block"),
-        what="The empty hook block pulls every fall of its tackle down against the friction of the sheaves.",
-        why="Else the rope runs slack off the drum, jumps its grooves, and is caught with a blow.",
+        what="While lowering, the empty hook block keeps every fall of its reeving in tension against the friction of"
+        " the sheaves.",
+        why="Otherwise the rope runs slack off the drum and jumps its grooves. An impact loads it when it becomes taut"
+        " again.",
         formula="min L_k >= 0 while lowering,   L_(k+1) = L_k/eta below, U_(k+1) = U_k/eta above,   L = U - w",
         source="balance of every sheave",
     )
@@ -246,9 +250,10 @@ USE: OneCheck = only(_use_wanted)(
         needs=lambda spec, scene: (_GROUP,),
         blame=blames("class", "mechanism"),
         repair=no_repair,
-        what="The group that the hours in motion and the load spectrum ask (ISO 4301-1:1986) is not above the one the"
-        " file claims.",
-        why="All limits of rope, drum and sheaves are those of the group.",
+        what="The required mechanism group is at most the group declared in the file. Hours in motion and load"
+        " spectrum determine the required group (ISO 4301-1:1986).",
+        why="All limits of rope, drum and sheaves are those of the declared group. They do not cover a more severe"
+        " duty.",
         formula="M(T, L) = T + L - 2 <= M,   L by k_m = sum share (P/P_max)^3",
         source="ISO 4301-1:1986",
     )

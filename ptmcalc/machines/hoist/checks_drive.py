@@ -64,9 +64,9 @@ WEAK: OneCheck = only(_raised)(
         needs=_gearbox,
         blame=lambda spec, scene, loads: _torque_key(spec, scene),
         repair=_torque_repair,
-        what="The mean starting torque exceeds the torque of the hanging load, losses against it, by the reserve"
-        " asked.",
-        why="A motor without reserve does not lift what hangs: it stalls, burns, or lets the load sink.",
+        what="The mean starting torque is at least the required reserve times the torque of the suspended load. The"
+        " losses increase this load torque.",
+        why="A motor without reserve does not lift the suspended load. It stalls, overheats, or lets the load descend.",
         formula="M_mean/(M_d/(u eta)) >= 1.4",
         source="power balance of the gearbox; handbooks of lifting machines",
     )
@@ -96,8 +96,8 @@ EXCESS: OneCheck = only(_driven)(
         needs=_gearbox,
         blame=lambda spec, scene, loads: _torque_key(spec, scene),
         repair=_torque_repair,
-        what="The mean starting torque is no more than four times that of the load.",
-        why="What the motor has to spare is thrown into rope, gearbox and bridge at every start.",
+        what="The mean starting torque is at most the limit times the load torque, 4 times by default.",
+        why="The excess torque of the motor loads rope, gearbox and bridge at every start.",
         formula="M_mean/(M_d/(u eta)) <= 4",
         source="handbooks of lifting machines",
     )
@@ -136,9 +136,9 @@ HEATING: OneCheck = only(_on_duty)(
         needs=_heating_needs,
         blame=lambda spec, scene, loads: _rating(spec, scene),
         repair=_rating,
-        what="Hoisting and lowering the load spectrum, with its starts where the duty type counts them, heats the motor"
-        " no more than its rated torque at this duty factor.",
-        why="The life of the winding's insulation is halved by every ten degrees.",
+        what="The rms torque of hoisting and lowering the load spectrum is at most the permissible torque at this duty"
+        " factor. It includes the starts if the duty type counts them.",
+        why="Every ten degrees of temperature rise halve the life of the winding insulation.",
         formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
         source="IEC 60034-1",
     )
@@ -173,7 +173,7 @@ STARTS: OneCheck = only(_starts_wanted)(
         needs=lambda spec, scene: (("motor", "starts_per_hour"),),
         blame=lambda spec, scene, loads: ("duty", "starts_per_hour"),
         repair=lambda spec, scene: ("duty", "starts_per_hour"),
-        what="The motor starts no more often than its maker allows.",
+        what="The number of motor starts per hour is at most the manufacturer's limit.",
         why="Each start heats the rotor and wears brake and contactor.",
         formula="Z <= Z_max",
         source="the maker's data; IEC 60034-1, duty types S4 and S5",
@@ -220,10 +220,10 @@ BRAKE: OneCheck = only(_brake_wanted)(
         needs=_brake_needs,
         blame=_brake_key,
         repair=lambda spec, scene: ("brake", "torque"),
-        what="The torque of the closed brake exceeds what the lowering load puts on its shaft, losses helping, by the"
-        " reserve of the group. The load `drop_distance` says how far the load falls through a brake that does not"
-        " hold it.",
-        why="A brake heats, wears and gets wet: one that just holds today drops the load tomorrow.",
+        what="The torque of the closed brake is at least the group reserve times the torque of the lowering load on"
+        " its shaft. The losses reduce this load torque. The load `drop_distance` states the distance that the"
+        " load falls if the brake does not hold it.",
+        why="Heat, wear and moisture reduce the brake torque. A brake without reserve then drops the load.",
         formula="M_B/(S R n eta_r/u) >= 1.5 to 2.5",
         source="power balance of the gearbox; rules for cranes, quoted from handbooks",
     )
@@ -258,8 +258,9 @@ START_HEAT: OneCheck = only(_heat_wanted)(
         needs=lambda spec, scene: (("gearbox",), ("motor", "no_load_speed")),
         blame=lambda spec, scene, loads: ("motor", "start_heat"),
         repair=lambda spec, scene: ("motor", "start_heat"),
-        what="A start with the hanging load heats the rotor no more than its data sheet allows.",
-        why="In a start of a cage motor the rotor takes up as much energy as it gives to what it moves, and more.",
+        what="The rotor heat of a start with the suspended load is at most the data-sheet value.",
+        why="In a start, the rotor of a cage motor absorbs at least the energy that the moving masses receive. Excess"
+        " heat damages the rotor.",
         formula="J w_0^2/2/(1 - M_load/M_mean) <= A",
         source="energy of the slip; the maker's data",
     )

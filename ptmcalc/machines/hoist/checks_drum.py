@@ -36,8 +36,9 @@ CAPACITY: OneCheck = only(loaded)(
         needs=no_needs,
         blame=blames("drum", "length"),
         repair=at("drum", "length"),
-        what="The rope of the whole lifting height and the turns that stay lie on the drum in the layers of the file.",
-        why="Rope that finds no room climbs over the flange, or piles up and is crushed.",
+        what="The required drum length is at most the length of the wound part. The rope of the whole lifting height"
+        " and the dead wraps fit in the layers of the file.",
+        why="Excess rope passes over the flange, or piles up and is crushed.",
         formula="p (l/(2 pi) + lost)/sum R_k <= L",
         source="geometry of the drum",
     )
@@ -71,8 +72,9 @@ LAYERS: OneCheck = only(loaded)(
         needs=no_needs,
         blame=blames("drum", "layers"),
         repair=at("drum", "length"),
-        what="With the hook at its highest the rope lies in no more layers than the file, or its group, allows.",
-        why="Each layer crushes the one below, and at every crossover the rope is jolted.",
+        what="With the hook at its highest position, the number of rope layers is at most the limit of the file or of"
+        " the group.",
+        why="Each layer crushes the layer below it. At every crossover an impact loads the rope.",
         formula="layers(l) <= n",
         source="geometry of the drum; ISO 4308-1:2003 for the groups M7 and M8",
     )
@@ -102,8 +104,8 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
         needs=no_needs,
         blame=blames("drum", "flange_height"),
         repair=at("drum", "flange_height"),
-        what="The flanges stand 1.5 rope diameters above the last layer.",
-        why="A rope that climbs over a flange is cut by it.",
+        what="The height of the flanges above the top layer is at least the limit, 1.5 rope diameters by default.",
+        why="A flange cuts a rope that passes over it.",
         formula="(h - (d + (n - 1) step))/d >= 1.5",
         source="makers' manuals; EN 14492-2:2006",
     )
@@ -133,9 +135,10 @@ SLENDER: OneCheck = only(loaded)(
         needs=no_needs,
         blame=blames("drum", "length"),
         repair=at("drum", "diameter"),
-        what="All wound parts together are no longer than 5 diameters of the drum. A larger drum takes the rope in"
-        " fewer turns; so do fewer falls, more layers, or a second rope.",
-        why="A slender drum bends and its rope leaves it at a large angle.",
+        what="The total length of all wound parts is at most the limit, 5 drum diameters by default. A larger drum"
+        " takes the rope in fewer wraps. Fewer falls, more layers or a second rope also reduce the number of"
+        " wraps.",
+        why="A slender drum bends, and its rope leaves it at a large angle.",
         formula="n L/D <= 5",
         source="handbooks of lifting machines",
     )
@@ -165,8 +168,9 @@ DEAD_WRAPS: OneCheck = only(loaded)(
         needs=no_needs,
         blame=blames("drum", "dead_wraps"),
         repair=at("drum", "dead_wraps"),
-        what="With the hook at its lowest two turns of rope stay on the drum.",
-        why="Their friction holds the rope; the clamps alone do not.",
+        what="With the hook at its lowest position, the number of dead wraps on the drum is at least the limit, 2 by"
+        " default.",
+        why="The friction of the dead wraps holds the rope. The clamps alone do not hold it.",
         formula="z >= 2",
         source="makers' manuals; ISO 4308-1",
     )
@@ -207,9 +211,10 @@ FLEET: OneCheck = only(_fleet_wanted)(
         needs=lambda spec, scene: () if spec.least_fall > 0 else (("reeving", "lead_length"),),
         blame=lambda spec, scene, loads: _fleet_key(spec, scene),
         repair=_fleet_key,
-        what="The rope leaves the plane of its turn by no more than 4 deg (2 deg for rotation-resistant ropes): towards"
-        " the first sheave, or towards the hook block at its highest.",
-        why="A rope that runs off at an angle rubs on the groove, untwists, and jumps the groove at last.",
+        what="The fleet angle is at most the limit: 4 deg by default, 2 deg for rotation-resistant ropes. It is the"
+        " angle between the rope and the plane of its wrap. The rope leads to the first sheave, or to the hook"
+        " block at its highest position.",
+        why="A rope that leaves the drum at an angle rubs on the groove, untwists and finally jumps the groove.",
         formula="tan a = (b/2 + e)/l <= tan 4 deg",
         source="geometry; makers' manuals after ISO 16625:2013",
     )
@@ -251,9 +256,9 @@ HOOP: OneCheck = only(_hoop_wanted)(
         needs=_hoop_needs,
         blame=blames("drum", "shell_thickness"),
         repair=at("drum", "shell_thickness"),
-        what="The rope wound on the shell presses it together no more than its material bears (DNV 2.22:2011: 1.75"
-        " times as much in two layers as in one; more layers need `checks.layer_factor`).",
-        why="A shell too thin is buckled by the rope that is wound on it.",
+        what="The hoop stress of the shell under the wound rope is at most the limit of its material. DNV 2.22:2011"
+        " applies 1.75 times as much stress for two layers as for one. More layers require `checks.layer_factor`.",
+        why="The wound rope buckles a shell that is too thin.",
         formula="C S/(p t) <= s",
         source="balance of a ring; DNV 2.22:2011 for C, quoted from secondary sources, to be confirmed",
     )

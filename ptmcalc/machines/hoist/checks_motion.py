@@ -66,9 +66,10 @@ LIFT_OFF: Check[Hoist, Lift] = Check(
     blame=_factor_blame,
     repair=lambda spec, scene: _factor_blame(spec, scene, {}),
     each=_where_lifted,
-    what="The largest rope force of the rated load lifted off the ground stays below the factor of its class or of the"
-    " file. It is not asked of an empty hook, nor of a drive that stalls, which HST121 tells.",
-    why="Structure and rope are designed with that factor; a stiff hoist at full speed exceeds it.",
+    what="The maximum rope force at lift-off of the rated load, relative to its weight, is at most the factor. The"
+    " factor is that of the hoisting class or of the file. The criterion does not apply to an empty hook. It does"
+    " not apply to a drive that stalls; HST121 reports a stall.",
+    why="Structure and rope are designed with this factor. A stiff hoist at full speed exceeds it.",
     formula="max F/Q <= phi_2",
     source="EN 13001-2, ISO 8686-1; the force derived in ptmcalc.numerics.train",
 )
@@ -112,8 +113,9 @@ STALL: Check[Hoist, Lift] = Check(
     blame=lambda spec, scene, loads: ("motor",),
     repair=_stall_repair,
     each=_where_to_lift,
-    what="The drive brings the rope force up to the weight, so that the load leaves the ground.",
-    why="A motor that stalls with the rope tightened burns, and the load stands.",
+    what="The drive raises the rope force to the weight, and the load leaves the ground. A lift-off time above one"
+    " hour counts as a stall.",
+    why="A motor that stalls with a taut rope overheats, and the load stays on the ground.",
     formula="t(F = Q) finite",
     source="motion of drive and load; the phase of a stall stands in the findings",
 )
@@ -165,8 +167,9 @@ WAY: Check[Hoist, Stop] = Check(
     blame=lambda spec, scene, loads: ("brake", "torque"),
     repair=_way_repair,
     each=_where_lowering,
-    what="The brake stops the lowered load within the way the file allows, above the ground, or at all.",
-    why="In the delay of the brake the load falls with the drive; a brake weaker than the load never stops it.",
+    what="The brake stops the lowered load within the distance given in the file. Without that distance, the load must"
+    " stop above the ground. A brake that does not stop the load at all fails.",
+    why="During the brake delay the load descends with the drive. A brake weaker than the load never stops it.",
     formula="s = max drop of the load until it rests <= limit",
     source="motion of drive and load with delay and rise of the brake",
 )
@@ -202,8 +205,8 @@ HARD: Check[Hoist, Moving] = Check(
     blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
     repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
     each=_where_hard,
-    what="The largest rope force of a start or a stop stays below the factor of the file.",
-    why="A brake with a delay meets a swinging load: the force can come to that of an instantaneous stop.",
+    what="The maximum rope force of a start or a stop, relative to the weight, is at most the factor of the file.",
+    why="A delayed brake acts on an oscillating load. The rope force can reach that of an instantaneous stop.",
     formula="max F/Q <= limit",
     source="motion of drive and load; phase plane of two masses",
 )
@@ -232,8 +235,9 @@ SLACK: Check[Hoist, Moving] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motor",) if isinstance(scene, Start) else ("brake", "torque"),
     repair=lambda spec, scene: () if isinstance(scene, Start) else ("brake", "torque"),
-    what="The rope keeps some force while the hanging load starts or stops.",
-    why="A rope that goes slack jumps out of its groove, and the load falls back into it.",
+    what="While the suspended load starts or stops, the minimum rope force, relative to the weight, is at least the"
+    " limit.",
+    why="A slack rope jumps out of its groove, and the load falls back into the rope.",
     formula="min F/Q >= limit",
     source="a rope never pushes",
 )
@@ -268,8 +272,8 @@ SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _share_key(spec, scene),
     repair=no_repair,
-    what="The rope stays taut while the rest of the load oscillates after a part of it has come off.",
-    why="A rope that goes slack leaves its groove, and the rest of the load falls back into it.",
+    what="The rope stays taut while the remaining load oscillates after the release of a part of the load.",
+    why="A slack rope leaves its groove, and the remaining load falls back into the rope.",
     formula="min F > 0; F = (m - dm) g - dm g for a release at once",
     source="EN 13001-2, factor phi_3: negative where the rope goes slack; motion of drive and load",
 )
@@ -303,8 +307,8 @@ IMPACT: Check[Hoist, Moving] = Check(
     blame=lambda spec, scene, loads: ("gearbox", "backlash") if spec.gearbox and spec.gearbox.backlash else ("motor",),
     repair=no_repair,
     each=_where_play,
-    what="The largest torque of the gear, blows through its play among them, stays below a few times the even torque.",
-    why="A motor that runs through the play strikes the teeth with the energy it has gained there.",
+    what="The maximum gear torque, backlash impacts included, is at most the limit times the torque of steady motion.",
+    why="A motor that accelerates through the backlash strikes the teeth with the energy gained there.",
     formula="max |M_gear|/M_even <= limit",
     source="EN 13001-2, factor of drive forces; motion of the train with backlash",
 )

@@ -44,9 +44,10 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _speed_key(spec, scene),
     repair=_speed_key,
-    what="The largest dynamic stress of the rope while it climbs to a layer and crosses over on it, over its mean.",
-    why="The rope's speed jumps with the radius of the drum and the load swings on its rope; the safety factor of"
-    " the rope knows static pulls only.",
+    what="The maximum dynamic rope stress, relative to the mean stress, is at most the limit. It covers the layer"
+    " change and the crossovers on the new layer.",
+    why="The rope speed changes abruptly with the radius of the drum, and the load oscillates on its rope. The safety"
+    " factor of the rope covers static forces only.",
     formula="s_dyn/s_mean <= limit;   of a sudden climb w dR k n/(m g)",
     source="Fidrovska and Varchenko, put right; the limit an engineering choice",
 )
@@ -62,8 +63,10 @@ CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _speed_key(spec, scene),
     repair=_speed_key,
-    what="The distance of the frequency of the crossovers from that of the load on its rope, while a layer is wound.",
-    why="Crossovers come in even time; near resonance the swing grows turn by turn, for a rope hardly damps it.",
+    what="While a layer is wound, the relative distance of the crossover frequency from the load's natural frequency"
+    " is at least the limit. The natural frequency is that of the load on its rope.",
+    why="Crossovers occur at constant time intervals. Near resonance, the oscillation grows from wrap to wrap, because"
+    " a rope provides little damping.",
     formula="|n w/k - 1| >= limit for all lengths of the rope on the layer",
     source="resonance of an oscillator; the limit an engineering choice",
 )
