@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import (
+    Backstop,
     ChainDrive,
     ChainScene,
     Coast,
@@ -239,15 +240,17 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
 
 
 def _hold_limit(spec: ChainDrive, scene: Hold) -> Estimate:
-    """Torque that the backstop with its reserve and the closed brake hold on the sprocket shaft.
+    """Torque that the backstop and the closed brake hold on the sprocket shaft, with the reserve of a backstop.
 
-        M_backstop/reserve + M_brake i,   i = 1 for a brake on the sprocket shaft
+        (M_backstop + M_brake i)/reserve,   i = 1 for a brake on the sprocket shaft
 
     **Range** a chain at rest with its drive off: its brake is closed then.
     **Error** none: a chosen reserve; the losses of the gear, which help to hold, are left out.
     **Source** practice: reserve 1.25 to 1.75.
     """
-    return Estimate.exact((spec.backstop.torque / spec.backstop.reserve if spec.backstop else 0.0) + _closed(spec))
+    if spec.backstop is None:
+        return Estimate.exact(_closed(spec) / Backstop.model_fields["reserve"].default)
+    return Estimate.exact((spec.backstop.torque + _closed(spec)) / spec.backstop.reserve)
 
 
 def _closed(spec: ChainDrive) -> float:
@@ -279,9 +282,10 @@ HELD: Check[ChainDrive, Hold] = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _hold_key(spec),
     repair=lambda spec, scene: _hold_key(spec) if len(_hold_key(spec)) > 1 else (),
-    what="Friction, the backstop with its reserve and the closed brake hold the rollback torque of the loaded chain.",
+    what="Friction, the backstop and the closed brake hold the rollback torque of the loaded chain with the reserve of"
+    " the backstop, 1.25 by default.",
     why="A conveyor that rolls back buries its tail, drives the motors backward and breaks off its flights.",
-    formula="(q_G g H - W_friction at its lowest) R <= M_backstop/reserve + M_brake i",
+    formula="(q_G g H - W_friction at its lowest) R <= (M_backstop + M_brake i)/reserve",
     source="lecture notes Kramatorsk 2007",
 )
 

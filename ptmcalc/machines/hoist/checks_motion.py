@@ -132,15 +132,16 @@ def _lowers(scene: Moving) -> bool:
 
 
 def _way_limit(spec: Hoist, scene: Stop) -> Estimate:
-    """Way of the file, else what is left below the hook, or the whole lifting height.
+    """Stopping distance of the file, at most the height of the hook above the ground: of the scene, or the whole
+    lifting height.
 
     **Range** a load that is lowered.
     **Error** none: a chosen limit.
     **Source** the plant's rules; the ground.
     """
-    if spec.checks.stop_distance is not None:
-        return Estimate.exact(spec.checks.stop_distance)
-    return Estimate.exact(scene.hook_height or spec.height)
+    ground = scene.hook_height or spec.height
+    given = spec.checks.stop_distance
+    return Estimate.exact(ground if given is None else min(given, ground))
 
 
 def _way_repair(spec: Hoist, scene: Moving) -> KeyPath:
@@ -167,8 +168,8 @@ WAY: Check[Hoist, Stop] = Check(
     blame=lambda spec, scene, loads: ("brake", "torque"),
     repair=_way_repair,
     each=_where_lowering,
-    what="The brake stops the lowered load within the distance given in the file. Without that distance, the load must"
-    " stop above the ground. A brake that does not stop the load at all fails.",
+    what="The brake stops the lowered load within the distance given in the file and above the ground. A brake that"
+    " does not stop the load at all fails.",
     why="During the brake delay the load descends with the drive. A brake weaker than the load never stops it.",
     formula="s = max drop of the load until it rests <= limit",
     source="motion of drive and load with delay and rise of the brake",

@@ -305,6 +305,12 @@ class TestWhatIsWrong:
         assert rigid < value(scene, "stop_distance_lowering") < rigid + stretch / 4
         assert verdict(scene, "HST122") is Verdict.PASS
 
+    def test_no_distance_of_the_file_reaches_below_the_ground(self) -> None:
+        scenes = [{"type": "lower_brake", "hook_height": "5 mm"}]
+        scene = hoist_scene(changed(CRANE, checks__stop_distance="1 m", scenes=scenes))
+        assert value(scene, "stop_distance_lowering") > 0.005
+        assert verdict(scene, "HST122") is Verdict.FAIL
+
     def test_the_speed_at_which_it_lands_by_energy(self) -> None:
         data = changed(FREE, brake__torque="20 N*m", drum__layers=4)
         scene = hoist_scene(data)
