@@ -182,7 +182,7 @@ def test_above_the_resonance_it_says_how_far_the_textbook_overestimates() -> Non
     assert formula.ratio is not None
     assert formula.ratio < 0.25
     note = next(d for d in report.diagnostics if d.code == "NUM107")
-    assert "tension_dynamic_polygon" in note.message
+    assert "polygon-effect tension, maximum" in note.message
     assert "chain_textbook" in note.message
 
 

@@ -255,4 +255,4 @@ class TestFindings:
     def test_where_it_never_climbs(self) -> None:
         low = changed(PAPER, height="8 m", scenes=[{"type": "winding", "layer": 3}])
         (said,) = (d for d in report_of(low).diagnostics if d.code == "NUM104")
-        assert "never climbs to layer 3" in said.message
+        assert "never reaches layer 3" in said.message
