@@ -77,8 +77,9 @@ MOTION: Check[Shaft, Steady] = Check(
     needs=no_needs,
     blame=_blame_motor,
     repair=_motor_that_can_vary,
-    what="The motor carries the shaft through every angle of the cycle: there is a motion that repeats itself.",
-    why="A machine whose motor stalls in the working stroke stands under load, and the motor overheats in seconds.",
+    what="The loss factor of the cycle is below 1. The motor drives the shaft through every angle of the cycle, and a"
+    " periodic motion exists.",
+    why="A machine whose motor stalls in the working stroke stops under load. The motor overheats in seconds.",
     formula="psi = A_loss/A_drive < 1;   a machine that stalls has psi = 1: nothing is useful",
     source="lecture notes Kramatorsk, chapter 6",
 )
@@ -110,8 +111,8 @@ EVEN: Check[Shaft, Steady] = Check(
     needs=lambda spec, scene: (("checks", "irregularity"),),
     blame=lambda spec, scene, loads: _inertia_key(spec),
     repair=lambda spec, scene: _inertia_key(spec) if spec.inertia.type != "table" else (),
-    what="The speed of the main shaft swings over the steady cycle by no more than the irregularity of the file.",
-    why="A speed that swings loads gear and motor, spoils the work and can be heard.",
+    what="The coefficient of speed fluctuation of the main shaft over the steady cycle is at most the limit.",
+    why="Speed fluctuation loads gear and motor. It impairs the work result and causes audible noise.",
     formula="(w_max - w_min)/w_mean <= delta",
     source="definition; limit by the maker of the machine",
 )
@@ -150,8 +151,9 @@ RUN_UP: Check[Shaft, RunUp] = Check(
     needs=lambda spec, scene: (("checks", "run_up_time"),),
     blame=_blame_motor,
     repair=_motor_that_can_vary,
-    what="The motor brings the shaft from rest to speed within the time of the file; one that stalls never does.",
-    why="A motor that starts for too long overheats, and its protection trips.",
+    what="The motor accelerates the shaft from standstill to its speed within the maximum run-up time. A motor that"
+    " stalls never reaches the speed.",
+    why="A motor with a long run-up overheats. Its protection trips.",
     formula="t = integral of J dw/M <= limit",
     source="lecture notes Kramatorsk, chapter 6",
 )
@@ -185,8 +187,9 @@ HEAT: Check[Shaft, Steady] = Check(
     needs=_rated_needs,
     blame=_blame_motor,
     repair=_motor_that_can_vary,
-    what="The root mean square of the motor's torque over the cycle is no more than its rated torque.",
-    why="The losses of a motor go with the square of its torque; above its rating the insulation ages fast.",
+    what="The rms motor torque over the cycle is at most the rated torque.",
+    why="The losses of a motor are proportional to the square of its torque. Above the rated torque, the insulation"
+    " ages fast.",
     formula="sqrt(1/t integral of M^2 dt) <= M_rated",
     source="IEC 60034-1, duty S6",
 )
@@ -251,9 +254,9 @@ STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
     needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_angle")),
     blame=_blame_brake,
     repair=_stop_repair,
-    what="With drive off and brake on the shaft stops within the angle of the file, from the angle stated or the"
-    " worst.",
-    why="What the shaft turns by after the command is the way a hand has left.",
+    what="With the drive off and the brake on, the stopping angle of the shaft is at most the limit. The stop begins"
+    " at the stated angle, otherwise at the worst angle.",
+    why="The shaft turns by this angle after the stop command. A larger angle endangers a hand in the machine.",
     formula="phi = integral of w dt from the command until w = 0;   T_0 = A_loss + A_brake",
     source="lecture notes Kramatorsk, chapter 6",
 )
@@ -270,8 +273,9 @@ STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
     needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_time")),
     blame=_blame_brake,
     repair=_stop_repair,
-    what="With drive off and brake on the shaft stops within the time of the file, from the angle stated or the worst.",
-    why="The stopping time sets the distance at which a safeguard must stand.",
+    what="With the drive off and the brake on, the stopping time of the shaft is at most the limit. The stop begins at"
+    " the stated angle, otherwise at the worst angle.",
+    why="The stopping time determines the required distance of a safeguard.",
     formula="t from the command until w = 0",
     source="lecture notes Kramatorsk, chapter 6; ISO 13855 for what follows from the time",
 )
@@ -311,8 +315,10 @@ OVERLOAD: Check[Shaft, Steady] = Check(
     needs=_overload_needs,
     blame=_blame_motor,
     repair=_motor_that_can_vary,
-    what="The motor's largest torque over the cycle keeps away from its breakdown torque or its overload limit.",
-    why="Beyond its breakdown torque a motor stalls; near to it a dip of the mains does the same.",
+    what="The maximum motor torque over the cycle is at most the permissible share of the breakdown torque, or the"
+    " overload limit.",
+    why="A motor stalls beyond its breakdown torque. Close to the breakdown torque, a voltage dip of the mains also"
+    " stalls it.",
     formula="max |M| <= 0.81 M_breakdown   or the overload limit of the file",
     source="IEC 60034-1 (overload); IEC 60038 (voltage)",
 )

@@ -70,9 +70,9 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: torque_key(spec, scene),
     repair=_torque_repair,
-    what="The starting torque, the least of a curve, carried to the slewing axis, exceeds friction, steady wind and"
-    " slope by the reserve asked.",
-    why="A motor below the resistance does not turn the crane: it stalls and burns.",
+    what="The starting torque at the slewing axis is at least the required multiple of the torque of friction, steady"
+    " wind and slope. For a motor curve, the minimum of the curve is used.",
+    why="A motor torque below the resistance does not turn the crane. The motor stalls and overheats.",
     formula="M_m u eta/(M_fr + M_w) >= 1.1",
     source="balance of torques about the slewing axis; handbooks of lifting machines",
 )
@@ -102,8 +102,8 @@ SLOW: OneCheck = only(reaches)(
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec, scene),
         repair=_torque_repair,
-        what="The crane comes to its speed within the time asked.",
-        why="A crane that creeps to its speed holds up the work, and its motor heats.",
+        what="The crane reaches its slewing speed within the maximum start time.",
+        why="A slow start delays the work and heats the motor.",
         formula="t_s = J w/(M_start - M_steady) <= 10 s",
         source="change of angular momentum; handbooks of lifting machines",
     )
@@ -133,9 +133,10 @@ SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is no
         needs=no_needs,
         blame=blames("motor", "curve"),
         repair=no_repair,
-        what="From standstill to the speed of the crane, the torque of the motor's curve exceeds what friction, steady"
-        " wind and slope take.",
-        why="Where the curve falls below the resistance the crane gains no more speed: its mean does not tell.",
+        what="From standstill to the slewing speed, the torque of the motor curve is at least the torque of friction,"
+        " steady wind and slope.",
+        why="Where the curve falls below the resistance, the crane does not accelerate further. The mean of the curve"
+        " does not show this.",
         formula="min M(w) u eta/(M_fr + M_w) >= 1",
         source="balance of torques about the slewing axis",
     )
@@ -165,8 +166,8 @@ HARSH: OneCheck = only(turns)(
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec, scene),
         repair=_torque_repair,
-        what="The crane takes at least the time asked to come to its speed.",
-        why="A motor far too strong throws the load about, and jerks gear and jib.",
+        what="The start of the crane to its slewing speed takes at least the minimum start time.",
+        why="An oversized motor causes load sway and impacts in gear and jib.",
         formula="t_s >= 1 s",
         source="handbooks of lifting machines",
     )
@@ -196,8 +197,8 @@ SHORT: OneCheck = only(turns)(
         needs=no_needs,
         blame=blames("cycle", "rotation"),
         repair=at("cycle", "rotation"),
-        what="Start and stop together take no more than the angle of the rotation.",
-        why="A crane that never reaches its speed has another cycle than the one computed here.",
+        what="The slewing angle of start and stop together is at most the angle of the rotation.",
+        why="A crane that does not reach its slewing speed has a different cycle from the computed one.",
         formula="(beta_s + beta_b)/beta <= 1",
         source="course notes on the slewing crane on a fixed column (3.5.2.3)",
     )
@@ -229,8 +230,9 @@ BRAKE_ANGLE: OneCheck = only(starts)(
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
-        what="The brake, with its delay, stops the crane within the allowed angle against the largest wind.",
-        why="A jib that runs on hits what stands in its way, and the operator cannot place the load.",
+        what="The brake stops the crane within the permissible angle against the maximum in-service wind. The brake"
+        " delay is included.",
+        why="A jib that slews too far hits objects in its path. The operator cannot place the load.",
         formula="beta_b <= beta",
         source="power balance of the gear (laws.slewing.geared_stop); course notes on the slewing crane",
     )
@@ -261,8 +263,10 @@ BRAKE_TIME: OneCheck = only(starts)(
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
-        what="The brake, with its delay, stops the crane within the time asked against the largest wind.",
-        why="What takes long to stop is not stopped in time; a brake below the wind does not stop it at all.",
+        what="The brake stops the crane within the maximum stop time against the maximum in-service wind. The brake"
+        " delay is included.",
+        why="A crane with a long stopping time does not stop before an obstacle. A brake torque below the wind torque"
+        " does not stop it at all.",
         formula="t_b <= 10 s",
         source="power balance of the gear (laws.slewing.geared_stop)",
     )
@@ -292,8 +296,8 @@ HARSH_STOP: OneCheck = only(turns)(
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
-        what="The crane takes at least the time asked to come to rest.",
-        why="A brake far too strong throws the load about, and jerks gear and jib.",
+        what="The stop of the crane to standstill takes at least the minimum stop time.",
+        why="An oversized brake causes load sway and impacts in gear and jib.",
         formula="t_b >= 1 s",
         source="handbooks of lifting machines",
     )
@@ -329,8 +333,9 @@ HEATING: OneCheck = only(turns)(
         needs=lambda spec, scene: () if spec.motor.rated is not None else (("motor", "rated_torque"),),
         blame=lambda spec, scene, loads: _rating(spec, scene),
         repair=_rating,
-        what="Start and steady slewing heat the motor no more than its rated torque does at the duty of the cycle.",
-        why="The life of the winding's insulation is halved by every ten degrees.",
+        what="Start and steady slewing heat the motor at most as much as its rated torque does at the duty factor of"
+        " the cycle.",
+        why="The life of the winding insulation halves with every 10 K of excess temperature.",
         formula="sqrt(sum M^2 t/sum t) <= M_N sqrt(B(ED_N)/B(ED))",
         source="IEC 60034-1",
     )
@@ -361,8 +366,8 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
         needs=no_needs,
         blame=blames("motor", "largest_torque"),
         repair=at("motor", "largest_torque"),
-        what="The start takes no more torque than the motors may give for a short time.",
-        why="Beyond its breakdown torque a motor stalls.",
+        what="The motor torque in the start is at most the short-time overload torque of the motors.",
+        why="A motor stalls beyond its breakdown torque.",
         formula="M_m <= M_max",
         source="the maker's data",
     )
@@ -393,8 +398,9 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
         needs=no_needs,
         blame=blames("gear", "rated_torque"),
         repair=at("gear", "rated_torque"),
-        what="The torque that tires the gearbox as much as the cycle does is within its rating.",
-        why="Teeth of a worm wheel pit and wear out with the cube of their load.",
+        what="The equivalent torque of the gearbox is at most its rating. The equivalent torque causes the same"
+        " fatigue as the cycle.",
+        why="Pitting and wear of worm wheel teeth increase with the cube of their load.",
         formula="M_eq/(u eta) <= M_N",
         source="course notes on the slewing crane on a fixed column (3.5.2.13); Palmgren 1924, Miner 1945",
     )
@@ -425,8 +431,9 @@ PINION: OneCheck = only(lambda spec, scene: spec.gear.pinion_torque is not None)
         needs=needs(("gear", "open")),
         blame=blames("gear", "pinion_torque"),
         repair=at("gear", "pinion_torque"),
-        what="The torque that tires the open pinion as much as the cycle does is within what it bears.",
-        why="The open stage carries the largest torque of the drive, in dirt and without oil.",
+        what="The equivalent torque of the open pinion is at most its rating. The equivalent torque causes the same"
+        " fatigue as the cycle.",
+        why="The open stage carries the largest torque of the drive. It runs in dirt and without oil.",
         formula="M_eq/(u_o eta_o) <= M_p",
         source="course notes on the slewing crane on a fixed column (3.5.2.12)",
     )
@@ -456,8 +463,9 @@ LOCKS: OneCheck = only(_driven_back)(
         needs=no_needs,
         blame=blames("gear", "efficiency"),
         repair=no_repair,
-        what="The rotor of a self-locking drive has enough inertia to be slowed together with the crane.",
-        why="A crane that drives a worm that cannot be driven stops at once: gear, jib and load take the blow.",
+        what="The rotor inertia of a self-locking drive is large enough for the rotor to decelerate together with the"
+        " crane.",
+        why="A crane that drives a self-locking worm gear stops at once. The impact loads gear, jib and load.",
         formula="-eta_r J/(J_1 u^2) <= 1",
         source="derived: laws.gearing.jams",
     )
@@ -503,8 +511,9 @@ WIND_MOTOR: OneCheck = only(_blown)(
         needs=no_needs,
         blame=lambda spec, scene, loads: _wind_key(spec),
         repair=_torque_repair,
-        what="The starting torque turns the crane against friction and the largest wind in service.",
-        why="A crane that the wind turns while its motor is on is out of the operator's hands.",
+        what="The starting torque is at least the required multiple of the torque of friction and maximum in-service"
+        " wind.",
+        why="A crane that the wind turns while its motor is on is out of the operator's control.",
         formula="M_m u eta/(M_fr + M_w,max) >= 1",
         source="balance of torques about the slewing axis",
     )
@@ -523,9 +532,9 @@ WIND_BRAKE: OneCheck = only(_blown)(
         needs=needs(("brake",)),
         blame=blames("brake", "torque"),
         repair=at("brake", "torque"),
-        what="The closed brake, with the friction of the bearings, holds the crane against the largest wind in"
-        " service.",
-        why="A jib that the wind turns with the brake closed strikes what is beside it.",
+        what="The torque of the closed brake and the bearing friction are together at least the required multiple of"
+        " the torque of the maximum in-service wind. Gear losses are neglected.",
+        why="A jib that the wind turns against the closed brake hits adjacent objects.",
         formula="(M_B u + M_fr)/M_w,max >= 1, losses of the gear left out",
         source="balance of torques about the slewing axis",
     )

@@ -44,9 +44,9 @@ RADIAL: OneCheck = only(_swings)(
         needs=needs(*_ROPE),
         blame=blames("speed"),
         repair=at("speed"),
-        what="In the start, the rotation and the stop the rope hangs no further from the plumb line outwards or inwards"
-        " than allowed.",
-        why="A load that swings out adds to the tilting moment, and hits what is beside its way.",
+        what="In start, rotation and stop, the outward or inward angle of the rope from the vertical is at most the"
+        " limit.",
+        why="A load that sways outwards adds to the tilting moment. It hits objects next to its path.",
         formula="theta_r <= 10 deg",
         source="spherical pendulum on a slewing jib",
     )
@@ -79,8 +79,8 @@ TANGENTIAL: OneCheck = only(_swings)(
         needs=needs(*_ROPE),
         blame=lambda spec, scene, loads: _thrown_by(spec, scene),
         repair=lambda spec, scene: number_at(_thrown_by(spec, scene), spec.motor.curve),
-        what="In the start, the rotation and the stop the rope hangs no further behind or before the jib than allowed.",
-        why="The rope then pulls the jib sideways, and the load cannot be put down.",
+        what="In start, rotation and stop, the angle of the rope behind or ahead of the jib is at most the limit.",
+        why="The rope then pulls the jib sideways. The load cannot be set down.",
         formula="theta_t <= 10 deg",
         source="spherical pendulum on a slewing jib",
     )
@@ -112,9 +112,9 @@ RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
         ),
         blame=blames("ring", "curve"),
         repair=no_repair,
-        what="With the load times its factor, and with nothing on the hook, the tilting moment is within what the ring"
-        " bears at that axial force.",
-        why="A ring beyond its curve dents its raceways; its bolts fatigue.",
+        what="The tilting moment is within the limit curve of the slewing ring at the same axial force. It is verified"
+        " with the load times its factor and with an empty hook.",
+        why="Beyond the limit curve, the raceways of the ring are indented. The bolts fatigue.",
         formula="M(1.25 Q), M(0) <= M_ring(F_a)",
         source="catalogues of slewing rings: limiting load curves",
     )
@@ -145,8 +145,9 @@ GROUP: OneCheck = only(lambda spec, scene: spec.classes.cycles is not None)(
         needs=needs(("class", "group")),
         blame=blames("class", "cycles"),
         repair=no_repair,
-        what="Cycles and load spectrum of the life ask no higher group than the declared one.",
-        why="A crane used more than it was made for is worn out before its time.",
+        what="The crane group required by the cycles and the load spectrum of the service life is at most the declared"
+        " group.",
+        why="A crane used beyond its group wears out before the end of its service life.",
         formula="A = U + Q - 2 <= declared",
         source="ISO 4301-1",
     )

@@ -62,8 +62,9 @@ STROKE: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _of_buffers("stroke")(spec, scene),
     repair=_of_buffers("stroke"),
-    what="The buffers stop the crane with its guided load within their stroke; else the report tells what is left.",
-    why="What the buffers do not take, end stop, column and whoever rides in the cab take in a few millimetres.",
+    what="The buffers stop the crane with its guided load within their stroke. Otherwise, the report states the"
+    " remaining speed.",
+    why="The end stop, the mast and persons in the cab absorb the remaining energy within a few millimetres.",
     formula="E(u) = m v^2/2 + P u,   u <= s",
     source="energy; EN 13001-2, FEM 9.311",
 )
@@ -92,8 +93,8 @@ FORCE: OneCheck = Check(
     needs=lambda spec, scene: (_of_buffers("rating")(spec, scene),),
     blame=lambda spec, scene, loads: _of_buffers("rating")(spec, scene),
     repair=_of_buffers("rating"),
-    what="The force of each buffer is within its rating, or that of the end stop.",
-    why="A buffer too stiff breaks what it is to protect, and shakes the column.",
+    what="The force of each buffer is at most its rating or the rating of the end stop.",
+    why="A buffer that is too stiff breaks the parts it protects. It makes the mast oscillate.",
     formula="F = (P + (P^2 + c m v^2)^(1/2))/n <= F_max, by the type of buffer",
     source="energy; EN 13001-2, FEM 9.311",
 )
@@ -140,8 +141,9 @@ SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not No
         needs=no_needs,
         blame=lambda spec, scene, loads: _speed_key(spec, scene),
         repair=lambda spec, scene: (MECHANISMS[model.mechanism(spec, scene)], "speed"),
-        what="The crane hits its buffers no faster than they, or the rules of the plant, allow.",
-        why="Rubber and cells get stiffer the faster they are pressed; load and driver are not held.",
+        what="The impact speed of the crane is at most the limit of the buffers or of the plant rules.",
+        why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
+        " not restrained.",
         formula="share of v <= v_max",
         source="the maker of the buffer",
     ),
@@ -200,10 +202,11 @@ FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is no
         needs=no_needs,
         blame=lambda spec, scene, loads: _hoist_key(spec, scene),
         repair=_hoist_key,
-        what="The ropes of a hoist whose fork is caught by the rack pull no more than the factor on the rated weight"
-        " with which the elements of the hoist have been calculated, until the limiter has switched it off.",
-        why="Combination 5 of overhead, 4 of rack stackers is this event; it is several times the weight at any speed"
-        " where the motor is strong.",
+        what="The rope force of a hoist with a fork snagged in the rack is at most the design factor times the rated"
+        " weight. The force is evaluated until the limiter has switched off the hoist. The elements of the hoist are"
+        " designed for this factor.",
+        why="A larger force overloads the hoist. This event is combination 5 of overhead stackers and combination 4 of"
+        " rack stackers. With a strong motor, the force is several times the weight at any speed.",
         formula="F/Q_0,   m_1 x'' = P(x') - F,   F = Q + K (x - y)",
         source="energy and motion of drive and carriage; lecture notes Kramatorsk 2007, tables 11.1 and 11.2",
     ),
@@ -233,8 +236,10 @@ ROPE: OneCheck = Check(
     needs=lambda spec, scene: (("hoisting", "rope", "breaking_force"),),
     blame=blames("hoisting", "rope", "breaking_force"),
     repair=at("hoisting", "rope", "breaking_force"),
-    what="The falls on which the carriage hangs bear the force of a fork that the rack catches while it is hoisted.",
-    why="A rope that tears drops the carriage into its safety gear; one that nearly did is worn out without notice.",
+    what="The total breaking force of the carriage rope falls is at least the rope force of a fork that snags during"
+    " hoisting.",
+    why="A rope that breaks drops the carriage into its safety gear. A rope loaded close to its breaking force is"
+    " damaged without visible signs.",
     formula="F <= n F_b",
     source="equilibrium of the carriage; the maker of the rope",
 )
@@ -265,8 +270,8 @@ RACK: OneCheck = only(
         needs=no_needs,
         blame=blames("rack", "rating_vertical"),
         repair=at("rack", "rating_vertical"),
-        what="The force of the caught fork on the beam of the rack is within what it bears upwards.",
-        why="Beams are hooked in from above: what lifts them takes the shelf, and the pallets on it, down.",
+        what="The uplift force of the snagged fork on the rack beam is at most the rating of the beam.",
+        why="Beams are hooked in from above. A lifted beam brings down the shelf and the pallets on it.",
         formula="R = K_r y",
         source="motion of drive, rope and carriage; EN 15512 for what a beam bears",
     ),
@@ -295,8 +300,8 @@ PUSH: OneCheck = Check(
     needs=lambda spec, scene: (("rack", "rating_push"),),
     blame=blames("rack", "rating_push"),
     repair=at("rack", "rating_push"),
-    what="The fork that runs out against the rack pushes no harder than the rack bears across the aisle.",
-    why="A pallet that sticks out stops the fork at full force and full speed.",
+    what="The thrust of the fork that extends against the rack is at most the rating of the rack across the aisle.",
+    why="A protruding pallet stops the fork at full force and full speed.",
     formula="F = P + (P^2 + K m v^2)^(1/2),   with a slip clutch P_c + v (K m)^(1/2)",
     source="energy of the fork's drive; lecture notes Kramatorsk 2007, table 11.2, combination 3",
 )
@@ -335,8 +340,10 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
         needs=no_needs,
         blame=lambda spec, scene, loads: _push_key(spec, scene),
         repair=_push_key,
-        what="The force of the fork against the rack is within that of its telescope, by its clutch or its motor.",
-        why="A slip clutch set too high protects nothing; chains and racks of telescopes break first.",
+        what="The thrust of the fork against the rack is at most the rating of the telescopic fork. The slip clutch or"
+        " the motor limits the thrust.",
+        why="A slip clutch with too high a setting gives no protection. Chains and racks of telescopic forks break"
+        " first.",
         formula="F <= F_max",
         source="energy of the fork's drive; the maker of the fork",
     ),
@@ -366,8 +373,9 @@ LIMITER: OneCheck = only(lambda spec, scene: spec.hoisting.limiter is not None)(
         needs=no_needs,
         blame=blames("hoisting", "limiter", "force"),
         repair=at("hoisting", "limiter", "force"),
-        what="The force at which the limiter trips is above the weight of carriage and load as the hoist starts.",
-        why="A limiter that trips every day is soon set out of action, and then misses the fork that is caught.",
+        what="The trip force of the limiter is at least the force of carriage and load during the start of the hoist.",
+        why="A limiter that trips during normal hoisting is soon disabled by the operators. It then does not detect a"
+        " snagged fork.",
         formula="F_l/(Q (1 + a/g)) >= 1",
         source="equilibrium of the carriage with its inertia",
     ),
@@ -404,8 +412,10 @@ GEAR_STROKE: OneCheck = Check(
     needs=no_needs,
     blame=blames("safety_gear", "stroke"),
     repair=at("safety_gear", "stroke"),
-    what="The safety gear stops the carriage within its stroke, from the speed the reaction of the governor leaves it.",
-    why="At the end of its stroke a progressive gear becomes an instantaneous one, with ten times the weight.",
+    what="The safety gear stops the carriage within its stroke. The initial speed is the speed at the end of the"
+    " reaction time of the governor.",
+    why="At the end of its stroke, a progressive gear acts as an instantaneous gear. Its force is then ten times the"
+    " weight.",
     formula="s = v_c^2/(2 (F_c/M - g)) <= s_max,   v_c = k v + g t_r",
     source="free fall and energy; EN 528, EN 81-20",
 )
@@ -433,8 +443,8 @@ HOLDS: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _gear_key(spec, scene),
     repair=_gear_key,
-    what="The braking force of the safety gear is more than the weight of carriage, cab and load.",
-    why="A gear that brakes with less than the weight only makes the fall slower.",
+    what="The braking force of the safety gear is at least the weight of carriage, cab and load.",
+    why="A gear with a braking force below the weight only slows the fall.",
     formula="F_c/(M g) >= 1",
     source="equilibrium",
 )
@@ -463,8 +473,9 @@ DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration
         needs=no_needs,
         blame=lambda spec, scene, loads: _gear_key(spec, scene),
         repair=_gear_key,
-        what="The carriage is stopped no harder than driver, load and column bear.",
-        why="An instantaneous gear stops with many g: what it saves from the fall it may break by the stop.",
+        what="The deceleration of the carriage is at most the limit for driver, load and mast.",
+        why="An instantaneous gear decelerates the carriage with several g. The stop may break the parts that it saves"
+        " from the fall.",
         formula="a = F/M - g",
         source="Newton's law; EN 528, EN 81-20",
     ),
@@ -510,8 +521,8 @@ CONTACT: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _rail_key(spec, scene),
     repair=at("travel", "speed"),
-    what="The wheels keep their contact with the rail on its steps, gaps and waves.",
-    why="A wheel that jumps comes down with a blow, and the column whips.",
+    what="The wheel load stays at or above zero on steps, gaps and waves of the rail, so that the wheels keep contact.",
+    why="A wheel that leaves the rail lands with an impact. The impact makes the mast oscillate.",
     formula="1 - (pi/2)^2 v^2/(g r) max(-u) >= 0,   1 - T (h/2) (2 pi v/lambda)^2/g >= 0",
     source="one vertical mode over a cosine step; `laws.rail`",
 )
@@ -540,9 +551,9 @@ RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and
         needs=no_needs,
         blame=blames("rail", "waviness", "length"),
         repair=at("travel", "speed"),
-        what="The waves of the rail pass under the wheels with a frequency that is away from those of the machine on"
-        " its wheels and of its column.",
-        why="A rail ground in even waves shakes the column at one speed: v = f lambda.",
+        what="The relative separation of the rail wave frequency from each natural frequency is at least the limit."
+        " The natural frequencies are those of the mast and of the machine on its wheels.",
+        why="A rail ground in uniform waves excites the mast at one speed: v = f lambda.",
         formula="|v/(lambda f) - 1| >= 0.2 for wheels and column",
         source="resonance; `laws.rail.resonance_speed`",
     ),

@@ -67,8 +67,8 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
-        what="The far end of the column swings no further beside what holds it than the file allows.",
-        why="What swings far hits the racks, shakes off the load and tires the column at its root.",
+        what="The dynamic deflection of the mast tip relative to its support is at most the limit.",
+        why="A mast with large deflections hits the racks and shakes off the load. It fatigues at its root.",
         formula="x = 2 P m_2/(c (m_1 + m_2)) of a sudden force; with the mass of the column and its modes",
         source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; limit of the file",
     )
@@ -102,8 +102,10 @@ PULL: OneCheck = only(_asks_force)(
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
-        what="The force of the bent column, its stiffness times the swing of its far end, is what its root bears.",
-        why="It is the dynamic load of starting and braking in the tables of combinations.",
+        what="The dynamic mast force, the product of mast stiffness and tip deflection, is at most the limit of the"
+        " mast root.",
+        why="A larger force overloads the mast. This force is the dynamic load of starting and braking in the tables"
+        " of combinations.",
         formula="F = c x_max",
         source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, tables 11.1 and 11.2",
     )
@@ -152,8 +154,8 @@ SETTLES: OneCheck = only(_asks_wait)(
         needs=lambda spec, scene: (("column", "log_decrement"),),
         blame=_settling_blame,
         repair=_settling_key,
-        what="From the standstill on the far end of the column stays inside the window of the fork within the wait.",
-        why="A fork that goes out before meets the rack or the pallet beside the one it is for.",
+        what="From the standstill, the mast tip settles permanently into the fork window within the permitted wait.",
+        why="A fork that extends earlier hits the rack or an adjacent pallet.",
         formula="|x(t)| <= window for all t >= t_s,   t_s <= wait",
         source="free vibration of the column; window and wait of the file",
     )
@@ -187,9 +189,10 @@ LEANS: OneCheck = only(_asks_window)(
         needs=no_needs,
         blame=blames("settling", "window"),
         repair=no_repair,
-        what="Under weights beside its axis the column leans at rest by less than the window of the fork is wide.",
-        why="A column that leans by more than the window is never inside it, however long the fork waits: the window is"
-        " narrower than the static deflection.",
+        what="The static deflection of the mast tip under eccentric weights is at most the window of the fork to"
+        " either side.",
+        why="A mast with a larger static deflection never enters the window, for any wait. The window is narrower than"
+        " the static deflection.",
         formula="x = M ((s l)^2/2 + s l (l - s l))/(E J) + M l/k,   M = |Q e + G b|;   x <= window",
         source="bending of beams; `laws.mast.leaning`",
     )
@@ -215,8 +218,9 @@ BLOW: OneCheck = only(_asks_force)(
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),
-        what="The force of the column as its far end meets an obstacle is what its root bears.",
-        why="The column stops everything that travels: running into an obstacle is combination 4 of table 11.1.",
+        what="The mast force during the collision of the mast tip with an obstacle is at most the limit of the mast"
+        " root.",
+        why="The mast stops all travelling masses. A collision with an obstacle is combination 4 of table 11.1.",
         formula="F <= v (c (m_1 + m_2))^(1/2); simulated with the contact of the file",
         source="energy; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, table 11.1",
     )
@@ -250,8 +254,8 @@ STRUCK: OneCheck = only(_asks_contact)(
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),
-        what="The force between the far end of the column and what it meets is what both bear.",
-        why="It is short, and many times the force of the column: load and column's end stop by themselves.",
+        what="The contact force between the mast tip and the obstacle is at most the limit of both.",
+        why="The contact force is short and many times the mast force. It stops the load and the mast end on its own.",
         formula="F = v (k m_2)^(1/2), with the modes of the column",
         source="contact of the file; `laws.obstacle`",
     )
@@ -285,8 +289,9 @@ FAST: OneCheck = only(_asks_speed)(
         needs=no_needs,
         blame=_speed_blame,
         repair=of_the_mechanism("speed"),
-        what="The column meets an obstacle no faster than the rules of the plant allow.",
-        why="The force of the column goes with the speed, the energy of the blow with its square.",
+        what="The speed of the mast at the collision with an obstacle is at most the limit of the plant rules.",
+        why="The mast force is proportional to the speed. The impact energy is proportional to the square of the"
+        " speed.",
         formula="share of v <= v_max",
         source="limit of the file",
     )

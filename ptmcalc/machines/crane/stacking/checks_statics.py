@@ -34,9 +34,10 @@ ROLLERS: OneCheck = Check(
     needs=needs(("carriage", "rollers", "rating")),
     blame=blames("carriage", "rollers", "rating"),
     repair=at("carriage", "rollers", "distance"),
-    what="The eccentric weights of load, carriage and cab, with the carriage's acceleration, press no roller against"
-    " the column harder than it bears.",
-    why="The reaction goes by arm over distance of the rollers: short carriages with long forks wear roller and rail.",
+    what="The load of each guide roller on the mast is at most its rating. The load results from the eccentric weights"
+    " of load, carriage and cab and from the acceleration of the carriage.",
+    why="The reaction is proportional to the lever arm divided by the roller distance. Short carriages with long forks"
+    " wear roller and rail.",
     formula="(1 + a/g) |Q e + G b|/h <= n R_0",
     source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the maker of the roller",
 )
@@ -66,8 +67,8 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
         needs=no_needs,
         blame=blames("carriage", "rollers", "distance"),
         repair=at("carriage", "rollers", "distance"),
-        what="The resistance of the guide is less than the weight that has to overcome it on the way down.",
-        why="A carriage that jams like a drawer stays up while its ropes go slack, and falls when it comes free.",
+        what="The ratio of the guide resistance to the weight that overcomes it on the way down is at most the limit.",
+        why="A carriage that jams on its guides stays up while its ropes go slack. It falls when it comes free.",
         formula="2 w |Q e + G b|/(h (Q + G)) <= 1,   w = (mu d + 2 f)/D",
         source="balance of the carriage",
     )
@@ -104,9 +105,10 @@ ROPE: OneCheck = Check(
     needs=_rope_needs,
     blame=blames("hoisting", "rope", "breaking_force"),
     repair=at("hoisting", "rope", "breaking_force"),
-    what="The breaking force of the rope over its largest pull, with the acceleration of the carriage, the resistance"
-    " of its guide and the losses of the sheaves, is what its group asks.",
-    why="It is combination 1 of both tables of the notes; inertia is in their formula though not in the combination.",
+    what="The ratio of the rope breaking force to the maximum rope force is at least the value required by the group."
+    " The rope force includes the carriage acceleration, the guide resistance and the sheave losses.",
+    why="An overloaded rope may break. This load is combination 1 of both tables of the notes. The formula of the"
+    " notes includes inertia, their combination does not.",
     formula="F_min/S >= Z_p,   S = ((Q + G)(1 + a/g) + W)/(m eta_r)",
     source="ISO 4308-1:2003; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007",
 )
@@ -163,9 +165,10 @@ START_TIME: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _drive_key(spec, scene),
     repair=_drive_repair,
-    what="Bridge, trolley, column or base come to their speed in the time allowed; a drive below its resistance never"
-    " does.",
-    why="It is combination 1 of the notes' tables: weights alone, for the drives of all mechanisms.",
+    what="Bridge, trolley, mast or base reach their speed within the maximum start time. A drive with a torque below"
+    " its resistance never reaches the speed.",
+    why="A slow start delays the cycle. This load is combination 1 of the tables of the notes: weights alone, for the"
+    " drives of all mechanisms.",
     formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
     source="momentum; handbooks of lifting machines",
 )
@@ -181,9 +184,9 @@ BRAKE_TIME: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _drive_key(spec, scene),
     repair=_drive_repair,
-    what="Bridge, trolley, column or base come to rest in the time allowed, and for good: a column that swings may pull"
+    what="Bridge, trolley, mast or base stop permanently within the maximum stop time. An oscillating mast may pull"
     " its base through the brake again.",
-    why="A weak brake saves the column and costs the way to the next buffer.",
+    why="A weak brake reduces the mast load but uses up the distance to the next buffer.",
     formula="integral P dt = (m_1 + m_c + m_2) v,   t <= t_0",
     source="momentum; handbooks of lifting machines",
 )
@@ -228,8 +231,8 @@ STARTS: OneCheck = only(_counts)(
         needs=_starts_needs,
         blame=lambda spec, scene, loads: (_starts_block(spec, scene), "starts_per_hour"),
         repair=lambda spec, scene: (_starts_block(spec, scene), "starts_per_hour"),
-        what="The mechanism starts no more often than motor and brake allow.",
-        why="Each start leaves the energy of all that moves in rotor and brake once more.",
+        what="The number of starts per hour of the mechanism is at most the rating of motor and brake.",
+        why="Each start dissipates in rotor and brake an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
         source="the maker of motor and brake; combination 1 of the notes' tables",
     )

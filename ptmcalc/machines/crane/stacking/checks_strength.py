@@ -71,9 +71,11 @@ ALONG: OneCheck = _on_a_side("along", _travels)(
         needs=no_needs,
         blame=blames("base", "wheel_base"),
         repair=at("base", "wheel_base"),
-        what="The weights hold the machine on both its wheels against the inertia of a column that swings in a start or"
-        " a stop, and against what leans over.",
-        why="Combination 2 of table 11.2 is there for stability: twice the steady moment of the column lifts a wheel.",
+        what="The stabilising moment of the weights is at least the required multiple of the tipping moment about"
+        " either wheel. The tipping moment includes the inertia of the mast that oscillates in a start or stop, and"
+        " the eccentric weights.",
+        why="Combination 2 of table 11.2 covers stability. A moment of twice the steady moment of the mast lifts a"
+        " wheel.",
         formula="sum G_i d_i >= k (M_0 + F_0 z_0 + m_1 a z_1 + |Q e + G b|)",
         source="balance of moments; N. Yu. Dorokhov, lecture notes, Kramatorsk 2007, table 11.2",
         types=frozenset({"rack_stacker"}),
@@ -112,9 +114,9 @@ ACROSS: OneCheck = _on_a_side("across", _leans)(
         needs=_across_needs,
         blame=lambda spec, scene, loads: _across_key(spec, scene),
         repair=_across_key,
-        what="Two rails, or the guide at the head, hold the machine against the load on the fork that is out, and"
-        " against the rack that pushes back.",
-        why="On one rail nothing but the guide at the head keeps it from tipping into the rack.",
+        what="The stabilising moment of two rails or of the top guide is at least the required multiple of the tipping"
+        " moment. The tipping moment includes the load on the extended fork and the reaction of the rack.",
+        why="On a single rail, only the top guide prevents the machine from tipping into the rack.",
         formula="sum G_i B/2 + F_g H >= k (|Q e + G b| + F_f (z_0 + s))",
         source="balance of moments",
         types=frozenset({"rack_stacker"}),
@@ -167,9 +169,10 @@ COLUMN: OneCheck = only(lambda spec, scene: spec.column.section_modulus is not N
         blame=_governs("column", strength.column_stresses),
         repair=no_repair,
         repairs_blame=True,
-        what="Weights and the dynamic load of each combination together stress the root of the column no more than"
-        " allowed.",
-        why="Which combination governs depends on the machine: none may be left out.",
+        what="The stress of the mast root under the weights and the dynamic load of each combination is at most the"
+        " permissible stress.",
+        why="The governing combination depends on the machine. No combination may be omitted. An overstressed mast"
+        " yields or cracks at its root.",
         formula="M/W + M_y/W_y + N/A <= sigma_0",
         source="bending of beams; tables 11.1 and 11.2 of the lecture notes, Kramatorsk 2007",
     )
@@ -206,9 +209,10 @@ BRIDGE: OneCheck = only(_has_girders)(
         blame=_governs("bridge", strength.bridge_stresses),
         repair=no_repair,
         repairs_blame=True,
-        what="Weights and the dynamic load of each combination together stress the girder that bears more of them no"
-        " more than allowed.",
-        why="The column pulls one girder down and pushes the other up while both bend sideways.",
+        what="The stress of the more heavily loaded girder under the weights and the dynamic load of each combination"
+        " is at most the permissible stress.",
+        why="The mast pulls one girder down and pushes the other up while both bend sideways. An overstressed girder"
+        " yields or cracks.",
         formula="M_v/W_v + M_h/W_h <= sigma_0",
         source="bending of beams; table 11.1 of the lecture notes, Kramatorsk 2007",
         types=frozenset({"overhead_stacker"}),

@@ -95,8 +95,9 @@ SLOW: OneCheck = Check(
     needs=no_needs,
     blame=_rate_blame,
     repair=_rate_repair,
-    what="The crane has its full speed in the time asked, against wind and slope, the load swinging behind.",
-    why="A drive that hardly moves the crane stalls in the first gust, and heats its motors all the way.",
+    what="The crane reaches full travel speed within the maximum start time against wind and slope. The load sways"
+    " behind the crane.",
+    why="A drive with little excess torque stalls in the first gust. It heats its motors during the whole start.",
     formula="t = v m_red/(F - W), with the load swinging; infinite for F <= W: it stalls",
     source="balance of forces; pendulum under a pivot that is pushed",
 )
@@ -125,8 +126,9 @@ LONG_STOP: OneCheck = Check(
     needs=no_needs,
     blame=_rate_blame,
     repair=_rate_repair,
-    what="The crane stands in the time asked, with wind and slope behind it and the load pushing on.",
-    why="Who runs towards people or buffers has this time and no more.",
+    what="The crane stops within the maximum stop time. Wind and slope act in the direction of travel, and the load"
+    " pushes the crane.",
+    why="A longer stopping time endangers people and end buffers ahead of the crane.",
     formula="t = t_d + ..., m_red x'' = -F_b(t) - W + M g theta; infinite where brakes do not hold wind and slope",
     source="balance of forces; pendulum under a pivot that is pushed",
 )
@@ -156,8 +158,8 @@ LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not 
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
-        what="The crane stands after the way asked.",
-        why="Limit switches and operators count on it.",
+        what="The stopping distance of the crane is at most the limit.",
+        why="The settings of limit switches and the reactions of operators rely on this distance.",
         formula="s = integral of x' from the command to rest",
         source="balance of forces",
     )
@@ -189,8 +191,8 @@ SWAY: OneCheck = only(hangs)(
         needs=no_needs,
         blame=_rate_blame,
         repair=_rate_repair,
-        what="The ropes do not leave the plumb line by more than the angle asked, in the start or stop and after it.",
-        why="A load that swings hits what it must not, and pulls at the crane with twice its share.",
+        what="The angle of the ropes from the vertical is at most the limit, during the start or stop and after it.",
+        why="A load that sways hits obstacles. It acts on the crane with twice its share of the force.",
         formula="theta = 2 atan(a/g) from rest under a sudden a; less for ramps that match the period",
         source="pendulum under a moved pivot",
     )
@@ -221,8 +223,9 @@ RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks
         needs=no_needs,
         blame=_rate_blame,
         repair=no_repair,
-        what="What is left of the swing after the start or stop is no more than asked.",
-        why="Nobody can set down or pick up a load until it hangs still. A ramp of one period leaves nothing.",
+        what="The sway that remains after the start or stop is at most the limit.",
+        why="A load cannot be set down or picked up before it hangs still. A ramp of one sway period leaves no"
+        " residual sway.",
         formula="theta_r = (2 a/g) |sin(omega t_a/2)| for small angles",
         source="pendulum under a moved pivot",
     )
@@ -259,9 +262,11 @@ SKID: OneCheck = Check(
     needs=no_needs,
     blame=_rate_blame,
     repair=_skid_repair,
-    what="Every driven or braked wheel holds on the rail what its drive asks of it, the one with the least load too,"
-    " with the trolley at the far end, the load swinging, and the crane leaning with its acceleration.",
-    why="A wheel that skids wears flat and turns the crane askew, though the mean of all wheels would hold.",
+    what="The adhesion of every driven or braked wheel is at least the required multiple of its drive or brake force."
+    " This includes the wheel with the minimum load. The trolley is at the far end, the load sways, and the"
+    " acceleration tilts the crane.",
+    why="A wheel that slips wears flat and skews the crane. This occurs even where the mean adhesion of all wheels is"
+    " sufficient.",
     formula="mu N_k/|F_k| >= 1.2,   F_k = s_k (m a + W + H),   N_k with m a h/B and H h/B taken off",
     source="Coulomb's friction; equilibrium of the crane",
 )
@@ -290,8 +295,10 @@ RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) 
         needs=no_needs,
         blame=lambda spec, scene, loads: torque_key(spec),
         repair=torque_repair,
-        what="The torque that the ramp asks, the load pulling its most, is within what the motors give in a start.",
-        why="A converter at its limit lets the ramp go: start, sway and grip are not those of the ramp any more.",
+        what="The motor torque required by the ramp, at the maximum pull of the load, is at most the mean starting"
+        " torque of the motors.",
+        why="A converter at its torque limit does not follow the ramp. Start time, sway and adhesion then differ from"
+        " those of the ramp.",
         formula="J e + (m a + W + H) r/(u eta) <= M_mean",
         source="balance of forces; power balance of the gear",
     )
@@ -323,8 +330,9 @@ WHEEL: OneCheck = Check(
     needs=lambda spec, scene: (("wheels", "rating"),),
     blame=blames("wheels", "rating"),
     repair=at("wheels", "rating"),
-    what="No wheel carries more than it is rated for, the trolley where it is worst, the crane starting or stopping.",
-    why="Treads pit, rails roll out, and the runway is calculated for this load.",
+    what="The load of every wheel is at most its rating. The trolley is in its worst position, and the crane starts or"
+    " stops.",
+    why="Wheel treads pit and rails roll out. The runway is designed for this load.",
     formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B",
     source="equilibrium of the crane",
 )
@@ -352,8 +360,9 @@ LIFTS: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("wheels", "base"),
     repair=at("wheels", "base"),
-    what="Every wheel is loaded, the trolley where it is worst, the crane starting or stopping.",
-    why="A wheel in the air does not drive, brake or guide; a high gantry on a short base tips.",
+    what="The load of every wheel is at least zero, so that every wheel stays on the rail. The trolley is in its worst"
+    " position, and the crane starts or stops.",
+    why="A wheel without contact does not drive, brake or guide. A high gantry on a short wheel base tips.",
     formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B >= 0",
     source="equilibrium of the crane",
 )
@@ -382,9 +391,10 @@ TIPS: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("wheels", "base"),
     repair=at("wheels", "base"),
-    what="About each edge of its wheels the crane is held by more than what tips it, with the partial factors of the"
-    " edition (`class.stability`): more on loads, drive forces and wind, less on the weight that helps.",
-    why="Equal moments are no proof: weights, loads and wind are not known as well as that.",
+    what="About each tipping edge of the wheels, the stabilising moment is at least the required multiple of the"
+    " tipping moment. The partial factors of the edition (`class.stability`) apply: they increase loads, drive forces"
+    " and wind, and reduce the stabilising weight.",
+    why="Equal moments do not prove stability, because weights, loads and wind are not known with that accuracy.",
     formula="sum k_h G b / (sum k_o G b' + k_l (m a h + H h_r) + k_w F_w h_w) >= 1",
     source="equilibrium; EN 13001-2, ISO 8686-1; FEM 1.001",
 )

@@ -47,9 +47,9 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=_torque,
     repair=torque_repair,
-    what="The smallest torque of the motors up to full speed exceeds the torque of even travel against friction, slope"
-    " and the wind in which the crane works, by the reserve asked.",
-    why="A motor below the resistance does not move the crane: it stalls and burns.",
+    what="The minimum motor torque up to full speed is at least the required multiple of the steady travel torque. The"
+    " steady torque acts against friction, slope and the wind in which the crane works.",
+    why="A motor torque below the resistance does not move the crane. The motor stalls and overheats.",
     formula="min M(n)/(W r/(u eta)) >= 1.1",
     source="power balance of the gear; handbooks of lifting machines",
 )
@@ -79,8 +79,9 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
         needs=no_needs,
         blame=_torque,
         repair=torque_repair,
-        what="The motors move the crane against the largest wind in service, up the slope.",
-        why="A crane that the wind holds or drives does not come to its parking place any more.",
+        what="The motor force at the driven wheels is at least the resistance up the slope against the maximum"
+        " in-service wind.",
+        why="A crane that the wind holds or drives does not reach its parking position.",
         formula="M u eta/r >= w G + G sin(alpha) + q_max c A",
         source="balance of forces; winds of EN 13001-2 and ISO 4302",
     )
@@ -122,8 +123,9 @@ HEAT: OneCheck = only(_on_duty)(
         needs=_heat_needs,
         blame=lambda spec, scene, loads: _rating(spec),
         repair=lambda spec, scene: _rating(spec),
-        what="The torque that heats the motors as much as their cycle is within what the rating bears at this duty.",
-        why="Every 10 K too hot halves the life of the insulation.",
+        what="The equivalent torque of the motor cycle, with the same heating, is at most the permissible torque at"
+        " this duty factor.",
+        why="Every 10 K of excess temperature halves the life of the insulation.",
         formula="M_rms = sqrt(sum M_i^2 t_i/sum t_i) <= M_n sqrt(B(ED_n)/B(ED))",
         source="IEC 60034-1",
     )
@@ -158,8 +160,8 @@ STARTS: OneCheck = only(_counts_starts)(
         needs=lambda spec, scene: (("drive", "motor", "starts_per_hour"),),
         blame=blames("duty", "starts_per_hour"),
         repair=at("duty", "starts_per_hour"),
-        what="The motor starts no more often than its maker allows.",
-        why="Each start leaves the energy of all that moves in the rotor once more.",
+        what="The number of motor starts per hour is at most the rating of the manufacturer.",
+        why="Each start dissipates in the rotor an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
         source="the maker of the motor; IEC 60034-1",
     )
@@ -194,8 +196,8 @@ CLASS: OneCheck = only(_classed)(
         needs=lambda spec, scene: (("class", "crane"),),
         blame=blames("class", "crane"),
         repair=no_repair,
-        what="The group that cycles and load spectrum ask (ISO 4301-1) is not above the one the file claims.",
-        why="Structure and mechanisms are proven for the life of the group.",
+        what="The crane group required by cycles and load spectrum (ISO 4301-1) is at most the declared group.",
+        why="Structure and mechanisms are verified for the life of the declared group.",
         formula="A = U + Q - 2,   Q by k_p = sum (C_i/C_T) (P_i/P_max)^3",
         source="ISO 4301-1",
     )

@@ -44,8 +44,9 @@ STROKE: OneCheck = Check(
     needs=no_needs,
     blame=blames("buffers", "stroke"),
     repair=at("buffers", "stroke"),
-    what="The buffers stop the crane within their stroke; else the report names the speed that is left at its end.",
-    why="What the buffer does not take, the end stop, the crane and the load take in a few millimetres.",
+    what="The buffers stop the crane within their stroke. Otherwise, the report states the remaining speed at the end"
+    " of the stroke.",
+    why="The end stop, the crane and the load absorb the remaining energy within a few millimetres.",
     formula="E(u) = m v^2/2 + P u,   u <= s;   left: v_1 = (v^2 + 2 (P s - E(s))/m)^(1/2)",
     source="energy; EN 13001-2, FEM 1.001",
 )
@@ -73,8 +74,8 @@ FORCE: OneCheck = Check(
     needs=lambda spec, scene: (("buffers", "rating"),),
     blame=blames("buffers", "rating"),
     repair=at("buffers", "rating"),
-    what="The force of each buffer is within its rating, or that of the end stop.",
-    why="A buffer too stiff breaks what it is to protect.",
+    what="The force of each buffer is at most its rating or the rating of the end stop.",
+    why="A buffer that is too stiff breaks the parts it protects.",
     formula="F = (P + (P^2 + c m v^2)^(1/2))/n <= F_max, by the type of buffer",
     source="energy; EN 13001-2, FEM 1.001",
 )
@@ -113,8 +114,9 @@ HIT: OneCheck = only(_has_speed)(
         needs=no_needs,
         blame=lambda spec, scene, loads: _speed_key(spec, scene),
         repair=at("speed"),
-        what="The crane hits its buffers no faster than they, or the rules of the plant, allow.",
-        why="Rubber and cells get stiffer the faster they are pressed; load and driver are not held.",
+        what="The impact speed of the crane is at most the limit of the buffers or of the plant rules.",
+        why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
+        " not restrained.",
         formula="share of v <= v_max",
         source="the maker of the buffer",
     )
@@ -145,8 +147,9 @@ CONTACT: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: ("rail", "step" if spec.rail.step else "gap"),
     repair=at("speed"),
-    what="The wheels keep their contact with the rail on its largest step and gap.",
-    why="A wheel that jumps comes down with a blow that no factor knows.",
+    what="The wheel load stays at or above zero at the largest step and gap of the rail, so that the wheels keep"
+    " contact.",
+    why="The impact of a wheel that lands on the rail is not covered by any factor.",
     formula="1 - (pi/2)^2 v^2/(g r) u_min >= 0",
     source="one vertical mode over a cosine step; `laws.rail`",
 )
@@ -174,8 +177,8 @@ GUIDE: OneCheck = Check(
     needs=lambda spec, scene: (("guide", "rating"),),
     blame=blames("guide", "rating"),
     repair=at("guide", "rating"),
-    what="The force of the rail on the foremost guide is within what flange, roller and rail bear.",
-    why="Skewing wears flanges and rails more than all else, and bends end carriages and runway sideways.",
+    what="The force of the rail on the foremost guide is at most the rating of flange, roller and rail.",
+    why="Skewing is the main cause of wear of flanges and rails. It bends end carriages and runway sideways.",
     formula="S = sum f xi G_i (1 - d_i/h),   f = 0.3 (1 - exp(-250 alpha))",
     source="EN 13001-2, ISO 8686-1, EN 1991-3",
 )
@@ -210,8 +213,9 @@ STORM: OneCheck = Check(
     needs=no_needs,
     blame=lambda spec, scene, loads: _storm_key(spec, scene),
     repair=lambda spec, scene: _storm_key(spec, scene) if spec.parking is not None else (),
-    what="Brakes, as far as their wheels grip, and rail clamps hold the crane in the wind out of service.",
-    why="A crane on the move in a storm is not stopped by anything but its end stops.",
+    what="Brakes and rail clamps hold the crane in the out-of-service wind with the required reserve. The brake forces"
+    " are limited by the adhesion of their wheels.",
+    why="Only the end stops stop a crane that moves in a storm.",
     formula="(sum of min(M_b u/(r eta_r)/n, mu N_k) + clamps)/(q c A + G sin(alpha)) >= 1.1",
     source="balance along the rails; winds of EN 13001-2, ISO 4302",
 )
@@ -262,7 +266,7 @@ def _factor(
             blame=blames("declared", name),
             repair=repair,
             what=what,
-            why="The proof of the structure stands or falls with the factors it was made with.",
+            why="The proof of the structure is valid only for the factors it is based on.",
             formula=formula,
             source="EN 13001-2, ISO 8686-1; numbers as open design codes quote them",
         )
@@ -277,51 +281,51 @@ FACTORS: tuple[OneCheck, ...] = (
     _factor(
         "CRN180",
         "phi1",
-        "The factor on the weight of the crane as a load is lifted, by the standard, is not above the one declared.",
+        "phi1, the factor of the standard on the crane weight while a load is lifted, is at most the declared value.",
         "phi_1 = 1 + a,   a <= 0.1",
     ),
     _factor(
         "CRN181",
         "phi2",
-        "The factor of lifting a load off the ground, by hoisting class, drive class and hoisting speed, is not above"
-        " the one declared.",
+        "phi2, the factor of lifting a load off the ground, is at most the declared value. It depends on hoisting"
+        " class, drive class and hoisting speed.",
         "phi_2 = phi_2,min + beta_2 v_h",
         needs=_hoisting_needs,
     ),
     _factor(
         "CRN182",
         "phi3",
-        "The factor of a part of the load that comes off is not below the one declared: it is a relief, or a force"
-        " upwards.",
+        "phi3, the factor of the sudden release of a part of the load, is at least the declared value. The factor"
+        " describes a relief or an upward force.",
         "phi_3 = 1 - dm/m (1 + beta_3)",
         sense=Sense.AT_LEAST,
     ),
     _factor(
         "CRN183",
         "phi4",
-        "The factor of running over the rail's largest step and gap, by the whole answer of the crane, is not above the"
-        " one declared.",
+        "phi4, the factor of travelling over the largest step and gap of the rail, is at most the declared value. It is"
+        " computed from the complete response of the crane.",
         "phi_4 = 1 + (pi/2)^2 v^2/(g r) max u",
         scenes=STEPS,
     ),
     _factor(
         "CRN184",
         "phi5",
-        "The factor on changes of the drive forces, by the control and the play of the drive, is not above the one"
-        " declared.",
+        "phi5, the factor on changes of the drive forces, is at most the declared value. It depends on the control and"
+        " the backlash of the drive.",
         "phi_5 = 1 to 1.5 smooth, 1.5 to 2 sudden, 3 with considerable play",
     ),
     _factor(
         "CRN185",
         "phi6",
-        "The factor on the load of the dynamic test is not above the one declared.",
+        "phi6, the factor on the load of the dynamic test, is at most the declared value.",
         "phi_6 = (1 + phi_2)/2",
         needs=_hoisting_needs,
     ),
     _factor(
         "CRN186",
         "phi7",
-        "The factor on buffer forces, by the shape of the buffer's curve, is not above the one declared.",
+        "phi7, the factor on buffer forces, is at most the declared value. It depends on the buffer curve shape.",
         "phi_7 = 1.25 + 0.7 (xi - 0.5), at least 1.25",
         scenes=HITS,
     ),
