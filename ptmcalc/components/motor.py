@@ -465,6 +465,23 @@ def torques_up_to(curve: AnyMotor, speed: float) -> FloatArray:
     return curve.torque(speeds, np.inf)
 
 
+def overhauled_torque(curve: AnyMotor) -> float:
+    """The most with which a motor brakes a load that drives it above its no-load speed, once its start is over [N*m].
+
+    Infinite where the torque grows with the speed without end (`linear`), 0 where the motor never brakes.
+    """
+    if isinstance(curve, ConverterMotor):
+        return curve.limit
+    last = curve.stages[-1]
+    if isinstance(curve, InductionBase):
+        slip = np.array([-curve.breakdown_slip])
+        return -float(last.torque((1 - slip) * curve.synchronous_speed)[0])
+    assert last.pieces is not None
+    if last.extends:
+        return np.inf
+    return max(0.0, -min(torque for speed, torque in last.pieces if speed >= 0 or torque >= 0))
+
+
 def number_at(path: KeyPath, curve: AnyMotor | None) -> KeyPath:
     """The number that a key stands for: where it names the curve of a motor, the one all its torques grow with; none
     where there is no such number."""

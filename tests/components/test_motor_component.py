@@ -20,6 +20,7 @@ from ptmcalc.components.motor import (
     Stage,
     TableMotor,
     number_at,
+    overhauled_torque,
 )
 from ptmcalc.spec.machine import replaced
 from ptmcalc.spec.shape import example_of, keys_of, measure_of
@@ -127,6 +128,23 @@ class TestEveryMotor:
         ((key, reason, hint),) = faults(data, **plate, largest_torque="100 N*m")
         assert (key, reason[:25]) == ("largest_torque", "it is below the rated tor")
         assert read(data, **plate, largest_torque=hint.split("`")[1].removeprefix("largest_torque: "))
+
+
+@pytest.mark.parametrize("data", ALL, ids=by_type)
+def test_no_speed_up_to_ten_times_the_no_load_speed_brakes_more(data: dict[str, Any]) -> None:
+    motor = READER.validate_python(data)
+    most = overhauled_torque(motor)
+    looked = -motor.torque(np.linspace(0.0, 10 * (motor.no_load_speed or 157.0), 200_001), 1e6)
+    if data["type"] == "linear":
+        assert most == math.inf
+    else:
+        assert most == pytest.approx(max(float(looked.max()), 0.0), rel=1e-6)
+
+
+def test_a_table_that_only_brakes_backwards_holds_no_load_forwards() -> None:
+    points = [(-100, -50), (0, 50), (100, 0)]
+    table = [{"speed": f"{speed} rpm", "torque": f"{torque} N*m"} for speed, torque in points]
+    assert overhauled_torque(READER.validate_python({"type": "table", "points": table})) == 0.0
 
 
 class TestPieces:

@@ -275,7 +275,7 @@ class TestWhatIsWrong:
             changed(PAPER, brake__torque=f"{torque} N*m", scenes=[scene | ({"hook_height": hook} if hook else {})])
         )
         said = [one for one in report.diagnostics if one.code == "NUM104"]
-        assert [f"on layer {layer}, it does not" in one.message for one in said] == [True] * bool(layer)
+        assert [f"on layer {layer}, the brake does not" in one.message for one in said] == [True] * bool(layer)
 
     @pytest.mark.parametrize(
         ("brake", "scene"),
