@@ -18,6 +18,7 @@ from ptmcalc.contract.report import SceneReport, TableReport
 from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.scene import Scene
 
 Piece = TypeVar("Piece")
 
@@ -34,6 +35,8 @@ class Assumption(Generic[S]):
     value: Callable[[S], float | None]
     interval: Callable[[S], Interval]
     source: str
+    scenes: frozenset[type[Scene]] = frozenset()
+    """types of the scenes that read it; empty for all"""
 
 
 def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:

@@ -11,6 +11,7 @@ from ptmcalc.contract.check import Sense
 from ptmcalc.contract.effect import Criterion, EffectState
 from ptmcalc.contract.figure import FigureReport
 from ptmcalc.contract.result import Event, History, LoadInfo
+from ptmcalc.spec.scene import Scene
 
 _INVISIBLE = 1e-6
 """A smaller relative change is rounding."""
@@ -200,6 +201,12 @@ class AssumedReport:
     quantity: Quantity
     interval: Interval
     source: str
+    scenes: frozenset[type[Scene]] = frozenset()
+    """types of the scenes that read it; empty for all"""
+
+    def read_in(self, scene: Scene) -> bool:
+        """Whether a scene reads the value."""
+        return not self.scenes or type(scene) in self.scenes
 
 
 @dataclass(frozen=True, slots=True)

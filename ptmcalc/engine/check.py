@@ -254,7 +254,7 @@ def _flips(
                 left.setdefault(label, set()).add((check[0], check[1]))
         if not left:
             break
-        again = plan(kind, other, [scene for scene in other.all_scenes if scene.label in left])
+        again = plan(kind, other, [one for one in other.all_scenes if one.label in left and value.read_in(one)])
         ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
         found |= {
             key: (value, end, ruling.verdict)

@@ -177,7 +177,8 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
         value = assumption.value(spec)
         if value is not None:
             interval = assumption.interval(spec)
-            assumed.append(AssumedReport(assumption.path, value, assumption.quantity, interval, assumption.source))
+            path, quantity, source = assumption.path, assumption.quantity, assumption.source
+            assumed.append(AssumedReport(path, value, quantity, interval, source, assumption.scenes))
             spec = spec.with_value(assumption.path, value)
     return spec, tuple(assumed)
 

@@ -224,7 +224,11 @@ class _Search:
         """Of runs with so many refinements at most: of the machine as it is first."""
         spec = self.loaded.spec
         assert spec is not None
-        ends = [(one.path, end) for one, end, _ in variants(spec, self.loaded.assumed) if one.path != self.path]
+        ends = [
+            (one.path, end)
+            for one, end, _ in variants(spec, self.loaded.assumed)
+            if one.path != self.path and (not one.scenes or one.scenes & self.check.scenes)
+        ]
         return [cache(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
 
     def _at(self, value: float, end: tuple[KeyPath, float] | None, finest: float) -> float:

@@ -6,7 +6,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Hold, Start, Stopping
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Hold, Start, Stop, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
 
@@ -83,6 +83,7 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
         lambda spec: 1.2 if _has(spec, Start) else None,
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
+        frozenset({Start}),
     ),
     Assumption(
         ("layout", "resistance", "stop_factor"),
@@ -90,6 +91,7 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
         lambda spec: 0.8 if _has(spec, Stopping, Hold) else None,
         lambda spec: Interval(0.6, 1.0),
         "running and warm, a chain resists by 0.6 to 1 of its design resistance",
+        frozenset({Stop, EmergencyStop, Coast, Hold}),
     ),
 )
 

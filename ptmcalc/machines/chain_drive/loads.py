@@ -28,6 +28,8 @@ LOADS = (
     LoadInfo("starting_force", "mean starting force at the chain", units.FORCE),
     LoadInfo("starting_reserve", "starting force reserve", units.RATIO, governing=True),
     LoadInfo("start_time", "starting time", units.TIME, governing=True),
+    LoadInfo("steady_reserve", "motor torque reserve, steady running", units.RATIO),
+    LoadInfo("motor_utilisation", "motor torque / rated torque, steady running", units.SHARE, headline=False),
     LoadInfo("acceleration_motor", "motor angular acceleration", units.ANGULAR_ACCELERATION, headline=False),
     LoadInfo("reduced_inertia", "equivalent inertia at motor shaft", units.INERTIA, headline=False),
     LoadInfo("tension_speed_range", "polygon tension over speed sweep, maximum", units.FORCE, governing=True),

@@ -10,7 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, Drive, Hold, Stopping
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Hold, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -63,6 +63,7 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.2,
         lambda spec: Interval(1.0, 1.5),
         "common practice: 1.2 to 1.5 times the running resistance",
+        frozenset({Start}),
     ),
 )
 
@@ -106,6 +107,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: 1.0 if _stops(spec) else None,
         lambda spec: Interval(_LIGHT_RUNNING, 1.0),
         "DIN 22101: f from 0.016 in good to 0.027 in poor conditions; a belt that runs light stops later",
+        frozenset({Stop, EmergencyStop, Coast}),
     ),
     Assumption(
         ("resistance", "rest_factor"),
@@ -113,6 +115,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
         lambda spec: _AT_REST if any(isinstance(scene, Hold) for scene in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: one half of the running resistance, none of loading points and cleaners",
+        frozenset({Hold}),
     ),
     Assumption(
         ("takeup", "mass"),

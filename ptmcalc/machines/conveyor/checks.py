@@ -9,6 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.checks_drive import CHECKS_OF_THE_DRIVE
 from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
 from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
 from ptmcalc.machines.conveyor.driving import moving_mass, running
@@ -556,4 +557,4 @@ HEAT: Check[Conveyor, ConveyorScene] = Check(
 
 _OF_MOTION = (SLIP, STRENGTH, SAG, START, SLACK, STOP, STOP_TIME, BRAKE, BACKSTOP, STROKE, HEAT)
 _BY_CODE: dict[str, AnyCheck] = {check.code: check for check in _OF_MOTION}
-CHECKS: tuple[AnyCheck, ...] = (*_OF_MOTION, *CHECKS_OF_THE_BELT, *CHECKS_OF_THE_START)
+CHECKS: tuple[AnyCheck, ...] = (*_OF_MOTION, *CHECKS_OF_THE_DRIVE, *CHECKS_OF_THE_BELT, *CHECKS_OF_THE_START)

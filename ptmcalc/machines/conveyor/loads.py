@@ -33,6 +33,8 @@ LOADS = (
     LoadInfo("power_drive_running", "power at drive pulley shafts", units.POWER, governing=True),
     LoadInfo("power_drive_empty", "power at drive pulley shafts, empty belt", units.POWER, headline=False),
     LoadInfo("power_motor_running", "power at motor shafts", units.POWER, headline=False),
+    LoadInfo("steady_reserve", "motor torque reserve, steady running", units.RATIO),
+    LoadInfo("motor_utilisation", "motor torque / rated torque, steady running", units.SHARE, headline=False),
     LoadInfo("sag_tension_required", "tension required by sag limit", units.FORCE, headline=False),
     LoadInfo("slack_side_tension_required", "slack-side tension required for traction", units.FORCE, headline=False),
     LoadInfo("takeup_travel", "required take-up travel", units.LENGTH, headline=False),
@@ -143,6 +145,9 @@ def parts(spec: Conveyor) -> Iterator[LoadInfo]:
     for info in LOADS:
         if info.name == "natural_frequency":
             yield from (info.of(str(number)) for number in range(1, FREQUENCIES + 1))
+            continue
+        if info.name == "motor_utilisation":
+            yield from (info.of(name) for name in spec.all_drives)
             continue
         if info.name not in SLIPS:
             yield info

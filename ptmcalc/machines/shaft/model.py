@@ -294,8 +294,8 @@ class Machine:
 
     @property
     def races(self) -> bool:
-        """Whether the drive exceeds all resistance at any speed."""
-        return float(self.surplus(self.tried_speeds[-1:])[0]) > 0
+        """Whether the drive, or the load, exceeds all that resists and no speed carries it stably."""
+        return not self.working_speeds and float(self.surplus(self.tried_speeds[-1:])[0]) > 0
 
     def total_inertia(self, mechanism: FloatArray, factor: FloatArray) -> FloatArray:
         """Inertia with the motor's side, which the gear's loss makes smaller or larger [kg*m^2]."""

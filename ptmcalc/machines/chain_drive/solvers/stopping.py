@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_back import runs_back
 from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
@@ -21,7 +22,7 @@ from ptmcalc.machines.chain_drive.solvers.start_waves import (
     peaks_at,
     sections_of,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Hold, Stop, Stopping
+from ptmcalc.machines.chain_drive.spec import Backstop, ChainDrive, Coast, EmergencyStop, Hold, Stop, Stopping
 from ptmcalc.machines.chain_drive.starting import speed_over_time
 from ptmcalc.machines.chain_drive.stopping import (
     StopCase,
@@ -232,7 +233,9 @@ def hold(spec: ChainDrive, scene: Hold, carried: frozenset[str], level: int) -> 
     friction = line.back.resistance + line.working.resistance + stop_factor(spec) * line.tail_force
     force = line.back.weight + line.working.weight - friction
     torque = float(stopping.backstop_torque(force, 2 * mean_arm(spec), 1.0))
-    return Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1)
+    loose = torque > 0 and spec.backstop is None and spec.brake is None
+    failures = (runs_back("CHN129", "chain", torque, Backstop.model_fields["reserve"].default),) if loose else ()
+    return Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1, failures=failures)
 
 
 _SCENES: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop, Coast})

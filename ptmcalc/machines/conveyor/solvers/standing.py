@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_back import runs_back
 from ptmcalc.components.run_out import too_long_a_way
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
@@ -14,7 +15,7 @@ from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
+from ptmcalc.machines.conveyor.spec import Backstop, Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
 from ptmcalc.spec.scene import Scene
 
 
@@ -119,7 +120,11 @@ def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Re
     """
     worst = scene.model_copy(update={"load": "uphill"}) if scene.load == "full" else scene
     force = max(-_rest(spec, one) for one in (scene, worst))
-    return _exactly({"backstop_torque": float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))})
+    torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
+    found = _exactly({"backstop_torque": torque})
+    if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
+        return found
+    return replace(found, failures=(runs_back("CNV109", "belt", torque, Backstop.model_fields["reserve"].default),))
 
 
 def _rest(spec: Conveyor, scene: Hold) -> float:

@@ -1,0 +1,144 @@
+"""Motors of a conveyor or chain in steady running: the most they pull and hold, and the torque each of them has."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ptmcalc.components.motor import AnyMotor, InductionBase, overhauled_torque
+
+FloatArray = NDArray[np.float64]
+
+SPEED_KEPT = 0.9
+"""Part of the rated speed of the machine that the motors must keep under load; an engineering choice. Rated slips of
+small induction motors come to 7 %."""
+_LOOKS = 2001
+_ROUNDS = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Motors:
+    """Equal motors with one curve on one gear: their force at the pulley or sprocket.
+
+    F = n M i eta/R (driving),   n M i/(eta R) (braking)
+    """
+
+    curve: AnyMotor
+    count: int
+    turns: float
+    """turn of the motor shaft per travel, i/R [rad/m]"""
+    efficiency: float
+
+    def force(self, speed: FloatArray) -> FloatArray:
+        """Force of all motors at a speed of belt or chain, once their start is over [N]."""
+        torque = self.count * self.turns * self.curve.stages[-1].torque(speed * self.turns)
+        return np.asarray(np.where(torque > 0, torque * self.efficiency, torque / self.efficiency))
+
+    def torque(self, force: float) -> float:
+        """Torque of one motor for a force of all [N*m]."""
+        return force / (self.efficiency if force > 0 else 1 / self.efficiency) / (self.count * self.turns)
+
+    @property
+    def marks(self) -> list[float]:
+        """Speeds of belt or chain between which the torque only rises or only falls [m/s]."""
+        curve = self.curve
+        if isinstance(curve, InductionBase):
+            slips = (curve.breakdown_slip, 0.0, -curve.breakdown_slip)
+            return [(1 - slip) * curve.synchronous_speed / self.turns for slip in slips]
+        return [speed / self.turns for speed, _ in curve.stages[-1].pieces or ()]
+
+
+def steady_reserve(drives: Sequence[Motors], resistance: float, speed: float) -> float:
+    """The most all drives together pull (or hold, where the load drives) over the resistance in steady running [1].
+
+        max over v >= 0.9 V of sum F(v) / W   (W > 0),      max over v of -sum F(v) / -W   (W < 0)
+
+    Args:
+        drives: motors of every drive.
+        resistance: W, of the whole machine at the pulley; negative where the load drives it [N].
+        speed: V, rated speed of belt or chain [m/s].
+
+    Returns:
+        Reserve; infinite where nothing resists, or where the braking torque grows without end (`linear`) [1].
+
+    **Range** all drives turn at one speed of the belt or chain, and have finished their start.
+    **Error** exact for drives of one curve; of several curves, one part in a million.
+    **Source** derived: equilibrium on the torque curves.
+    """
+    if resistance == 0 or (resistance < 0 and any(math.isinf(overhauled_torque(one.curve)) for one in drives)):
+        return math.inf
+    if resistance > 0:
+        return _most(drives, 1, SPEED_KEPT * speed) / resistance
+    return _most(drives, -1, 0.0) / -resistance
+
+
+def motor_torques(drives: Sequence[Motors], resistance: float, speed: float) -> list[float]:
+    """Torque of one motor of each drive in steady running [N*m].
+
+        sum F(v) = W   on the branch on which the torque falls with the speed
+
+    Args:
+        drives: motors of every drive.
+        resistance: W, of the whole machine at the pulley; negative where the load drives it [N].
+        speed: V, rated speed of belt or chain [m/s].
+
+    Returns:
+        The torques, in the order of the drives; negative where the motors brake. Drives that cannot carry W share it
+        as they share their largest force.
+
+    **Range** as `steady_reserve`.
+    **Error** exact for drives of one curve and gear; of others, that of 200 bisections.
+    **Source** derived: equilibrium on the torque curves.
+    """
+    if len({repr(one) for one in drives}) == 1:
+        return [one.torque(resistance / len(drives)) for one in drives]
+    marks = [mark for one in drives for mark in one.marks]
+    low, high = 0.0, 4 * max(*marks, speed)
+    at = _speed_of_most(drives, 1, 0.0) if resistance > 0 else _zero_speed(drives, low, high)
+    end = high if resistance > 0 else _speed_of_most(drives, -1, 0.0)
+    forces = [float(one.force(np.array(_crossing(drives, resistance, at, end)))) for one in drives]
+    scale = resistance / sum(forces) if sum(forces) else 0.0
+    return [one.torque(scale * force) for one, force in zip(drives, forces, strict=True)]
+
+
+def _total(drives: Sequence[Motors], speeds: FloatArray) -> FloatArray:
+    return np.asarray(np.sum([one.force(speeds) for one in drives], axis=0))
+
+
+def _most(drives: Sequence[Motors], sign: int, least: float) -> float:
+    """The most all drives pull (1) or hold (-1) at a speed or above [N]."""
+    at = _speed_of_most(drives, sign, least)
+    return sign * float(_total(drives, np.array(at)))
+
+
+def _speed_of_most(drives: Sequence[Motors], sign: int, least: float) -> float:
+    """The speed there, of all marks of the curves and even steps between, looked at twice [m/s]."""
+    marks = [max(mark, least) for one in drives for mark in one.marks]
+    low, high = least, max(2 * least, *marks) * 1.5 + 1e-9
+    best = low
+    for _ in range(2):
+        speeds = np.array(sorted({*np.linspace(low, high, _LOOKS).tolist(), *marks, best}))
+        best = float(speeds[int(np.argmax(sign * _total(drives, speeds)))])
+        step = (high - low) / (_LOOKS - 1)
+        low, high = max(least, best - step), best + step
+        marks = [mark for mark in marks if low <= mark <= high]
+    return best
+
+
+def _zero_speed(drives: Sequence[Motors], low: float, high: float) -> float:
+    """The highest speed at which all drives together give no force [m/s]."""
+    return _crossing(drives, 0.0, _speed_of_most(drives, 1, low), high)
+
+
+def _crossing(drives: Sequence[Motors], force: float, low: float, high: float) -> float:
+    """Where the force of all drives falls to a value between two speeds, by bisection; the nearest end where it does
+    not [m/s]."""
+    for _ in range(_ROUNDS):
+        middle = (low + high) / 2
+        if float(_total(drives, np.array(middle))) > force:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
