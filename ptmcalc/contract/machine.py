@@ -37,6 +37,8 @@ class Assumption(Generic[S]):
     source: str
     scenes: frozenset[type[Scene]] = frozenset()
     """types of the scenes that read it; empty for all"""
+    loads: frozenset[str] = frozenset()
+    """loads that depend on it; empty for all"""
 
 
 def nothing_to_say(spec: MachineSpec) -> Iterable[Finding]:

@@ -7,7 +7,7 @@ from ptmcalc.base.diagnostic import BROKEN, Diagnostic, Severity, Verdict
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath, Span
 from ptmcalc.base.units import Quantity
-from ptmcalc.contract.check import Sense
+from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.effect import Criterion, EffectState
 from ptmcalc.contract.figure import FigureReport
 from ptmcalc.contract.result import Event, History, LoadInfo
@@ -203,10 +203,17 @@ class AssumedReport:
     source: str
     scenes: frozenset[type[Scene]] = frozenset()
     """types of the scenes that read it; empty for all"""
+    loads: frozenset[str] = frozenset()
+    """loads that depend on it; empty for all"""
 
     def read_in(self, scene: Scene) -> bool:
         """Whether a scene reads the value."""
         return not self.scenes or type(scene) in self.scenes
+
+    def read_by(self, check: AnyCheck) -> bool:
+        """Whether a check can depend on the value."""
+        scenes = not self.scenes or bool(self.scenes & check.scenes)
+        return scenes and (not self.loads or not self.loads.isdisjoint(check.loads))
 
 
 @dataclass(frozen=True, slots=True)

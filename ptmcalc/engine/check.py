@@ -245,15 +245,16 @@ def _flips(
     A check that passes as it stands passes only if it does at both ends; one that fails does so unless it passes at an
     end. One that is open as it stands, or that an end before has changed, is not settled again.
     """
-    base = {key: ruling.verdict for key, ruling in _by_key(made, settled)}
+    rulings = dict(_by_key(made, settled))
+    base = {key: ruling.verdict for key, ruling in rulings.items()}
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
     for value, end, other in variants(spec, assumed):
         left: dict[str, set[tuple[str, str]]] = {}
-        for (label, *check), verdict in base.items():
-            if verdict in (Verdict.PASS, Verdict.FAIL) and (label, *check) not in found:
-                left.setdefault(label, set()).add((check[0], check[1]))
+        for key, ruling in rulings.items():
+            if ruling.verdict in (Verdict.PASS, Verdict.FAIL) and key not in found and value.read_by(ruling.check):
+                left.setdefault(key[0], set()).add((key[1], key[2]))
         if not left:
-            break
+            continue
         again = plan(kind, other, [one for one in other.all_scenes if one.label in left and value.read_in(one)])
         ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
         found |= {

@@ -176,9 +176,8 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
             continue
         value = assumption.value(spec)
         if value is not None:
-            interval = assumption.interval(spec)
-            path, quantity, source = assumption.path, assumption.quantity, assumption.source
-            assumed.append(AssumedReport(path, value, quantity, interval, source, assumption.scenes))
+            named = (assumption.path, value, assumption.quantity, assumption.interval(spec), assumption.source)
+            assumed.append(AssumedReport(*named, assumption.scenes, assumption.loads))
             spec = spec.with_value(assumption.path, value)
     return spec, tuple(assumed)
 

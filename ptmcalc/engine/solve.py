@@ -227,7 +227,7 @@ class _Search:
         ends = [
             (one.path, end)
             for one, end, _ in variants(spec, self.loaded.assumed)
-            if one.path != self.path and (not one.scenes or one.scenes & self.check.scenes)
+            if one.path != self.path and one.read_by(self.check)
         ]
         return [cache(partial(self._at, end=end, finest=finest)) for end in (None, *ends)]
 

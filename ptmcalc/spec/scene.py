@@ -1,8 +1,6 @@
 """What happens to a machine: a scene is an event the machine must survive, in a load state."""
 
-from collections.abc import Iterable
-from itertools import count
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 from pydantic import Field
 
@@ -26,17 +24,6 @@ class Scene(Fragment):
     def default_name(self) -> str:
         """The name of a scene that was not given one."""
         return self.type
-
-
-S = TypeVar("S", bound=Scene)
-
-
-def with_free_name(scene: S, others: Iterable[Scene]) -> S:
-    """A scene under a name that none of the others has."""
-    taken = {one.label for one in others}
-    names = (f"{scene.label}_{number}" if number > 1 else "" for number in count(1))
-    free = next(name for name in names if (name or scene.label) not in taken)
-    return scene.model_copy(update={"name": free}) if free else scene
 
 
 class TransientScene(Scene):

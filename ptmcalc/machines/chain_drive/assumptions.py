@@ -6,7 +6,8 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.spec import ChainDrive, Coast, EmergencyStop, Hold, Start, Stop, Stopping
+from ptmcalc.machines.chain_drive.rollback import asks_for_hold
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
 
@@ -88,10 +89,9 @@ _OF_A_CONVEYOR: tuple[Assumption[ChainDrive], ...] = (
     Assumption(
         ("layout", "resistance", "stop_factor"),
         units.RATIO,
-        lambda spec: 0.8 if _has(spec, Stopping, Hold) else None,
+        lambda spec: 0.8 if _has(spec, Stopping) or any(asks_for_hold(spec, one) for one in spec.all_scenes) else None,
         lambda spec: Interval(0.6, 1.0),
         "running and warm, a chain resists by 0.6 to 1 of its design resistance",
-        frozenset({Stop, EmergencyStop, Coast, Hold}),
     ),
 )
 

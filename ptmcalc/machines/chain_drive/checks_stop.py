@@ -8,6 +8,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.rollback import asks_for_hold
 from ptmcalc.machines.chain_drive.spec import (
     Backstop,
     ChainDrive,
@@ -15,7 +16,9 @@ from ptmcalc.machines.chain_drive.spec import (
     Coast,
     EmergencyStop,
     Hold,
+    Run,
     SpeedRange,
+    Start,
     Stop,
     Stopping,
 )
@@ -239,7 +242,7 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
 # -- standstill -----------------------------------------------------------------------------------------------------
 
 
-def _hold_limit(spec: ChainDrive, scene: Hold) -> Estimate:
+def _hold_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
     """Torque that the backstop and the closed brake hold on the sprocket shaft, with the reserve of a backstop.
 
         (M_backstop + M_brake i)/reserve,   i = 1 for a brake on the sprocket shaft
@@ -269,13 +272,14 @@ def _hold_key(spec: ChainDrive) -> KeyPath:
     return ("brake", "torque") if _closed(spec) > 0 else ("backstop",)
 
 
-HELD: Check[ChainDrive, Hold] = Check(
+HELD: Check[ChainDrive, ChainScene] = Check(
     code="CHN129",
     title="chain rollback torque",
     question="Is the rollback torque of the stopped loaded chain held by friction or the backstop?",
     failure="rollback torque exceeds what the backstop may hold",
     limit_state=LimitState("loaded chain runs back"),
-    scenes=frozenset({Hold}),
+    scenes=_STOPS | {Hold, Start, Run},
+    each=lambda spec, scene: (replace(HELD, each=None),) if asks_for_hold(spec, scene) else (),
     loads=("backstop_torque",),
     sense=Sense.AT_MOST,
     limit=_hold_limit,

@@ -18,7 +18,7 @@ from ptmcalc.machines.chain_drive.chain_data import (
     teeth_of,
     wrong_size,
 )
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout, Layout, TwoShafts
+from ptmcalc.machines.chain_drive.layout import Layout, TwoShafts
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Force,
@@ -38,7 +38,7 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
-from ptmcalc.spec.scene import Scene, TransientScene, with_free_name
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class Drive(Fragment):
@@ -249,8 +249,7 @@ class ChainDrive(MachineSpec):
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
     """what happens to the machine; when left out a run, and a start where the drive is given, of conveyors loaded and
-    empty. The standstill (`backstop`) of a conveyor that climbs is added to these, and to stops, coasts and starts with
-    a rising torque"""
+    empty"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -267,12 +266,12 @@ class ChainDrive(MachineSpec):
     @property
     def all_scenes(self) -> Sequence[ChainScene]:
         if self.scenes is not None:
-            return _all_scenes(self, self.scenes)
+            return _followed(self, self.scenes)
         loads: tuple[Literal["full", "empty"], ...] = (
             ("full",) if isinstance(self.layout, TwoShafts) else ("full", "empty")
         )
         runs = tuple(Run(load=load) for load in loads)
-        return _all_scenes(self, (*runs, *(Start(load=load) for load in loads)) if self.drive is not None else runs)
+        return _followed(self, (*runs, *(Start(load=load) for load in loads)) if self.drive is not None else runs)
 
     @property
     def settings(self) -> ChainChecks:
@@ -329,28 +328,13 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
 
 
 @kept_for(64)
-def _all_scenes(spec: ChainDrive, scenes: tuple[ChainScene, ...]) -> tuple[ChainScene, ...]:
-    """Scenes whose starts follow the curve of the motors, where the file gives one; and the standstill with the drive
-    off, where the conveyor climbs and may come to it."""
+def _followed(spec: ChainDrive, scenes: tuple[ChainScene, ...]) -> tuple[ChainScene, ...]:
+    """Scenes whose starts follow the curve of the motors, where the file gives one."""
     curve = spec.drive is not None and spec.drive.motor.curve is not None
-    followed = tuple(
+    return tuple(
         one.model_copy(update={"profile": one.profile.followed(curve)}) if isinstance(one, Start) else one
         for one in scenes
     )
-    loaded = [one for one in followed if one.load == "full"]
-    climbs = isinstance(spec.layout, ConveyorLayout) and spec.layout.lift > 0
-    if not climbs or any(isinstance(one, Hold) for one in loaded):
-        return followed
-    if spec.scenes is not None and not any(_may_run_back(one) for one in loaded):
-        return followed
-    return (*followed, with_free_name(Hold(), followed))
-
-
-def _may_run_back(scene: ChainScene) -> bool:
-    """Whether a chain stands, or is to be moved, without the force that keeps it from running back."""
-    if not isinstance(scene, Start):
-        return isinstance(scene, Stopping)
-    return scene.profile.rise_time > 0 and not scene.profile.imposes_speed
 
 
 def _has_curve(given: Given) -> bool:

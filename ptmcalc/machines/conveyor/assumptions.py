@@ -10,7 +10,8 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Hold, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.rollback import asks_for_hold
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
@@ -112,10 +113,10 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "rest_factor"),
         units.RATIO,
-        lambda spec: _AT_REST if any(isinstance(scene, Hold) for scene in spec.all_scenes) else None,
+        lambda spec: _AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: one half of the running resistance, none of loading points and cleaners",
-        frozenset({Hold}),
+        loads=frozenset({"backstop_torque"}),
     ),
     Assumption(
         ("takeup", "mass"),

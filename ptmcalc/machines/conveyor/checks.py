@@ -14,6 +14,7 @@ from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting
 from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
 from ptmcalc.machines.conveyor.driving import moving_mass, running
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
+from ptmcalc.machines.conveyor.rollback import asks_for_hold
 from ptmcalc.machines.conveyor.safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
@@ -463,17 +464,18 @@ def _holding_key(spec: Conveyor) -> KeyPath:
     return ("backstop", "torque") if spec.backstop else ("backstop",)
 
 
-BACKSTOP: Check[Conveyor, Hold] = Check(
+BACKSTOP: Check[Conveyor, ConveyorScene] = Check(
     code="CNV109",
     title="belt rollback torque",
     question="Is the rollback torque of the stopped loaded belt held by friction or the backstop?",
     failure="rollback torque exceeds what the backstop may hold",
     limit_state=LimitState("loaded belt runs back"),
-    scenes=frozenset({Hold}),
+    scenes=frozenset({Hold, Stop, EmergencyStop, Coast, Start, Run}),
     loads=("backstop_torque",),
     sense=Sense.AT_MOST,
     limit=_backstop_limit,
     needs=no_needs,
+    each=lambda spec, scene: (replace(BACKSTOP, each=None),) if asks_for_hold(spec, scene) else (),
     blame=lambda spec, scene, loads: _holding_key(spec),
     repair=lambda spec, scene: _holding_key(spec) if spec.backstop or spec.brakes else (),
     what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"

@@ -33,7 +33,7 @@ from ptmcalc.spec.fields import (
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_of_parts
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
-from ptmcalc.spec.scene import Scene, TransientScene, with_free_name
+from ptmcalc.spec.scene import Scene, TransientScene
 
 
 class DriveDrum(Fragment):
@@ -304,8 +304,7 @@ class Conveyor(MachineSpec):
     checks: ConveyorChecks = ConveyorChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a loaded run, a loaded start and an empty start when left out. The standstill
-    (`backstop`) of a belt that climbs is added to these, and to stops, coasts and starts with a rising torque"""
+    """what happens to the machine; a loaded run, a loaded start and an empty start when left out"""
 
     DEFAULT_SCENES: ClassVar[tuple[Run | Start, ...]] = (Run(), Start(), Start(load="empty"))
 
@@ -343,7 +342,7 @@ class Conveyor(MachineSpec):
 
     @property
     def all_scenes(self) -> Sequence[ConveyorScene]:
-        return _all_scenes(self, self.scenes or self.DEFAULT_SCENES)
+        return _followed(self, self.scenes or self.DEFAULT_SCENES)
 
     @property
     def all_drives(self) -> dict[str, PlacedDrive]:
@@ -391,29 +390,13 @@ class Conveyor(MachineSpec):
 
 
 @kept_for(64)
-def _all_scenes(spec: Conveyor, scenes: tuple[ConveyorScene, ...]) -> tuple[ConveyorScene, ...]:
-    """Scenes whose starts follow the curves of the motors, where every motor has one; and the standstill with drives
-    off, where the belt climbs and may come to it."""
+def _followed(spec: Conveyor, scenes: tuple[ConveyorScene, ...]) -> tuple[ConveyorScene, ...]:
+    """Scenes whose starts follow the curves of the motors, where every motor has one."""
     curves = all(drive.motor.curve is not None for drive in spec.all_drives.values())
-    followed = tuple(
+    return tuple(
         one.model_copy(update={"profile": one.profile.followed(curves)}) if isinstance(one, Start) else one
         for one in scenes
     )
-    loaded = [one for one in followed if one.load in ("full", "uphill")]
-    climbs = any(part.lift > 0 for part in spec.route.parts)
-    if not climbs or any(isinstance(one, Hold) for one in loaded):
-        return followed
-    if spec.scenes is not None and not any(_may_run_back(spec, one) for one in loaded):
-        return followed
-    return (*followed, with_free_name(Hold(), followed))
-
-
-def _may_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:
-    """Whether a belt stands, or is to be moved, without the force that keeps it from running back."""
-    if not isinstance(scene, Start):
-        return isinstance(scene, Stopping)
-    rises = scene.profile.rise_time > 0 or any(drive.delay > 0 for drive in spec.all_drives.values())
-    return scene.aborted is not None or (rises and not scene.profile.imposes_speed)
 
 
 def _no_motor_there(given: Given) -> Iterator[Conflict]:

@@ -13,6 +13,7 @@ from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
+from ptmcalc.machines.chain_drive.rollback import asks_for_hold
 from ptmcalc.machines.chain_drive.solvers.start_waves import (
     beyond_slack,
     course_at,
@@ -22,7 +23,18 @@ from ptmcalc.machines.chain_drive.solvers.start_waves import (
     peaks_at,
     sections_of,
 )
-from ptmcalc.machines.chain_drive.spec import Backstop, ChainDrive, Coast, EmergencyStop, Hold, Stop, Stopping
+from ptmcalc.machines.chain_drive.spec import (
+    Backstop,
+    ChainDrive,
+    ChainScene,
+    Coast,
+    EmergencyStop,
+    Hold,
+    Run,
+    Start,
+    Stop,
+    Stopping,
+)
 from ptmcalc.machines.chain_drive.starting import speed_over_time
 from ptmcalc.machines.chain_drive.stopping import (
     StopCase,
@@ -219,7 +231,7 @@ def notes(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
 
 
-def hold(spec: ChainDrive, scene: Hold, carried: frozenset[str], level: int) -> Result:
+def hold(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int) -> Result:
     """Torque on the sprocket shaft with which a stopped, loaded conveyor wants to run back.
 
         M = (q_G H g - W_friction) R,   not below 0
@@ -229,7 +241,9 @@ def hold(spec: ChainDrive, scene: Hold, carried: frozenset[str], level: int) -> 
     **Error** exact but for the coefficient.
     **Source** lecture notes Kramatorsk 2007.
     """
-    line = chain_line(spec, scene, stop_factor(spec))
+    if not asks_for_hold(spec, scene):
+        return Result({}, work=1)
+    line = chain_line(spec, Hold(load=scene.load), stop_factor(spec))
     friction = line.back.resistance + line.working.resistance + stop_factor(spec) * line.tail_force
     force = line.back.weight + line.working.weight - friction
     torque = float(stopping.backstop_torque(force, 2 * mean_arm(spec), 1.0))
@@ -270,11 +284,11 @@ STOP_NOTES: Solver[ChainDrive, Stopping] = Solver(
     source=_NOTES,
     decides=False,
 )
-HELD: Solver[ChainDrive, Hold] = Solver(
+HELD: Solver[ChainDrive, ChainScene] = Solver(
     name="chain_hold",
     title="rollback torque of the stopped chain",
     fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Hold}),
+    scenes=_SCENES | {Hold, Start, Run},
     represents=frozenset(),
     gives=frozenset({"backstop_torque"}),
     run=hold,

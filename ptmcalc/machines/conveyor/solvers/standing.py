@@ -15,7 +15,18 @@ from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.spec import Backstop, Coast, Conveyor, ConveyorScene, EmergencyStop, Hold, Stop
+from ptmcalc.machines.conveyor.rollback import asks_for_hold
+from ptmcalc.machines.conveyor.spec import (
+    Backstop,
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    EmergencyStop,
+    Hold,
+    Run,
+    Start,
+    Stop,
+)
 from ptmcalc.spec.scene import Scene
 
 
@@ -106,7 +117,7 @@ def _special(spec: Conveyor, scene: ConveyorScene) -> float:
     return carry + extra.along("return", loaded=False)
 
 
-def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Result:
+def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Torque on the head's drum shaft with which the stopped belt wants to run back.
 
         M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
@@ -118,8 +129,11 @@ def hold(spec: Conveyor, scene: Hold, carried: frozenset[str], level: int) -> Re
     **Error** exact but for the coefficient.
     **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
     """
-    worst = scene.model_copy(update={"load": "uphill"}) if scene.load == "full" else scene
-    force = max(-_rest(spec, one) for one in (scene, worst))
+    if not asks_for_hold(spec, scene):
+        return Result({}, work=1)
+    force = max(
+        -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
+    )
     torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
     found = _exactly({"backstop_torque": torque})
     if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
@@ -199,7 +213,14 @@ IDENTIFY = _formula(
     {"resistance_coefficient_identified"},
     _NOTES,
 )
-HOLDING = _formula("holding", "rollback torque of the stopped belt", hold, {Hold}, {"backstop_torque"}, _NOTES)
+HOLDING = _formula(
+    "holding",
+    "rollback torque of the stopped belt",
+    hold,
+    {Hold, Stop, EmergencyStop, Coast, Start, Run},
+    {"backstop_torque"},
+    _NOTES,
+)
 RIGID_STOP = _formula(
     "rigid_stop",
     "textbook stop, rigid conveyor",

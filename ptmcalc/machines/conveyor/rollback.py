@@ -1,0 +1,24 @@
+"""Scenes in which a loaded belt that climbs can run back."""
+
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
+
+
+def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
+    """Whether a scene is the one in which the rollback torque is checked.
+
+    Each `backstop` scene is. Without one it is, of a belt that climbs, the first loaded scene that ends at rest or
+    begins with less than the full torque; of a file without scenes, the loaded run.
+    """
+    loaded = [one for one in spec.all_scenes if one.load in ("full", "uphill")]
+    if isinstance(scene, Hold) or any(isinstance(one, Hold) for one in loaded):
+        return isinstance(scene, Hold)
+    if not any(part.lift > 0 for part in spec.route.parts):
+        return False
+    return scene == next((one for one in loaded if _can_run_back(spec, one)), None)
+
+
+def _can_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:
+    if isinstance(scene, Start):
+        rises = scene.profile.rise_time > 0 or any(drive.delay > 0 for drive in spec.all_drives.values())
+        return scene.aborted is not None or (rises and not scene.profile.imposes_speed)
+    return isinstance(scene, Stopping) or (spec.scenes is None and isinstance(scene, Run))
