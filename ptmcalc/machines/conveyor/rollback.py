@@ -1,5 +1,6 @@
 """Scenes in which a loaded belt that climbs can run back."""
 
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
 
 
@@ -22,3 +23,14 @@ def _can_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:
         rises = scene.profile.rise_time > 0 or any(drive.delay > 0 for drive in spec.all_drives.values())
         return scene.aborted is not None or (rises and not scene.profile.imposes_speed)
     return isinstance(scene, Stopping) or (spec.scenes is None and isinstance(scene, Run))
+
+
+def elsewhere(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Whether the rollback torque is checked in other scenes only: 1, else 0.
+
+    **Range** any scene.
+    **Error** exact.
+    **Source** `asks_for_hold`.
+    """
+    meaning = "0 in the scene in which the rollback torque is checked, else 1"
+    return Criterion("rollback", float(not asks_for_hold(spec, scene)), 1.0, meaning, "the scenes of the file")

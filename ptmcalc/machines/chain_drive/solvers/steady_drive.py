@@ -2,6 +2,7 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.chain_drive.model import chain_line, filled, mean_arm
@@ -29,14 +30,24 @@ def run(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int
     **Source** derived: equilibrium on the torque curve (`components.steady_drive`).
     """
     motors = motors_of(spec)
-    if motors is None:
-        return Result({}, work=1)
+    assert motors is not None, "a curve is asked for by `has_curve`"
     resistance = chain_line(spec, Run(load=scene.load)).static_resistance
     loads = {"steady_reserve": steady_reserve([motors], resistance, spec.speed)}
     if motors.curve.rated is not None:
         (torque,) = motor_torques([motors], resistance, spec.speed)
         loads["motor_utilisation"] = abs(torque) / motors.curve.rated
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+
+
+def has_curve(spec: ChainDrive, scene: ChainScene) -> Criterion:
+    """Whether the motor has a curve: 0 where it has, else 1.
+
+    **Range** any machine.
+    **Error** exact.
+    **Source** the file.
+    """
+    lacks = motors_of(spec) is None
+    return Criterion("curve", float(lacks), 1.0, "0 where the file gives the motor a curve, else 1", "the file")
 
 
 STEADY_DRIVE: Solver[ChainDrive, ChainScene] = Solver(
@@ -48,5 +59,6 @@ STEADY_DRIVE: Solver[ChainDrive, ChainScene] = Solver(
     gives=frozenset({"steady_reserve", "motor_utilisation"}),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-3,
+    valid=has_curve,
     source="equilibrium on the torque curve",
 )

@@ -13,7 +13,7 @@ from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
-from ptmcalc.machines.chain_drive.rollback import asks_for_hold
+from ptmcalc.machines.chain_drive.rollback import elsewhere
 from ptmcalc.machines.chain_drive.solvers.start_waves import (
     beyond_slack,
     course_at,
@@ -241,8 +241,6 @@ def hold(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: in
     **Error** exact but for the coefficient.
     **Source** lecture notes Kramatorsk 2007.
     """
-    if not asks_for_hold(spec, scene):
-        return Result({}, work=1)
     line = chain_line(spec, Hold(load=scene.load), stop_factor(spec))
     friction = line.back.resistance + line.working.resistance + stop_factor(spec) * line.tail_force
     force = line.back.weight + line.working.weight - friction
@@ -291,6 +289,7 @@ HELD: Solver[ChainDrive, ChainScene] = Solver(
     scenes=_SCENES | {Hold, Start, Run},
     represents=frozenset(),
     gives=frozenset({"backstop_torque"}),
+    valid=elsewhere,
     run=hold,
     cost=lambda spec, scene, carried, level: 5e-5,
     source=_NOTES,

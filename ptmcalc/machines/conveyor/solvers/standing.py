@@ -6,8 +6,9 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.run_back import runs_back
 from ptmcalc.components.run_out import too_long_a_way
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
-from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
+from ptmcalc.contract.solver import AnySolver, Fidelity, Solver, always_valid
 from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.driving import moving_mass, running
@@ -15,7 +16,7 @@ from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.rollback import asks_for_hold
+from ptmcalc.machines.conveyor.rollback import elsewhere
 from ptmcalc.machines.conveyor.spec import (
     Backstop,
     Coast,
@@ -129,8 +130,6 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
     **Error** exact but for the coefficient.
     **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
     """
-    if not asks_for_hold(spec, scene):
-        return Result({}, work=1)
     force = max(
         -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
     )
@@ -171,6 +170,7 @@ def _formula(
     source: str,
     *,
     decides: bool = True,
+    valid: Callable[[Conveyor, ConveyorScene], Criterion | None] = always_valid,
 ) -> AnySolver:
     """A closed form of the rigid conveyor, which represents no effect."""
     return Solver(
@@ -184,6 +184,7 @@ def _formula(
         cost=lambda spec, scene, carried, level: 2e-4,
         source=source,
         decides=decides,
+        valid=valid,
     )
 
 
@@ -220,6 +221,7 @@ HOLDING = _formula(
     {Hold, Stop, EmergencyStop, Coast, Start, Run},
     {"backstop_torque"},
     _NOTES,
+    valid=elsewhere,
 )
 RIGID_STOP = _formula(
     "rigid_stop",

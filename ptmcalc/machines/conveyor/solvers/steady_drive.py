@@ -2,6 +2,7 @@
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
+from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.conveyor.driving import running
@@ -37,8 +38,6 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Source** derived: equilibrium on the torque curves (`components.steady_drive`).
     """
     motors = motors_of(spec)
-    if not motors:
-        return Result({}, work=1)
     line = running(spec, Run(load=scene.load))
     resistance = line.static_resistance + line.tail_pull
     loads = {"steady_reserve": steady_reserve(list(motors.values()), resistance, spec.speed)}
@@ -47,6 +46,17 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
         if one.curve.rated is not None:
             loads[of("motor_utilisation", name)] = abs(torque) / one.curve.rated
     return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+
+
+def has_curve(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Whether each motor has a curve: 0 where it has, else 1.
+
+    **Range** any machine.
+    **Error** exact.
+    **Source** the file.
+    """
+    lacks = not motors_of(spec)
+    return Criterion("curve", float(lacks), 1.0, "0 where the file gives each motor a curve, else 1", "the file")
 
 
 STEADY_DRIVE: Solver[Conveyor, ConveyorScene] = Solver(
@@ -58,5 +68,6 @@ STEADY_DRIVE: Solver[Conveyor, ConveyorScene] = Solver(
     gives=frozenset({"steady_reserve", "motor_utilisation"}),
     run=run,
     cost=lambda spec, scene, carried, level: 5e-3,
+    valid=has_curve,
     source="equilibrium on the torque curves",
 )
