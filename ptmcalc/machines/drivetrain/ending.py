@@ -9,11 +9,10 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
-from ptmcalc.machines.drivetrain import bars, motion
-from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
+from ptmcalc.machines.drivetrain import announced, bars, motion
+from ptmcalc.machines.drivetrain.announced import Ahead
+from ptmcalc.machines.drivetrain.model import Case, case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
-from ptmcalc.numerics.train.parts import Governed
-from ptmcalc.numerics.train.signals import Signal
 
 _PROGRESS = 1e-3
 """Least share of what is missing that a start or a stop that ends gains while its time doubles: an induction motor
@@ -43,6 +42,8 @@ _OF_THE_END = frozenset({"start_time", "start_share", "stop_time", "stop_angle",
 """Loads that are about the end of a start or stop, whenever it is."""
 DOUBLINGS = 2
 """Times that a window is doubled in which a torque has its peak in the second half."""
+_EXTENSIONS = 3
+"""Times that a window is extended to what the file announces for later."""
 _SECONDS = 5.0
 """Predicted seconds of a run up to which a window is doubled."""
 _CREEP, _MORE = 0.01, 4.0
@@ -64,9 +65,17 @@ def steady_runs(
     A start or stop whose torque peaks lie in the second half of the window, or whose extreme speeds do and grow on as
     those of the rigid train, is computed over twice the time until none grows; a `duration` of the file stays as it is.
     """
-    runs = bars.played(case, end, tolerance)
     if scene.duration is not None or isinstance(scene, Run):
-        return runs, {}, ""
+        return bars.played(case, end, tolerance), {}, ""
+    runs, later = _with_what_comes(case, end, tolerance)
+    if later is not None:
+        unknown = {
+            name: _outward(name, math.inf)
+            for name in motion.readings(spec, runs[0])
+            if name not in ("start_time", "start_share")
+        }
+        return runs, unknown, f"{later.what} acts after the computed window"
+    end = runs[0].record.time
     ahead = _speeds_ahead(spec, scene, runs[0])
     rising = {name for name, (more, size) in ahead.items() if not more < _CREEP * size}
     grown: dict[str, float] = dict.fromkeys(rising, math.inf)
@@ -96,6 +105,21 @@ def steady_runs(
     beyond |= {of("torque_peak", name): Interval(0.0, math.inf) for name in restless if name in spec.links}
     named = [*(name for name in restless if name in spec.links), *sorted(grown)]
     return runs, beyond, f"`{named[0]}` is not steady" if named else ""
+
+
+def _with_what_comes(case: Case, end: float, tolerance: float) -> tuple[tuple[motion.Course, ...], Ahead | None]:
+    """Runs over a window with all in it that the file announces; what comes later where that would take long."""
+    coming = announced.over_time(case)
+    runs: tuple[motion.Course, ...] = ()
+    for _ in range(_EXTENSIONS):
+        if runs and coming.until <= end:
+            return runs, None
+        if coming.until > end and motion.seconds(case, coming.until) > _SECONDS:
+            break
+        end = max(end, coming.until)
+        runs = bars.played(case, end, tolerance)
+        coming = announced.over_motion(case, runs[0])
+    return runs or bars.played(case, end, tolerance), coming
 
 
 def _outward(name: str, more: float) -> Interval:
@@ -159,7 +183,9 @@ def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, toleranc
         return None
     ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end)
     if ahead.stuck is not None:
-        return Ending((_failure(spec, case, ahead.stuck),))
+        left = motion.share(*motion.speeds(course, case.main))
+        kept = {"stop_speed_share": Found(Estimate(left, 0.0, math.inf, model=math.inf))} if case.stopping else {}
+        return Ending((_failure(spec, case, ahead.stuck),), kept)
     if math.isfinite(ahead.over) and scene.duration is None:
         followed = _followed(spec, scene, case, max(2 * end, _LONGER * ahead.over), tolerance)
         if followed is not None:
@@ -229,22 +255,13 @@ def _gains(wanted: float, speed: float, later: float) -> bool:
 
 
 def _last_change(case: Case) -> float:
-    """Time after which no torque depends on the time any more; infinite under a sine or what waits for a trigger."""
-    train = case.train
-    signals = [drive.gate for drive in train.drives]
-    signals += [grip.capacity for grip in train.grips]
-    signals += [guide.acceleration for guide in train.guides]
-    laws = [stage.law for drive in train.drives if drive.name != REACHED for stage in drive.stages]
-    signals += [law for law in laws if isinstance(law, Signal)]
-    signals += [law.reference for law in laws if isinstance(law, Governed)]
-    last = max([impulse.time for impulse in train.impulses], default=0.0)
-    for drive in train.drives:
-        last = max([last, *(stage.until_time for stage in drive.stages if stage.until_time is not None)])
-    for signal in signals:
-        if signal.sines or (signal.slopes and signal.slopes[-1] != 0):
-            return math.inf
-        last = max(last, signal.times[-1], signal.decay_start + _FADED * signal.decay_time if signal.decay else 0.0)
-    return last
+    """Time after which no torque depends on the time any more; infinite under a sine."""
+    signals = announced.signals_of(case)
+    if any(signal.sines or (signal.slopes and signal.slopes[-1] != 0) for signal in signals):
+        return math.inf
+    stages = [stage for drive in case.train.drives for stage in drive.stages]
+    times = [stage.until_time for stage in stages if stage.until_time is not None]
+    return max([0.0, *times, *(impulse.time for impulse in case.train.impulses), *map(announced.last_of, signals)])
 
 
 def _failure(spec: Drivetrain, case: Case, speed: float) -> Failure:
