@@ -1,5 +1,6 @@
 """The motor of a machine: what a file says of it, and its torque over speed and time."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
@@ -480,6 +481,23 @@ def overhauled_torque(curve: AnyMotor) -> float:
     if last.extends:
         return np.inf
     return max(0.0, -min(torque for speed, torque in last.pieces if speed >= 0 or torque >= 0))
+
+
+def speed_of_most_braking(curve: AnyMotor) -> float | None:
+    """Lowest speed above the no-load speed at which a motor brakes most, once its start is over [rad/s].
+
+    Infinite where the torque grows without end (`linear`); None for a motor without a no-load speed, or one that never
+    brakes.
+    """
+    free = curve.no_load_speed
+    if free is None or overhauled_torque(curve) <= 0:
+        return None
+    if isinstance(curve, InductionBase):
+        return (1 + curve.breakdown_slip) * free
+    last = curve.stages[-1]
+    if last.extends and not isinstance(curve, ConverterMotor):
+        return math.inf
+    return min((speed for speed, _ in last.pieces or () if speed > free), key=lambda speed: float(last.torque(speed)))
 
 
 def number_at(path: KeyPath, curve: AnyMotor | None) -> KeyPath:

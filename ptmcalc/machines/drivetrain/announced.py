@@ -78,9 +78,7 @@ def over_motion(case: Case, course: motion.Course) -> Ahead:
             if isinstance(stage.law, Straight) and stage.law.on == "position":
                 way = _way_left(case, course, drive.body, stage.law)
                 found.append(_after(course, end, case, drive.body, None, way, f"`{drive.name}`"))
-    for spring in case.train.springs:
-        if spring.play > 0:
-            found.append(_contact(case, course, end, spring))
+    found += [_contact(case, course, end, spring) for spring in case.train.springs if spring.play > 0]
     return max(found, key=lambda one: one.until)
 
 

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Gear, Link
+from ptmcalc.machines.drivetrain.model import at_rest, rated_speed
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Gear, Link, Stop
 
 _WORN = 0.15
 """Wear at which gears are renewed at the earliest, relative to the tooth (lecture notes Kramatorsk: 15 to 25 %)."""
@@ -15,7 +16,8 @@ _RIGID_RESTITUTION = 0.5
 
 
 def assumed(spec: Drivetrain) -> Iterator[Assumption[Drivetrain]]:
-    """What is assumed of each part: losses of a gear driven back, wear of a clearance, rebound of a rigid contact."""
+    """What is assumed of each part: losses of a gear driven back, wear of a clearance, rebound of a rigid
+    contact, speed at which a stop begins."""
     for name, gear in spec.gears.items():
         if gear.efficiency < 1:
             yield _driven_back(name, gear)
@@ -24,6 +26,23 @@ def assumed(spec: Drivetrain) -> Iterator[Assumption[Drivetrain]]:
             yield _wear(name, link.clearance.module)
         if link.law == "rigid":
             yield _rebound(name, link)
+    if not at_rest(spec):
+        return
+    for index, scene in enumerate(spec.scenes or ()):
+        motor = next((one.motor for one in spec.motors.values() if one.at == spec.main(scene)), None)
+        rated = motor and rated_speed(motor)
+        if isinstance(scene, Stop) and motor is not None and rated:
+            yield _stop_speed(index, rated, motor.no_load_speed or rated, spec.turns(spec.main(scene)))
+
+
+def _stop_speed(index: int, rated: float, highest: float, turns: bool) -> Assumption[Drivetrain]:
+    return Assumption(
+        ("scenes", index, "speed"),
+        units.ANGULAR_SPEED if turns else units.SPEED,
+        lambda spec: rated,
+        lambda spec: Interval(min(rated, highest), max(rated, highest)),
+        "a stop begins at the motor's rated speed, without load at its no-load speed",
+    )
 
 
 def _driven_back(name: str, gear: Gear) -> Assumption[Drivetrain]:

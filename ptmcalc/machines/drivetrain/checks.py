@@ -1,13 +1,16 @@
-"""The checks of a drive train: DRV101 to DRV110."""
+"""The checks of a drive train: DRV101 to DRV112."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import number_at, speed_of_most_braking
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, no_repair
-from ptmcalc.machines.drivetrain.model import case_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
+from ptmcalc.contract.result import of
+from ptmcalc.machines.drivetrain.model import at_rest, case_of
+from ptmcalc.machines.drivetrain.spec import Drivetrain, MotorOn, Run, SineTorque, Start, Stop, TrainScene
 from ptmcalc.spec.scene import Scene
 
 WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
@@ -128,6 +131,13 @@ def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
     return Estimate.exact(spec.checks.stop_time or math.inf)
 
 
+def _start_of_stop(spec: Drivetrain, scene: Stop) -> tuple[KeyPath, ...]:
+    """The speed at which a stop begins, where neither the file nor a motor gives it."""
+    if scene.speed is not None or not at_rest(spec):
+        return ()
+    return (("scenes", list(spec.all_scenes).index(scene), "speed"),)
+
+
 def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
     if spec.brakes:
         return ("brakes", next(iter(spec.brakes)), "torque")
@@ -148,7 +158,7 @@ STOP: Check[Drivetrain, Stop] = Check(
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=stop_limit,
-    needs=lambda spec, scene: (("checks", "stop_time"),),
+    needs=lambda spec, scene: (*_start_of_stop(spec, scene), ("checks", "stop_time")),
     blame=_stop_blame,
     repair=_brake_torque,
     what="The inertia considered in the scene stops within the maximum stop time and stays at standstill.",
@@ -209,7 +219,7 @@ RESTS: Check[Drivetrain, Stop] = Check(
     loads=("stop_speed_share",),
     sense=Sense.AT_MOST,
     limit=_nothing,
-    needs=no_needs,
+    needs=_start_of_stop,
     blame=_stop_blame,
     repair=_brake_torque,
     what="The inertia considered in the scene stops, without a time limit, and stays at standstill.",
@@ -243,7 +253,7 @@ WAY: Check[Drivetrain, Stop] = Check(
     loads=("stop_angle",),
     sense=Sense.AT_MOST,
     limit=way_limit,
-    needs=no_needs,
+    needs=_start_of_stop,
     blame=_stop_blame,
     repair=_brake_torque,
     each=_way_checks,
@@ -251,6 +261,45 @@ WAY: Check[Drivetrain, Stop] = Check(
     why="A longer stopping distance leads to contact with an end stop, a person or the next machine.",
     formula="|phi(rest) - phi(command)| <= limit",
     source="a choice of the designer",
+)
+
+
+def slip_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """No slip at all.
+
+    **Range** a clutch at the end of a start or stop.
+    **Error** none.
+    **Source** a clutch that slips turns all of its power into heat.
+    """
+    return Estimate.exact(0.0)
+
+
+def _clutch_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    acting = {grip.name for grip in case_of(spec, scene).train.grips if grip.second is not None}
+    for name in spec.brakes:
+        if name in acting:
+            path = ("brakes", name, "torque")
+            yield CLUTCH.of(name, slip_limit, path, repair=path)
+
+
+CLUTCH: AnyCheck = Check(
+    code="DRV112",
+    title="clutch slip after the start or stop",
+    question="Does each clutch lock?",
+    failure="clutch slips after the start or stop",
+    scenes=frozenset({Start, Stop}),
+    loads=("clutch_slip",),
+    sense=Sense.AT_MOST,
+    limit=slip_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("brakes",),
+    repair=no_repair,
+    each=_clutch_checks,
+    what="Each clutch that acts is locked when the start has become steady, or when the inertia considered has"
+    " stopped.",
+    why="A clutch that slips for good burns within minutes. After a stop, the part behind it goes on turning.",
+    formula="|w_1 - w_2| = 0 at the end",
+    source="static balance of the clutch torque and the torque behind it",
 )
 
 
@@ -336,6 +385,62 @@ OVERLOAD: AnyCheck = Check(
 )
 
 
+_OVERSHOOT = 1.2
+"""Overspeed that electric motors bear, over their no-load speed (IEC 60034-1, 9.7: tested at 1.2)."""
+
+
+def _overspeed_limit(one: MotorOn) -> float | None:
+    """Speed above which a load runs away with a motor [rad/s]; None where it never does, or a motor has no speed of
+    its own. What overshoots less comes back."""
+    free, speed = one.motor.no_load_speed, speed_of_most_braking(one.motor)
+    if free is None or (speed is not None and math.isinf(speed)):
+        return None
+    return max(speed or 0.0, _OVERSHOOT * free)
+
+
+def overspeed_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """The larger of 1.2 times the no-load speed and the speed at which a motor brakes most: of an induction motor that
+    of its breakdown torque as a generator.
+
+    **Range** motors with a no-load speed, whose torque does not grow with the speed without end.
+    **Error** that of the curve.
+    **Source** `components.motor.speed_of_most_braking`; IEC 60034-1, 9.7: motors are tested at 1.2 times their speed.
+    """
+    return Estimate.exact(math.inf)
+
+
+def _overspeed_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, one in spec.motors.items():
+        most = _overspeed_limit(one)
+        if most is not None and spec.turns(one.at):
+            path: KeyPath = ("motors", name, "motor")
+            key = number_at((*path, "curve"), one.motor)
+            repair = (*path, key[-1]) if key else ()
+            check = OVERSPEED.of(name, _exactly(most), path, repair=repair)
+            yield replace(check, loads=(of("speed_max", one.at),))
+
+
+OVERSPEED: AnyCheck = Check(
+    code="DRV111",
+    title="motor overspeed under an overhauling load",
+    question="Does the motor hold the load that drives it?",
+    failure="load drives the motor beyond its maximum braking torque: it runs away",
+    scenes=DRIVEN,
+    loads=("speed_max",),
+    sense=Sense.AT_MOST,
+    limit=overspeed_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("motors",),
+    repair=no_repair,
+    each=_overspeed_checks,
+    what="The speed of each motor stays below the speed at which it brakes most, or below 1.2 times its no-load speed"
+    " where that is higher.",
+    why="Beyond this speed the braking torque decreases. The load accelerates the drive train until a part bursts.",
+    formula="max w <= w_0 max(1 + s_k, 1.2)   for an induction motor",
+    source="formula of Kloss with negative slip; curve of the file",
+)
+
+
 # -- vibration and wear ---------------------------------------------------------------------------------------------
 
 
@@ -415,4 +520,4 @@ WEAR: AnyCheck = Check(
     source="lecture notes Kramatorsk 2007",
 )
 
-CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR, REACHES, RESTS)
+CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR, REACHES, RESTS, OVERSPEED, CLUTCH)

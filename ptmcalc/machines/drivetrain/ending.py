@@ -9,7 +9,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
-from ptmcalc.machines.drivetrain import announced, bars, motion
+from ptmcalc.machines.drivetrain import announced, bars, left_behind, motion
 from ptmcalc.machines.drivetrain.announced import Ahead
 from ptmcalc.machines.drivetrain.model import Case, case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
@@ -79,6 +79,11 @@ def steady_runs(
     ahead = _speeds_ahead(spec, scene, runs[0])
     rising = {name for name, (more, size) in ahead.items() if not more < _CREEP * size}
     grown: dict[str, float] = dict.fromkeys(rising, math.inf)
+    if rising and not doublings:  # torques that grow with a speed that grows
+        peaks = motion.readings(spec, runs[0]).items()
+        grown |= {
+            name: math.inf for name, (_, at) in peaks if family(name) in _PEAKS and at is not None and at > end / 2
+        }
     for _ in range(doublings):
         before = motion.readings(spec, runs[0])
         late = [
@@ -168,6 +173,11 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
             name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW or name in kept
         }
         result = replace(result, loads=defined)
+    for left in (
+        left_behind.of_motors(spec, scene, course.record.time, _goes_on),
+        left_behind.of_clutches(spec, scene, course),
+    ):
+        result = replace(result, loads={**result.loads, **left.loads}, failures=(*result.failures, *left.failures))
     found = _ending(spec, scene, course, tolerance)
     if found is None:
         return result
@@ -226,6 +236,12 @@ def _ahead(case: Case, end: float) -> _Ahead:
             return _Ahead(stuck=speed)
         end, before = 2 * end, speed
     return _Ahead()
+
+
+def _goes_on(case: Case, end: float) -> tuple[float, float | None]:
+    """When a rigid train is over with its start, and the speed that it keeps instead."""
+    ahead = _ahead(case, end / 2)
+    return ahead.over, ahead.stuck
 
 
 def _followed(spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float) -> Ending | None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.wiring import GROUND
 
 TORQUE_PEAK = LoadInfo("torque_peak", "peak link torque or force", units.TORQUE, governing=True)
 TORQUE_STEADY = LoadInfo("torque_steady", "final link torque, rigid-train model", units.TORQUE)
@@ -21,6 +22,7 @@ START_SHARE = LoadInfo("start_share", "share of the target speed reached", units
 STOP_SHARE = LoadInfo("stop_speed_share", "speed left, relative to the initial speed", units.SHARE, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "starting time, efficiency per term", units.TIME)
 STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stopping time, efficiency per term", units.TIME)
+CLUTCH_SLIP = LoadInfo("clutch_slip", "clutch slip at the end / maximum speed", units.SHARE, headline=False)
 MOTOR_PEAK = LoadInfo("motor_torque_peak", "motor torque, maximum", units.TORQUE, governing=True)
 MOTOR_RMS = LoadInfo("motor_torque_rms", "motor torque, rms", units.TORQUE, governing=True)
 FREQUENCY = LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY)
@@ -39,6 +41,7 @@ LOADS = (
     STOP_BY_TERMS,
     STOP_SHARE,
     STOP_ANGLE,
+    CLUTCH_SLIP,
     MOTOR_PEAK,
     MOTOR_RMS,
     SPEED_MAX,
@@ -71,6 +74,10 @@ def parts(spec: Drivetrain) -> Iterator[LoadInfo]:
         elif info in (MOTOR_PEAK, MOTOR_RMS):
             for name in spec.motors:
                 yield info.of(name)
+        elif info is CLUTCH_SLIP:
+            for name, brake in spec.brakes.items():
+                if brake.against != GROUND:
+                    yield info.of(name)
         elif info is WEAR:
             for name, link in spec.links.items():
                 if link.clearance is not None:

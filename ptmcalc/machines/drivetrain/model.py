@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base.memory import remembered
-from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor import AnyMotor, ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.laws import backlash
 from ptmcalc.machines.drivetrain.spec import (
@@ -128,6 +128,12 @@ def rigid(case: Case) -> Case:
         meshes.append(Mesh(spring.name, spring.first, spring.second, 1.0))
         joined = _joined(replace(train, meshes=tuple(meshes)))
     return replace(case, train=_with_common_speeds(replace(train, meshes=tuple(meshes), springs=tuple(springs))))
+
+
+def same_shaft(case: Case, one: str, other: str) -> bool:
+    """Whether two inertias turn together but for the elasticity and play of links."""
+    joined = _joined(rigid(case).train)
+    return joined(case.index(one)) == joined(case.index(other))
 
 
 def _joined(train: Train) -> Callable[[int], int]:
@@ -311,7 +317,7 @@ class _Builder:
             return None
         if self.scene.until is not None:
             return self.scene.until
-        speeds = [_rated_speed(one) for one in self.spec.motors.values() if self.at(one.at) == self.main]
+        speeds = [rated_speed(one.motor) for one in self.spec.motors.values() if self.at(one.at) == self.main]
         known = [speed for speed in speeds if speed]
         return 0.95 * min(known, key=abs) if known else None
 
@@ -323,9 +329,15 @@ class _Builder:
             yield Guide(name, self.at(one.at), Signal(times, (*slopes, 0.0), (0.0,) * len(times)))
 
 
-def _rated_speed(one: MotorOn) -> float | None:
-    speed = getattr(one.motor, "speed", None)
-    return float(speed) if speed is not None else one.motor.no_load_speed
+def at_rest(spec: Drivetrain) -> bool:
+    """Whether the file gives no part a speed at the start."""
+    return not spec.motions and all(body.speed is None for body in spec.inertias.values())
+
+
+def rated_speed(motor: AnyMotor) -> float | None:
+    """Rated speed of a motor, or that without load [rad/s or m/s]."""
+    speed = getattr(motor, "speed", None)
+    return float(speed) if speed is not None else motor.no_load_speed
 
 
 def _stages(one: MotorOn) -> Iterator[Stage]:

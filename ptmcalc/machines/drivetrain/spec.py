@@ -520,6 +520,9 @@ class Stop(TrainScene, TransientScene):
     """A stop: motors off, brakes applied."""
 
     type: Literal["stop"] = "stop"
+    speed: Annotated[AnySpeed | None, Assumed()] = None
+    """speed of that inertia at the start; the others turn with it. When left out, and no part of the file moves at the
+    start, the motor's rated speed is assumed"""
 
 
 AnyScene = Annotated[Run | Start | Stop, Field(discriminator="type")]
