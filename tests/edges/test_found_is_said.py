@@ -74,7 +74,7 @@ CASES: dict[str, tuple[Data, tuple[str, ...]]] = {
     "conveyor: the belt goes slack": (
         _template("conveyor", {"type": "run"}, takeup__tension="0.5 kN"), ("CNV105",)),
     "conveyor: the belt runs back": (
-        _template("conveyor", {"type": "backstop"}, resistance__rest_factor=0.3), ("CNV109",)),
+        _template("conveyor", {"type": "backstop"}, resistance__rest_factor=0.3, backstop=None), ("CNV109",)),
     "conveyor: the belt slips on its braked pulley and runs away": (
         _template("conveyor", {"type": "stop"}, route__lift="-40 m", drive__drum__friction=0.1,
                   brakes={"disc": {"at": "head", "torque": "40 kN*m", "shaft": "drum", "delay": "0.3 s"}}),

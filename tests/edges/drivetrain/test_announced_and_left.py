@@ -53,7 +53,7 @@ def test_a_torque_long_after_the_start_never_passes(late: str) -> None:
 
 
 def test_a_rope_with_much_slack_is_followed_until_it_is_taut() -> None:
-    """Drum and load integrated here: the motor drives through the gear, the load sticks until its friction gives way."""
+    """Drum and load integrated here: the motor drives through the gear, the load sticks until friction gives way."""
     found = report_on("drivetrain/long-slack")
 
     def rate(_: float, y: list[float]) -> list[float]:

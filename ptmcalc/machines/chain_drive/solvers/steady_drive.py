@@ -51,7 +51,7 @@ def has_curve(spec: ChainDrive, scene: ChainScene) -> Criterion:
 
 
 STEADY_DRIVE: Solver[ChainDrive, ChainScene] = Solver(
-    name="steady_drive",
+    name="chain_steady_drive",
     title="steady running on the motor curve",
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start}),
