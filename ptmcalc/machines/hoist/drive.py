@@ -120,9 +120,10 @@ def field_speed(motor: DutyMotor) -> float | None:
 def start_heat(spec: Hoist, motor: DutyMotor, field: float, mass: float, hook_height: float | None) -> float:
     """In the rotor of one motor in a start upwards, everything rigid; infinite where it does not lift [J]."""
     gear, efficiency = gearbox_of(spec), model.efficiency(spec)
-    share = torque_up(spec, mass, hook_height) / starting_torque(motor)
-    if share >= 1:
+    mean, up = starting_torque(motor), torque_up(spec, mass, hook_height)
+    if mean <= 0 or up >= mean:
         return math.inf
+    share = up / mean
     load = inertia.inertia_on_motor_shaft(model.load_inertia(spec, mass), gear.ratio, efficiency, inertia.DRIVE)
     moved = model.motor_side_inertia(spec) + load
     return duty.switching_heat(moved, field, 1.0, 0.0, load_share=share) / motor.count

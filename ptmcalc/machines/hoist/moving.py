@@ -21,6 +21,7 @@ from ptmcalc.machines.hoist import drive, model
 from ptmcalc.machines.hoist.reduced import (
     braked_way,
     hauling_efficiency,
+    hook_force,
     lowering_efficiency,
     motor_torque,
     moving_inertia,
@@ -238,11 +239,11 @@ class _Builder:
     @property
     def _most_force(self) -> float:
         """Largest force of the drive at the hook [N]: of its mean torque, or of its curve below the free speed."""
-        force, motor = reduced(self.spec, self.scene).drive_force, self.spec.motor
+        motor = self.spec.motor
         if self._follows_speed or motor is None or motor.curve is None:
-            return force
+            return reduced(self.spec, self.scene).drive_force
         torques = motor.curve.torque(np.linspace(0.0, motor.curve.no_load_speed or 1.0, _LOOKED_AT), np.inf)
-        return force * float(np.max(torques)) / motor.mean_torque
+        return hook_force(self.spec, self.scene, motor.count * float(np.max(torques)))
 
     # -- what moves ---------------------------------------------------------------------------------------------
 
@@ -468,8 +469,9 @@ class _Builder:
         one = reduced(self.spec, self.scene)
         speed, slack = self._start_speed / self.ratio * self.arm, self._slack
         rising = self._profile.rise_time
-        if slack:
-            pull = one.drive_force / one.drive_mass
+        force = one.drive_force or self._most_force  # a curve that brakes in the mean may take up the slack
+        if slack and force > 0:
+            pull = force / one.drive_mass
             quick = math.sqrt(2 * slack / pull)
             full = one.speed / pull
             rising += quick if quick < full else full + (slack - pull * full**2 / 2) / one.speed

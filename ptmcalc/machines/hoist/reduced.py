@@ -48,8 +48,13 @@ def ratio(spec: Hoist) -> float:
 
 
 def motor_torque(spec: Hoist) -> float:
-    """Mean starting torque of all motors [N*m]."""
-    return spec.motor.count * spec.motor.mean_torque if spec.motor is not None else 0.0
+    """Mean starting torque of all motors, 0 where their curve brakes in the mean up to the rated speed [N*m]."""
+    return spec.motor.count * max(spec.motor.mean_torque, 0.0) if spec.motor is not None else 0.0
+
+
+def hook_force(spec: Hoist, scene: HoistScene, torque: float) -> float:
+    """Force at the hook of a torque of all motors while they haul [N]."""
+    return torque * ratio(spec) * model.efficiency(spec) * hauling_efficiency(spec) / travel(spec, scene)
 
 
 def hook_speed(spec: Hoist, scene: HoistScene) -> float:
@@ -74,7 +79,7 @@ def reduced(spec: Hoist, scene: HoistScene) -> Reduced:
         rotor + drum,
         mass,
         model.hook_stiffness(spec, model.hook_height(scene)),
-        motor_torque(spec) * ratio(spec) * gear * tackle / arm,
+        hook_force(spec, scene, motor_torque(spec)),
         mass * spec.gravity,
         hook_speed(spec, scene),
     )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base import units
+from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
 from ptmcalc.machines.hoist import motion, rope_case
@@ -69,6 +70,10 @@ def play(spec: Hoist, scene: Moving, rope: Rod | Hauled, window: float, finer: f
     haul = rope_case.haul(spec, scene)
     march = March(haul, rope, finer)
     played = march.play(window, _LEAST_PANELS + _MOST_TIMES * _panels(march, window))
+    if not played.panels:
+        raise NumericsError(
+            "NUM102", f"the motion of drive and rope ends where it begins; its window is {window:.3g} s"
+        )
     left, scale = energy(march, played)
     return Course(haul, rope, travel(spec, scene), played, left / scale)
 
