@@ -11,7 +11,7 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.result import Finding
+from ptmcalc.contract.result import Failure, Finding
 from ptmcalc.laws import buffer
 from ptmcalc.spec.fields import (
     Measure,
@@ -52,7 +52,7 @@ class Buffer(Fragment):
     """of one `progressive` buffer at the end of its stroke"""
     power: Annotated[
         Annotated[float, Measure(units.RATIO, above=0, at_most=10)],
-        Assumed(2.0, 1.5, 3.0, "cellular plastic: 2 to 3; rubber about 1.5"),
+        Assumed(2.0, 1.5, 3.0, "cellular plastic: 2 to 3; rubber about 1.5", only_with=("type", "progressive")),
     ] = 2.0
     """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
     orifice: Annotated[PositiveLineMass | None, OneOf("stiffness, force, end_force")] = None
@@ -112,6 +112,20 @@ class Stopped:
             return ()
         why = f"the buffers bottom out with {units.show(self.left, units.SPEED)} left: the force has no upper end"
         return (Finding("NUM110", why, (*path, "stroke"), "give them more stroke, or a larger force"),)
+
+    def failures(self, check: str, given: Buffer, path: KeyPath, error: float = 0.0) -> tuple[Failure, ...]:
+        """A check of the force that fails because the energy of the impact exceeds what the buffers take.
+
+        Args:
+            check: its code.
+            given: the buffers, with a rating to compare a force with.
+            path: their place in the file.
+            error: of the speed that is left [m/s].
+        """
+        if given.rating is None or self.left <= error:
+            return ()
+        reason = f"the buffers bottom out with {units.show(self.left, units.SPEED)} left, and the end stop is hit"
+        return (Failure(check, reason, (*path, "stroke"), "give them more stroke, or a larger force"),)
 
     def at_least(self, value: float) -> Estimate:
         """A force, or what comes of one: exact, or without an end above where the stop behind the buffers is hit."""

@@ -29,6 +29,8 @@ class Assumed:
     low: float = 0.0
     high: float = 0.0
     source: str = ""
+    only_with: tuple[str, str] | None = None
+    """field of the block and its word with which alone the value is used; used with any when left out"""
 
     @property
     def derived(self) -> bool:
@@ -93,8 +95,9 @@ def constants_of(node: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Assum
         for name, field in type(node).model_fields.items():
             key = field.alias or name
             if name in constants:
-                if name not in node.model_fields_set:
-                    yield ((*path, key), *constants[name])
+                declared, measure = constants[name]
+                if name not in node.model_fields_set and _used(node, declared):
+                    yield (*path, key), declared, measure
             elif isinstance(one := getattr(node, name), _NODES):
                 yield from constants_of(one, (*path, key))
     elif isinstance(node, dict):
@@ -103,6 +106,11 @@ def constants_of(node: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Assum
     elif isinstance(node, tuple | list):
         for index, one in enumerate(node):
             yield from constants_of(one, (*path, index))
+
+
+def _used(node: BaseModel, declared: Assumed) -> bool:
+    """Whether a block uses a value that is assumed."""
+    return declared.only_with is None or getattr(node, declared.only_with[0]) == declared.only_with[1]
 
 
 _NODES = (BaseModel, dict, tuple, list)

@@ -110,9 +110,14 @@ def test_what_governs_is_blamed_and_its_repair_passes(
 
 
 def test_a_buffer_that_bottoms_out_does_not_pass_for_its_force() -> None:
-    """What the stop behind it adds is not known."""
+    """The energy of the impact is more than the buffers take: the end stop is hit, with no upper end of the force."""
     short = _data(OVERHEAD, BUFFER, {"bridge_travel__buffers__stroke": "100 mm"})
     assert _judged(short, "CRN281").verdict is Verdict.FAIL
-    assert _judged(short, "CRN282").verdict is Verdict.UNDECIDED
+    hit = _judged(short, "CRN282", repairs=True)
+    assert hit.verdict is Verdict.FAIL
+    assert hit.blame.path == ("bridge_travel", "buffers", "stroke")
+    assert hit.repair is not None
+    longer = changed(short, bridge_travel__buffers__stroke=f"{hit.repair.value!r} m")
+    assert _judged(longer, "CRN282").verdict is Verdict.PASS
     enough = _data(OVERHEAD, BUFFER, {})
     assert _judged(enough, "CRN282").verdict is Verdict.PASS

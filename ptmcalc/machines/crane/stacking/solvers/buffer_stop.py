@@ -43,7 +43,12 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
         note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)
     key = MECHANISMS[model.mechanism(spec, scene)]
-    return Result(found, work=1, findings=hit.findings((key, "buffers")))
+    return Result(
+        found,
+        work=1,
+        findings=hit.findings((key, "buffers")),
+        failures=hit.failures("CRN282", given, (key, "buffers")),
+    )
 
 
 BUFFER_STOP: Solver[Stacker, BufferScene] = Solver(

@@ -53,7 +53,8 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
         "phi7": Found(Estimate.exact(buffer.buffer_factor(straight.energy_share, spec.classes.buffer_edition))),
     }
     if not math.isfinite(straight.stroke):
-        return Result(found | _never(straight, given.count, (straight.force - push) / mass), work=1)
+        never = _never(straight, given.count, (straight.force - push) / mass)
+        return Result(found | never, work=1, failures=straight.failures("CRN171", given, ("buffers",)))
     reach = min(straight.stroke, _FAR * given.stroke)
     runs = [yawing.pressed(spec, one, reach) for one in yawing.places(spec, scene, struck / mass, closing)]
     steady = given.type == "constant"
@@ -62,7 +63,7 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
     stroke = _worst([(one.stroke, share) for one, share in runs])
     hardest = max((one for one, _ in runs), key=lambda one: one.stroke)
     where = f"on rail {hardest.rail}, hook {hardest.hook:.3g} m from rail A"
-    left = max(one.left for one, _ in runs)
+    left, unsure = max(one.left for one, _ in runs), _LEFT * max(share for _, share in runs) * closing
     if left:
         force, decelerates = (replace(one, high=math.inf, model=math.inf) for one in (force, decelerates))
         if not all(one.ended for one, _ in runs):
@@ -70,11 +71,16 @@ def run(spec: Travelling, scene: Collision, carried: frozenset[str], level: int)
     found |= {
         "buffer_force": Found(force, note=where),
         "buffer_stroke": Found(stroke, note=_bottoms(left) or where),
-        "buffer_speed_left": Found(Estimate.within(left, _LEFT * max(share for _, share in runs) * closing)),
+        "buffer_speed_left": Found(Estimate.within(left, unsure)),
         "buffer_deceleration": Found(decelerates),
     }
     hit = replace(straight, left=left)
-    return Result(found, work=len(runs), findings=hit.findings(("buffers",)))
+    return Result(
+        found,
+        work=len(runs),
+        findings=hit.findings(("buffers",)),
+        failures=hit.failures("CRN171", given, ("buffers",), unsure),
+    )
 
 
 def _worst(several: list[tuple[float, float]]) -> Estimate:
