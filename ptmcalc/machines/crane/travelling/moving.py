@@ -145,9 +145,19 @@ def _least_force(spec: Travelling, force: float) -> float:
 
 
 def stalls(motion: Motion) -> bool:
-    """Whether a torque does not get it going, or does not stop it."""
+    """Whether a torque does not get it going, or does not stop it.
+
+    A motor's curve that falls below the resistance stalls too. A simulation shows how far it comes; of a load that is
+    hoisted as long as the start lasts no rope would be left for one.
+    """
     if motion.ramp is not None:
         return False
+    resistance = motion.rolling + motion.outside
     if motion.starts:
-        return motion.force <= motion.rolling + motion.outside
-    return motion.force + motion.rolling + motion.outside <= 0
+        return motion.force <= resistance or (motion.least_force <= resistance and _out_of_rope(motion))
+    return motion.force + resistance <= 0
+
+
+def _out_of_rope(motion: Motion) -> bool:
+    """Whether a load that is hoisted as long as the start by the mean torque lasts has no rope left."""
+    return motion.asked_time is None and motion.hoisting * motion.rigid_time >= motion.length
