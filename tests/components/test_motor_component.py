@@ -19,8 +19,10 @@ from ptmcalc.components.motor import (
     RheostatMotor,
     Stage,
     TableMotor,
+    braking_number_at,
     number_at,
     overhauled_torque,
+    overhauling_reserve,
 )
 from ptmcalc.spec.machine import replaced
 from ptmcalc.spec.shape import example_of, keys_of, measure_of
@@ -384,3 +386,28 @@ def test_a_table_has_no_such_number_and_other_keys_stand_for_themselves() -> Non
     assert number_at(("motor", "curve"), read(TABLE)) == ()
     assert number_at(("motor", "curve"), None) == ()
     assert number_at(("motor", "mean_starting_torque"), read(TABLE)) == ("motor", "mean_starting_torque")
+
+
+@pytest.mark.parametrize("data", [INDUCTION, RHEOSTAT, BY_TIME], ids=["induction", "rheostat", "by time"])
+def test_a_power_that_is_given_twice_is_not_the_number_of_a_curve(data: dict[str, Any]) -> None:
+    """It would have to change in two places; the breakdown torque grows with the overload too."""
+    motor, path = read(data), ("motor", "curve")
+    assert number_at(path, motor, rated=True) == ()
+    assert braking_number_at(path, motor) == (*path, "power")
+    assert braking_number_at(path, motor, rated=True) == (*path, "overload")
+    assert overhauled_torque(read(data, overload=2 * motor.overload)) == pytest.approx(
+        2 * overhauled_torque(motor), rel=1e-9
+    )
+
+
+def test_the_other_numbers_of_a_curve_stand_alone() -> None:
+    for data, key in ((LINEAR, "starting_torque"), (CONVERTER, "torque_limit")):
+        assert braking_number_at(("curve",), read(data), rated=True) == ("curve", key)
+    assert braking_number_at(("curve",), read(TABLE), rated=True) == ()
+
+
+def test_the_reserve_of_braking_is_that_of_all_motors_over_the_load() -> None:
+    points = [{"speed": "0 rpm", "torque": "50 N*m"}, {"speed": "100 rpm", "torque": "-20 N*m"}]
+    motor = READER.validate_python({"type": "table", "points": points})
+    assert overhauling_reserve(motor, 3, 30.0) == pytest.approx(2.0, rel=1e-12)
+    assert overhauling_reserve(motor, 3, 0.0) == overhauling_reserve(motor, 3, -1.0) == math.inf

@@ -4,7 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
+from ptmcalc.components.motor import braking_number_at, number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import drive
@@ -29,7 +29,13 @@ def _torque_key(spec: Hoist, scene: Run) -> KeyPath:
 
 
 def _torque_repair(spec: Hoist, scene: Run) -> KeyPath:
-    return number_at(_torque_key(spec, scene), spec.motor.curve if spec.motor else None)
+    return curve_number(spec, _torque_key(spec, scene))
+
+
+def curve_number(spec: Hoist, path: KeyPath) -> KeyPath:
+    """The number that a key of the motor stands for: of its curve, the one that all its torques grow with."""
+    motor = spec.motor
+    return () if motor is None else number_at(path, motor.curve, rated=motor.power is not None)
 
 
 def _gearbox(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
@@ -266,4 +272,48 @@ START_HEAT: OneCheck = only(_heat_wanted)(
     )
 )
 
-CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT)
+
+def _overhauling_limit(spec: Hoist, scene: Run) -> Estimate:
+    """Braking torque of the motors at least that of the load they lower.
+
+    **Range** motors of which the file gives a curve.
+    **Error** none: a balance.
+    **Source** balance of torques on the motor shaft.
+    """
+    return Estimate.exact(1.0)
+
+
+def _lowered(spec: Hoist, scene: HoistScene) -> bool:
+    """Whether a motor with a curve lowers a load."""
+    lowers = isinstance(scene, Run) or (isinstance(scene, Start) and scene.direction == "down")
+    return lowers and spec.motor is not None and spec.motor.curve is not None
+
+
+def _braking_repair(spec: Hoist, scene: Run) -> KeyPath:
+    motor = spec.motor
+    return () if motor is None else braking_number_at(("motor", "curve"), motor.curve, rated=motor.power is not None)
+
+
+OVERHAULED: OneCheck = only(_lowered)(
+    Check(
+        code="HST127",
+        title="motor braking torque reserve",
+        question="Does the motor hold the overhauling load at its speed?",
+        failure="load drives the motor beyond its curve",
+        scenes=frozenset({Run, Start}),
+        loads=("overhauling_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_overhauling_limit,
+        needs=_gearbox,
+        blame=lambda spec, scene, loads: ("motor", "curve"),
+        repair=_braking_repair,
+        what="The maximum braking torque of the motor curve above its no-load speed is at least the torque of the"
+        " lowered load on the motor shaft. The losses reduce this load torque.",
+        why="A load that exceeds the braking torque accelerates the motor without limit. The drum and the rotor"
+        " overspeed, and the brake may not stop the load.",
+        formula="M_b/(M_d eta_r/u) >= 1",
+        source="balance of torques on the motor shaft; power balance of the gearbox",
+    )
+)
+
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (WEAK, EXCESS, HEATING, STARTS, BRAKE, START_HEAT, OVERHAULED)

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair
 from ptmcalc.machines.hoist import drive, model
+from ptmcalc.machines.hoist.checks_drive import curve_number
 from ptmcalc.machines.hoist.moving import Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
@@ -90,7 +90,7 @@ def _stall_repair(spec: Hoist, scene: Lift) -> KeyPath:
     if spec.motor is None:
         return ()
     if scene.profile.shape == "curve":
-        return number_at(("motor", "curve"), spec.motor.curve)
+        return curve_number(spec, ("motor", "curve"))
     return ("motor", "mean_starting_torque") if spec.motor.mean_starting_torque is not None else ()
 
 

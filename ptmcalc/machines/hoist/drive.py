@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.components.duty_motor import DutyMotor
+from ptmcalc.components.motor import overhauling_reserve
 from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive_data import Gearbox
@@ -66,6 +67,20 @@ def starting_reserve(spec: Hoist, motor: DutyMotor, mass: float, hook_height: fl
     speeds = np.linspace(0.0, _UP_TO * motor_speed(spec), _SPEEDS)
     least = motor.count * float(motor.curve.torque(speeds).min()) / up
     return least if least < 1 else mean
+
+
+def braking_reserve(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None) -> float | None:
+    """Largest braking torque of the motors over that of the lowered load; None where the file gives no curve.
+
+        reserve = n M_b/(M_d eta_r/u)
+
+    **Range** steady lowering; infinite where the gear locks itself.
+    **Error** exact for the curve.
+    **Source** balance of torques on the motor shaft (`components.motor.overhauling_reserve`).
+    """
+    if motor.curve is None:
+        return None
+    return overhauling_reserve(motor.curve, motor.count, torque_down(spec, mass, hook_height))
 
 
 def start_time(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None, up: bool) -> float:

@@ -47,6 +47,7 @@ OF_THE_DRIVE = (
     LoadInfo("torque_motor_static_down", "motor torque, steady lowering", units.TORQUE),
     LoadInfo("power_hoisting", "motor power, steady hoisting", units.POWER, governing=True),
     LoadInfo("starting_reserve", "starting torque reserve", units.RATIO, governing=True),
+    LoadInfo("overhauling_reserve", "motor braking torque reserve", units.RATIO),
     LoadInfo("start_time", "hoisting start time, rigid model", units.TIME),
     LoadInfo("torque_motor_rms", "motor torque, rms", units.TORQUE, governing=True),
     LoadInfo("heating_utilisation", "thermal utilisation (rms torque)", units.SHARE, governing=True),

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
+from ptmcalc.components.motor import braking_number_at, number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
-from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing import drive, model
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
@@ -44,7 +44,12 @@ def torque_key(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 
 
 def _torque_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
-    return number_at(torque_key(spec, scene), spec.motor.curve)
+    return curve_number(spec, torque_key(spec, scene))
+
+
+def curve_number(spec: SlewingCrane, path: KeyPath) -> KeyPath:
+    """The number that a key stands for: of the motors' curve, the one that all its torques grow with."""
+    return number_at(path, spec.motor.curve, rated=spec.motor.power is not None)
 
 
 def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
@@ -518,6 +523,50 @@ WIND_MOTOR: OneCheck = only(_blown)(
         source="balance of torques about the slewing axis",
     )
 )
+
+
+def _overhauling_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
+    """Braking torque of the motors at least that with which wind and slope drive them.
+
+    **Range** motors of which the file gives a curve.
+    **Error** none: a balance.
+    **Source** balance of torques about the slewing axis.
+    """
+    return Estimate.exact(1.0)
+
+
+def _driven(spec: SlewingCrane, scene: SlewingScene) -> bool:
+    """Whether wind or slope, stronger than the friction, drive motors with a curve."""
+    reserve = drive.braking_reserve(spec, scene)
+    return reserve is not None and math.isfinite(reserve)
+
+
+def _braking_repair(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
+    return braking_number_at(("motor", "curve"), spec.motor.curve, rated=spec.motor.power is not None)
+
+
+OVERHAULED: OneCheck = only(_driven)(
+    Check(
+        code="CRN120",
+        title="motor braking torque reserve",
+        question="Does the motor hold the crane at its speed in the maximum in-service wind?",
+        failure="wind or slope drive the motor beyond its curve",
+        scenes=SLEWING,
+        loads=("overhauling_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_overhauling_limit,
+        needs=no_needs,
+        blame=blames("motor", "curve"),
+        repair=_braking_repair,
+        what="The maximum braking torque of the motor curve above its no-load speed is at least the overhauling torque"
+        " of maximum in-service wind and slope on the motor shaft. Friction and gear losses reduce the overhauling"
+        " torque.",
+        why="A crane that exceeds the braking torque of its motor accelerates without limit. The rotor overspeeds, and"
+        " the stopping angle grows with the square of the speed.",
+        formula="n M_b/((M_w,max - M_fr) eta_r/u) >= 1",
+        source="balance of torques about the slewing axis",
+    )
+)
 WIND_BRAKE: OneCheck = only(_blown)(
     Check(
         code="CRN113",
@@ -553,6 +602,7 @@ CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (
     OVERLOAD,
     GEARBOX,
     WIND_MOTOR,
+    OVERHAULED,
     WIND_BRAKE,
     LOCKS,
     PINION,

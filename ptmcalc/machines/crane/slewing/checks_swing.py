@@ -4,10 +4,9 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_repair, only
 from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, torque_key, turns
+from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, curve_number, torque_key, turns
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
@@ -78,7 +77,7 @@ TANGENTIAL: OneCheck = only(_swings)(
         limit=_allowed_sway,
         needs=needs(*_ROPE),
         blame=lambda spec, scene, loads: _thrown_by(spec, scene),
-        repair=lambda spec, scene: number_at(_thrown_by(spec, scene), spec.motor.curve),
+        repair=lambda spec, scene: curve_number(spec, _thrown_by(spec, scene)),
         what="In start, rotation and stop, the angle of the rope behind or ahead of the jib is at most the limit.",
         why="The rope then pulls the jib sideways. The load cannot be set down.",
         formula="theta_t <= 10 deg",

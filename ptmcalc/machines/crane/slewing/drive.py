@@ -2,6 +2,7 @@
 
 import math
 
+from ptmcalc.components.motor import overhauling_reserve
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.slewing import model
 from ptmcalc.machines.crane.slewing.chain import Phases, Torques, worth
@@ -29,6 +30,23 @@ def required_brake(spec: SlewingCrane, scene: SlewingScene) -> float:
     return max(of_crane * loss / spec.gear.ratio + own, 0.0)
 
 
+def braking_reserve(spec: SlewingCrane, scene: SlewingScene) -> float | None:
+    """Largest braking torque of the motors over that with which wind and slope drive them; None where the file gives
+    no curve [1].
+
+        reserve = n M_b/((M_w,max - M_fr) eta_r/u)
+
+    **Range** steady slewing; infinite where friction is larger than wind and slope, or the gear locks itself.
+    **Error** exact for the curve.
+    **Source** balance of torques (`components.motor.overhauling_reserve`).
+    """
+    gear, motor = spec.gear, spec.motor
+    if motor.curve is None:
+        return None
+    driving = (model.driving_wind(spec, scene) - spec.friction) * gear.back / gear.ratio
+    return overhauling_reserve(motor.curve, motor.count, driving if gear.back > 0 else 0.0)
+
+
 def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques) -> dict[str, float]:
     """Reserves, heat and whatever the drive is asked."""
     gear, motor = spec.gear, spec.motor
@@ -47,6 +65,9 @@ def of_drive(spec: SlewingCrane, scene: SlewingScene, times: Phases, at: Torques
     }
     if least is not None:
         loads["speed_reserve"] = ratio_to(model.at_column(spec, least), at.steady)
+    braking = braking_reserve(spec, scene)
+    if braking is not None:
+        loads["overhauling_reserve"] = braking
     if spec.brake is not None:
         held = held_by_brake(spec) + spec.friction
         loads["wind_reserve_brake"] = ratio_to(held, model.driving_wind(spec, scene))

@@ -30,6 +30,7 @@ OF_THE_DRIVE = (
     LoadInfo("starting_reserve", "starting torque reserve", units.RATIO),
     LoadInfo("speed_reserve", "torque reserve up to full speed", units.RATIO),
     LoadInfo("wind_reserve_motor", "motor reserve against wind", units.RATIO),
+    LoadInfo("overhauling_reserve", "motor braking torque reserve", units.RATIO),
     LoadInfo("wind_reserve_brake", "brake reserve against wind", units.RATIO),
     LoadInfo("torque_motor_rms", "motor torque, rms, per motor", units.TORQUE),
     LoadInfo("heating_utilisation", "thermal utilisation (rms torque)", units.SHARE),

@@ -44,7 +44,13 @@ def torque_key(spec: Travelling) -> KeyPath:
 
 def torque_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
     """The torque of the motors, where it is one number."""
-    return number_at(torque_key(spec), spec.drive.motor.curve)
+    return curve_number(spec, torque_key(spec))
+
+
+def curve_number(spec: Travelling, path: KeyPath) -> KeyPath:
+    """The number that a key stands for: of the motors' curve, the one that all its torques grow with."""
+    motor = spec.drive.motor
+    return number_at(path, motor.curve, rated=motor.power is not None)
 
 
 def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
@@ -57,7 +63,7 @@ def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
 
 
 def _rate_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
-    return number_at(rate_key(spec, _moving(scene)), spec.drive.motor.curve)
+    return curve_number(spec, rate_key(spec, _moving(scene)))
 
 
 def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:

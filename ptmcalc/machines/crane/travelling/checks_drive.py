@@ -4,9 +4,12 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import braking_number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.machines.crane.travelling import drive
 from ptmcalc.machines.crane.travelling.checks import (
     RUNNING,
+    STARTS,
     Loads,
     OneCheck,
     torque_key,
@@ -88,6 +91,51 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
 )
 
 
+def _overhauling_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Braking torque of the motors at least that with which wind and slope drive them.
+
+    **Range** motors of which the file gives a curve.
+    **Error** none: a balance.
+    **Source** balance of torques on the motor shaft.
+    """
+    return Estimate.exact(1.0)
+
+
+def _driven(spec: Travelling, scene: TravelScene) -> bool:
+    """Whether wind or slope, stronger than the resistance of the wheels, drive motors with a curve."""
+    reserve = drive.braking_reserve(spec, scene)
+    return reserve is not None and math.isfinite(reserve)
+
+
+def _braking_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
+    motor = spec.drive.motor
+    return braking_number_at(("drive", "motor", "curve"), motor.curve, rated=motor.power is not None)
+
+
+OVERHAULED: OneCheck = only(_driven)(
+    Check(
+        code="CRN165",
+        title="motor braking torque reserve",
+        question="Do the motors hold the overhauling crane at its speed?",
+        failure="wind or slope drive the motors beyond their curve",
+        scenes=RUNNING | STARTS,
+        loads=("overhauling_reserve",),
+        sense=Sense.AT_LEAST,
+        limit=_overhauling_limit,
+        needs=no_needs,
+        blame=blames("drive", "motor", "curve"),
+        repair=_braking_repair,
+        what="The maximum braking torque of the motor curves above the no-load speed is at least the overhauling torque"
+        " of wind and slope on the motor shaft. Wheel resistance and gear losses reduce the overhauling torque. Steady"
+        " travel takes the maximum in-service wind from behind and the slope down.",
+        why="A crane that exceeds the braking torque of its motors accelerates without limit. The rotors overspeed, and"
+        " the stopping distance grows with the square of the speed.",
+        formula="n M_b/((q c A + G sin(alpha) - w G) r eta_r/u) >= 1",
+        source="balance of forces; power balance of the gear",
+    )
+)
+
+
 def _on_duty(spec: Travelling, scene: TravelScene) -> bool:
     return _loaded(spec, scene) and spec.duty is not None
 
@@ -147,7 +195,7 @@ def _counts_starts(spec: Travelling, scene: TravelScene) -> bool:
     return _on_duty(spec, scene) and spec.duty is not None and spec.duty.starts_per_hour is not None
 
 
-STARTS: OneCheck = only(_counts_starts)(
+STARTS_PER_HOUR: OneCheck = only(_counts_starts)(
     Check(
         code="CRN163",
         title="travel motor starts per hour",
@@ -203,4 +251,4 @@ CLASS: OneCheck = only(_classed)(
     )
 )
 
-CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (STALL, AGAINST_WIND, HEAT, STARTS, CLASS)
+CHECKS_OF_DRIVE: tuple[AnyCheck, ...] = (STALL, AGAINST_WIND, OVERHAULED, HEAT, STARTS_PER_HOUR, CLASS)

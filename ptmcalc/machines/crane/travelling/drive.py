@@ -2,10 +2,11 @@
 
 import math
 
+from ptmcalc.components.motor import overhauling_reserve
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.travelling import model, resisting
 from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Run, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
 
 COUNTING = ("S4", "S5")
@@ -26,6 +27,28 @@ def wind_reserve(spec: Travelling, scene: TravelScene) -> float:
     """Force of the motors at the rims over the resistance in the largest wind in service [1]."""
     resistance = resisting.even(spec, scene, model.largest_pressure(spec))
     return model.driving_force(spec, model.least_torque(spec)) / resistance if resistance > 0 else math.inf
+
+
+def braking_reserve(spec: Travelling, scene: TravelScene) -> float | None:
+    """Largest braking torque of the motors over that with which wind and slope drive them in even travel; None where
+    the file gives no curve [1].
+
+        reserve = n M_b/((F_w + G sin(alpha) - W) r eta_r/u)
+
+    Even travel takes the largest wind in service from behind and the slope down; a start those of its scene.
+
+    **Range** steady travel; infinite where the wheels resist more than wind and slope push.
+    **Error** exact for the curve.
+    **Source** balance of forces (`components.motor.overhauling_reserve`).
+    """
+    motor = spec.drive.motor
+    if motor.curve is None:
+        return None
+    if isinstance(scene, Start | HoistWhileTravelling):
+        resistance = resisting.rolling(spec, scene) + model.outside(spec, scene).total
+    else:
+        resistance = resisting.even(spec, scene, model.largest_pressure(spec), against=False)
+    return overhauling_reserve(motor.curve, motor.count, -model.even_motor_torque(spec, resistance))
 
 
 # -- duty -----------------------------------------------------------------------------------------------------------

@@ -25,6 +25,7 @@ OF_TRAVEL = (
     LoadInfo("power_travel", "steady travel power, all motors", units.POWER, governing=True),
     LoadInfo("starting_reserve", "starting torque reserve", units.RATIO, governing=True),
     LoadInfo("wind_reserve", "drive reserve against wind", units.RATIO, governing=True),
+    LoadInfo("overhauling_reserve", "motor braking torque reserve", units.RATIO),
     LoadInfo("torque_motor_rms", "motor torque, rms, all motors", units.TORQUE),
     LoadInfo("heating_utilisation", "thermal utilisation (rms torque)", units.SHARE, governing=True),
     LoadInfo("starts_per_hour", "starts per hour", units.RATIO, headline=False),

@@ -149,10 +149,12 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     if isinstance(scene, Start):
         time = drive.profiled(spec, spec.motor, scene, mass, time)
     note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
-    return {
+    found = {
         "starting_reserve": Found(Estimate.exact(reserve), note=note),
         "start_time": Found(Estimate.exact(time)),
     }
+    braking = drive.braking_reserve(spec, spec.motor, mass, height)
+    return found if braking is None else found | {"overhauling_reserve": Found(Estimate.exact(braking))}
 
 
 def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
@@ -272,6 +274,7 @@ def start(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -
     """What the motor has over the hanging load in a scene that begins with it.
 
         reserve = M_mean/(S R n/(u eta));   t = w (J_1 + J_2/(u^2 eta))/(M_mean - M_L/(u eta))
+        reserve of braking = M_b/(S R n eta_r/u)
 
     **Range** as `hoist_statics`.
     **Error** exact for that model.
@@ -286,7 +289,7 @@ STARTING: Solver[Hoist, HoistScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Start}),
     represents=frozenset(),
-    gives=frozenset({"starting_reserve", "start_time"}),
+    gives=frozenset({"starting_reserve", "start_time", "overhauling_reserve"}),
     run=start,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="power balance of the gearbox",

@@ -11,7 +11,7 @@ from ptmcalc.laws import classification, wheel_loads
 from ptmcalc.machines.crane.travelling import drive, factors, model, resisting, stability, wheels
 from ptmcalc.machines.crane.travelling.loads import EVEN, OF_THE_WHEELS, names
 from ptmcalc.machines.crane.travelling.model import CORNERS
-from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
+from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Run, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Duty, Travelling
 
 Numbers = dict[str, float]
@@ -28,7 +28,7 @@ def run(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: in
     IEC 60034-1 and ISO 4301-1 (`laws.duty`, `laws.classification`), EN 13001-2 and ISO 8686-1 for the factors.
     """
     loads = _of_travel(spec, scene) | _of_the_duty(spec) | factors.of_the_structure(spec)
-    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
+    found = {name: Found(Estimate.exact(value)) for name, value in loads.items()} | _braking(spec, scene)
     found |= _of_the_wheels(spec, scene)
     tips = stability.of_rest(spec, scene, model.largest_pressure(spec))
     return Result(found | {"stability_reserve": Found(Estimate.exact(tips))}, work=1)
@@ -46,6 +46,12 @@ def _of_travel(spec: Travelling, scene: TravelScene) -> Numbers:
         "starting_reserve": drive.starting_reserve(spec, scene),
         "wind_reserve": drive.wind_reserve(spec, scene),
     }
+
+
+def _braking(spec: Travelling, scene: TravelScene) -> dict[str, Found]:
+    """What the curve of the motors has over wind and slope that drive them."""
+    braking = drive.braking_reserve(spec, scene)
+    return {} if braking is None else {"overhauling_reserve": Found(Estimate.exact(braking))}
 
 
 def _of_the_wheels(spec: Travelling, scene: TravelScene) -> dict[str, Found]:
@@ -109,24 +115,27 @@ TRAVEL_STATICS: Solver[Travelling, TravelScene] = Solver(
 def reserve(spec: Travelling, scene: TravelScene, carried: frozenset[str], level: int) -> Result:
     """What the motors have over the resistance in a scene that begins with them.
 
-        reserve = min M(n)/(W r/(u eta))
+        reserve = min M(n)/(W r/(u eta));   of braking: n M_b/(-W r eta_r/u) where W < 0
 
     **Range** as `travel_statics`.
     **Error** exact for that model.
     **Source** power balance of the gear.
     """
+    braking = _braking(spec, scene)
+    if isinstance(scene, HoistWhileTravelling):
+        return Result(braking, work=1)
     value = drive.starting_reserve(spec, scene)
     note = "" if value > 1 or math.isinf(value) else "stall: the motors do not overcome friction, wind and slope"
-    return Result({"starting_reserve": Found(Estimate.exact(value), note=note)}, work=1)
+    return Result({"starting_reserve": Found(Estimate.exact(value), note=note)} | braking, work=1)
 
 
 STARTING: Solver[Travelling, TravelScene] = Solver(
     name="travel_starting_reserve",
     title="starting torque reserve over the travel resistance",
     fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Start}),
+    scenes=frozenset({Start, HoistWhileTravelling}),
     represents=frozenset(),
-    gives=frozenset({"starting_reserve"}),
+    gives=frozenset({"starting_reserve", "overhauling_reserve"}),
     run=reserve,
     cost=lambda spec, scene, carried, level: 1e-4,
     source="power balance of the gear",
