@@ -6,7 +6,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from ptmcalc.components.motor import AnyMotor
+from ptmcalc.components.motor import AnyMotor, ratings_that_differ
 from ptmcalc.laws import motor
 from ptmcalc.spec.fields import (
     Efficiency,
@@ -44,7 +44,8 @@ class Motor(Fragment):
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The starting torque is a mean one, or swings between a largest and a smallest."""
+        """The starting torque is a mean one, or swings between a largest and a smallest; a motor has one rating."""
+        yield from ratings_that_differ(given)
         rated, most = given.number("speed"), given.number("no_load_speed")
         if rated is not None and most is not None and most < rated:
             yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")

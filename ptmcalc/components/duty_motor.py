@@ -3,7 +3,9 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
+from ptmcalc.base.span import KeyPath
 from ptmcalc.components import drive
+from ptmcalc.components.motor import rated_torque_of, rating_key
 from ptmcalc.spec.fields import HourlyRate, Inertia, PositivePower, PositiveShare, PositiveTorque
 from ptmcalc.spec.fragment import Conflict, Given, at_most_one, together
 from ptmcalc.spec.optional import Assumed, Limit
@@ -36,7 +38,12 @@ class DutyMotor(drive.Motor):
 
     @property
     def rated(self) -> float | None:
-        """Rated torque of one motor [N*m]."""
+        """Rated torque of one motor [N*m], of its `curve` where the file does not give it besides."""
         if self.power is not None and self.speed is not None:
             return self.power / self.speed
-        return self.rated_torque
+        return rated_torque_of(self.rated_torque, self.curve)
+
+    @property
+    def rating_key(self) -> KeyPath:
+        """The key that states its rating."""
+        return rating_key(self.power, self.rated_torque, self.curve)

@@ -7,7 +7,8 @@ import numpy as np
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.components.motor import AnyMotor
+from ptmcalc.base.span import KeyPath
+from ptmcalc.components.motor import AnyMotor, rated_torque_of, rating_key, ratings_that_differ
 from ptmcalc.laws import gearing, motor
 from ptmcalc.spec.fields import (
     Efficiency,
@@ -71,13 +72,19 @@ class SlewMotor(Fragment):
         yield from at_most_one(given, "coupling_inertia", "coupling_factor")
         yield from at_most_one(given, "rated_torque", "power")
         yield from together(given, "power", "speed", "the rated torque is power over speed")
+        yield from ratings_that_differ(given)
 
     @property
     def rated(self) -> float | None:
-        """Rated torque of one motor [N*m]."""
+        """Rated torque of one motor [N*m], of its `curve` where the file does not give it besides."""
         if self.power is not None and self.speed is not None:
             return motor.rated_torque(self.power, self.speed)
-        return self.rated_torque
+        return rated_torque_of(self.rated_torque, self.curve)
+
+    @property
+    def rating_key(self) -> KeyPath:
+        """The key that states its rating."""
+        return rating_key(self.power, self.rated_torque, self.curve)
 
     @property
     def rotating_inertia(self) -> float:

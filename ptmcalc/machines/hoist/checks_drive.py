@@ -121,12 +121,12 @@ def _heating_limit(spec: Hoist, scene: Run) -> Estimate:
 
 
 def _heating_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
-    by_power = spec.motor is not None and spec.motor.power is not None
-    return (("gearbox",),) if by_power else (("gearbox",), ("motor", "rated_torque"))
+    known = spec.motor is not None and spec.motor.rated is not None
+    return (("gearbox",),) if known else (("gearbox",), ("motor", "rated_torque"))
 
 
 def _rating(spec: Hoist, scene: Run) -> KeyPath:
-    return ("motor", "power" if spec.motor is not None and spec.motor.power is not None else "rated_torque")
+    return ("motor", *(spec.motor.rating_key if spec.motor is not None else ("rated_torque",)))
 
 
 HEATING: OneCheck = only(_on_duty)(

@@ -84,7 +84,7 @@ def test_a_light_load_turns_like_a_rigid_one() -> None:
         {"type": "linear", "starting_torque": "25 N*m", "no_load_speed": "1500 rpm"},
         {"type": "induction", "power": "1.5 kW", "speed": "900 rpm", "synchronous_speed": "1000 rpm", "overload": 2.2},
         {
-            "type": "rheostat", "power": "1.5 kW", "speed": "930 rpm", "synchronous_speed": "1000 rpm",
+            "type": "rheostat", "power": "1.5 kW", "speed": "900 rpm", "synchronous_speed": "1000 rpm",
             "overload": 2.2, "steps": [5, 3, 1.8], "smallest_torque": "18 N*m",
         },
         {

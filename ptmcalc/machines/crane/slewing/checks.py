@@ -312,7 +312,7 @@ HARSH_STOP: OneCheck = only(turns)(
 
 
 def _rating(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
-    return ("motor", "power" if spec.motor.power is not None else "rated_torque")
+    return ("motor", *spec.motor.rating_key)
 
 
 def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:

@@ -151,11 +151,11 @@ def _heat_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 
 
 def _rating(spec: Travelling) -> KeyPath:
-    return ("drive", "motor", "power" if spec.drive.motor.power is not None else "rated_torque")
+    return ("drive", "motor", *spec.drive.motor.rating_key)
 
 
 def _heat_needs(spec: Travelling, scene: TravelScene) -> tuple[KeyPath, ...]:
-    return () if spec.drive.motor.power is not None else (("drive", "motor", "rated_torque"),)
+    return () if spec.drive.motor.rated is not None else (("drive", "motor", "rated_torque"),)
 
 
 HEAT: OneCheck = only(_on_duty)(
