@@ -65,7 +65,7 @@ def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
 STALL: OneCheck = Check(
     code="CRN101",
     title="slewing starting torque reserve",
-    question="Does the mean starting torque exceed friction, steady wind and slope with reserve?",
+    question="Does the starting torque exceed friction, steady wind and slope with reserve?",
     failure="starting torque reserve is too small",
     limit_state=LimitState("slewing drive stalls", 1),
     scenes=SLEWING,
@@ -76,7 +76,8 @@ STALL: OneCheck = Check(
     blame=lambda spec, scene, loads: torque_key(spec, scene),
     repair=_torque_repair,
     what="The starting torque at the slewing axis is at least the required multiple of the torque of friction, steady"
-    " wind and slope. For a motor curve, the minimum of the curve is used.",
+    " wind and slope. It is the minimum torque of the motor curve up to full speed, or the mean starting torque where"
+    " no curve is given.",
     why="A motor torque below the resistance does not turn the crane. The motor stalls and overheats.",
     formula="M_m u eta/(M_fr + M_w) >= 1.1",
     source="balance of torques about the slewing axis; handbooks of lifting machines",
@@ -506,7 +507,7 @@ WIND_MOTOR: OneCheck = only(_blown)(
     Check(
         code="CRN112",
         title="slewing motor reserve against wind",
-        question="Can the motor turn the crane against the maximum in-service wind?",
+        question="Can the starting torque turn the crane against the maximum in-service wind?",
         failure="motor reserve against in-service wind is too small",
         limit_state=LimitState("slewing motor cannot turn against the in-service wind", 1),
         scenes=SLEWING,
@@ -517,7 +518,8 @@ WIND_MOTOR: OneCheck = only(_blown)(
         blame=lambda spec, scene, loads: _wind_key(spec),
         repair=_torque_repair,
         what="The starting torque is at least the required multiple of the torque of friction and maximum in-service"
-        " wind.",
+        " wind. It is the minimum torque of the motor curve up to full speed, or the mean starting torque where no"
+        " curve is given.",
         why="A crane that the wind turns while its motor is on is out of the operator's control.",
         formula="M_m u eta/(M_fr + M_w,max) >= 1",
         source="balance of torques about the slewing axis",

@@ -259,7 +259,7 @@ class SlewingChecks(CheckSettings):
     """Limits of the checks of a slewing crane."""
 
     starting_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least mean starting torque over the torque of steady slewing"""
+    """least starting torque over the torque of steady slewing"""
     start_time: Annotated[PositiveTime, Limit()] = 10.0
     """longest start"""
     least_start_time: Annotated[PositiveTime, Limit()] = 1.0

@@ -40,7 +40,7 @@ def _reserve_limit(spec: Travelling, scene: TravelScene) -> Estimate:
 STALL: OneCheck = Check(
     code="CRN160",
     title="travel starting torque reserve",
-    question="Does the mean starting torque exceed the steady travel torque with reserve?",
+    question="Does the starting torque exceed the steady travel torque with reserve?",
     failure="starting torque reserve is too small",
     limit_state=LimitState("travel motors stall", 1),
     scenes=frozenset({Run, Start}),
@@ -50,8 +50,9 @@ STALL: OneCheck = Check(
     needs=no_needs,
     blame=_torque,
     repair=torque_repair,
-    what="The minimum motor torque up to full speed is at least the required multiple of the steady travel torque. The"
-    " steady torque acts against friction, slope and the wind in which the crane works.",
+    what="The starting torque is at least the required multiple of the steady travel torque against friction, slope and"
+    " the wind in which the crane works. It is the minimum torque of the motor curve up to full speed, or the mean"
+    " starting torque where no curve is given. The smallest torque of a rheostat start counts where the file gives it.",
     why="A motor torque below the resistance does not move the crane. The motor stalls and overheats.",
     formula="min M(n)/(W r/(u eta)) >= 1.1",
     source="power balance of the gear; handbooks of lifting machines",
@@ -72,7 +73,7 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
     Check(
         code="CRN161",
         title="travel drive reserve against wind",
-        question="Can the motors drive the crane against the maximum in-service wind?",
+        question="Can the starting torque drive the crane against the maximum in-service wind?",
         failure="drive reserve against in-service wind is too small",
         limit_state=LimitState("travel motors cannot drive against the in-service wind", 1),
         scenes=RUNNING,
@@ -83,7 +84,8 @@ AGAINST_WIND: OneCheck = only(lambda spec, scene: spec.wind is not None)(
         blame=_torque,
         repair=torque_repair,
         what="The motor force at the driven wheels is at least the resistance up the slope against the maximum"
-        " in-service wind.",
+        " in-service wind. It is that of the minimum torque of the motor curve up to full speed, or of the mean"
+        " starting torque where no curve is given.",
         why="A crane that the wind holds or drives does not reach its parking position.",
         formula="M u eta/r >= w G + G sin(alpha) + q_max c A",
         source="balance of forces; winds of EN 13001-2 and ISO 4302",
