@@ -35,6 +35,7 @@ MOST_EVALUATIONS = {
     "chain_drive/roller_drive.yaml": 10_000,
     "chain_drive/inclined_scraper.yaml": 100_000,
     "hoist.yaml": 30_000,
+    "hoist/crane_hoist_converter.yaml": 20_000,
     "hoist/crane_hoist_m5.yaml": 40_000,
     "hoist/winding_paper/height_25_rope_17_5.yaml": 10,
     "hoist/winding_paper/height_30_rope_17_5.yaml": 10,
