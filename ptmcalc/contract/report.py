@@ -11,7 +11,7 @@ from ptmcalc.contract.check import AnyCheck, Sense
 from ptmcalc.contract.effect import Criterion, EffectState
 from ptmcalc.contract.figure import FigureReport
 from ptmcalc.contract.result import Event, History, LoadInfo
-from ptmcalc.spec.scene import Scene
+from ptmcalc.spec.scene import Scene, type_of
 
 _INVISIBLE = 1e-6
 """A smaller relative change is rounding."""
@@ -201,18 +201,18 @@ class AssumedReport:
     quantity: Quantity
     interval: Interval
     source: str
-    scenes: frozenset[type[Scene]] = frozenset()
+    scenes: frozenset[str] = frozenset()
     """types of the scenes that read it; empty for all"""
     loads: frozenset[str] = frozenset()
     """loads that depend on it; empty for all"""
 
     def read_in(self, scene: Scene) -> bool:
         """Whether a scene reads the value."""
-        return not self.scenes or type(scene) in self.scenes
+        return not self.scenes or scene.type in self.scenes
 
     def read_by(self, check: AnyCheck) -> bool:
         """Whether a check can depend on the value."""
-        scenes = not self.scenes or bool(self.scenes & check.scenes)
+        scenes = not self.scenes or not self.scenes.isdisjoint(map(type_of, check.scenes))
         return scenes and (not self.loads or not self.loads.isdisjoint(check.loads))
 
 

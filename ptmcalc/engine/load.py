@@ -24,6 +24,7 @@ from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.optional import constants_of
 from ptmcalc.spec.problems import problems_of
+from ptmcalc.spec.scene import type_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of, unknown_key
 from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
 from ptmcalc.text.source import beginning_of
@@ -177,7 +178,7 @@ def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedRe
         value = assumption.value(spec)
         if value is not None:
             named = (assumption.path, value, assumption.quantity, assumption.interval(spec), assumption.source)
-            assumed.append(AssumedReport(*named, assumption.scenes, assumption.loads))
+            assumed.append(AssumedReport(*named, frozenset(map(type_of, assumption.scenes)), assumption.loads))
             spec = spec.with_value(assumption.path, value)
     return spec, tuple(assumed)
 

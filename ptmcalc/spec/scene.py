@@ -26,6 +26,11 @@ class Scene(Fragment):
         return self.type
 
 
+def type_of(scene: type[Scene]) -> str:
+    """What a file writes as the `type` of a scene."""
+    return str(scene.model_fields["type"].default)
+
+
 class TransientScene(Scene):
     """A scene that is computed over a window of time."""
 
