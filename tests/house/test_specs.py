@@ -15,7 +15,7 @@ from ptmcalc.text.document import parse
 SPECS = design_files(ROOT / "specs")
 
 
-SCREEN = 50
+SCREEN = 52
 """Lines of a terminal that is not small."""
 MOST_EVALUATIONS = {
     "conveyor.yaml": 15_000_000,
