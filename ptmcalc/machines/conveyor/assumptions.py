@@ -10,7 +10,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.rollback import asks_for_hold
+from ptmcalc.machines.conveyor.rollback import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 
@@ -70,7 +70,7 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
 
 _LIGHT_RUNNING = 0.6
 """A belt that runs light, f = 0.016, relative to one designed with f = 0.027 (DIN 22101)."""
-_AT_REST, _LEAST_AT_REST, _MOST_AT_REST = 0.5, 0.3, 0.6
+_LEAST_AT_REST, _MOST_AT_REST = 0.3, 0.6
 """Part of the idler resistance in motion that is counted on at standstill: practice takes one half. The low end is 0.4
 of the main resistance, which is about 0.8 of all; the high end is a little more than practice."""
 _OTHER_WEIGHT = 0.05
@@ -113,7 +113,7 @@ _OF_STANDSTILL: tuple[Assumption[Conveyor], ...] = (
     Assumption(
         ("resistance", "rest_factor"),
         units.RATIO,
-        lambda spec: _AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
+        lambda spec: AT_REST if any(asks_for_hold(spec, scene) for scene in spec.all_scenes) else None,
         lambda spec: Interval(_LEAST_AT_REST, _MOST_AT_REST),
         "practice for backstops: one half of the running resistance, none of loading points and cleaners",
         loads=frozenset({"backstop_torque"}),

@@ -3,6 +3,15 @@
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
 
+AT_REST = 0.5
+"""Part of the idler resistance that acts at rest for certain, where the file does not give it."""
+
+
+def rest_factor(spec: Conveyor) -> float:
+    """Part of the idler resistance at rest; the assumption fills it in where a file asks for the rollback torque."""
+    given = spec.resistance.rest_factor
+    return AT_REST if given is None else given
+
 
 def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether a scene is the one in which the rollback torque is checked.

@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.forces import extra_forces, filled
 from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
 from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.rollback import elsewhere
+from ptmcalc.machines.conveyor.rollback import elsewhere, rest_factor
 from ptmcalc.machines.conveyor.spec import (
     Backstop,
     Coast,
@@ -144,7 +144,7 @@ def _rest(spec: Conveyor, scene: Hold) -> float:
     """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
     line = belt_line(spec, scene)
     friction = line.back.friction[-1] + line.carry.friction[-1] - _special(spec, scene)
-    return filled(spec.resistance.rest_factor) * friction - line.back.climb[-1] - line.carry.climb[-1]
+    return rest_factor(spec) * friction - line.back.climb[-1] - line.carry.climb[-1]
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
