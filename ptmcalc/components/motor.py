@@ -484,23 +484,6 @@ def overhauled_torque(curve: AnyMotor) -> float:
     return max(0.0, -min(torque for speed, torque in last.pieces if speed >= 0 or torque >= 0))
 
 
-def speed_of_most_braking(curve: AnyMotor) -> float | None:
-    """Lowest speed above the no-load speed at which a motor brakes most, once its start is over [rad/s].
-
-    Infinite where the torque grows without end (`linear`); None for a motor without a no-load speed, or one that never
-    brakes.
-    """
-    free = curve.no_load_speed
-    if free is None or overhauled_torque(curve) <= 0:
-        return None
-    if isinstance(curve, InductionBase):
-        return (1 + curve.breakdown_slip) * free
-    last = curve.stages[-1]
-    if last.extends and not isinstance(curve, ConverterMotor):
-        return math.inf
-    return min((speed for speed, _ in last.pieces or () if speed > free), key=lambda speed: float(last.torque(speed)))
-
-
 def overhauling_reserve(curve: AnyMotor, count: int, torque: float) -> float:
     """Largest braking torque of equal motors above their no-load speed over the torque of a load that drives them.
 

@@ -14,6 +14,7 @@ from support import hybrid
 from support.bars import (
     MACHINES,
     THIRD,
+    WIDEST,
     Limit,
     Loads,
     Trial,
@@ -24,7 +25,6 @@ from support.bars import (
     tried,
     verdicts,
     wide,
-    widest,
 )
 from support.drivetrain_samples import linear_train, loads_of, machine_of, motor_train, number, train_with_play
 from support.drivetrains import spec_of
@@ -130,7 +130,7 @@ def test_a_third_of_it_would_not(sample: tuple[str, list[Trial]]) -> None:
 
 @pytest.mark.parametrize("way", WAYS)
 def test_it_is_not_much_wider_than_the_true_error(sample: tuple[str, list[Trial]], way: str) -> None:
-    assert wide(sample[1], way) <= widest(way)
+    assert wide(sample[1], way) <= WIDEST
 
 
 def test_the_claims_are_worth_something(sample: tuple[str, list[Trial]]) -> None:

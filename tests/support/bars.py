@@ -43,7 +43,6 @@ KNOWN_WIDE = {
     "belt_damping": 30.0,
     "moving_belt": 20.0,
     "network": 15.0,
-    "one shaft": 15.0,  # speeds, which DRV111 reads far from its limit: 12; torques alone stay below 10
     "takeup_weight": 12.0,
 }
 """Ways whose bars hold but are wider than wanted, and how wide they may be at most until somebody sharpens them."""

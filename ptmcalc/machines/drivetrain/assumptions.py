@@ -5,19 +5,21 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
+from ptmcalc.components.motor import AnyMotor, InductionBase
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.drivetrain.model import at_rest, rated_speed
+from ptmcalc.machines.drivetrain.model import turning_with
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Gear, Link, Stop
 
 _WORN = 0.15
 """Wear at which gears are renewed at the earliest, relative to the tooth (lecture notes Kramatorsk: 15 to 25 %)."""
+_SLIP = 0.05
+"""Slip of a motor whose rated speed is not known, as the 95 % of its speed that end a start."""
 _RIGID_RESTITUTION = 0.5
 """Largest coefficient of restitution of steel parts with lubricant between them."""
 
 
 def assumed(spec: Drivetrain) -> Iterator[Assumption[Drivetrain]]:
-    """What is assumed of each part: losses of a gear driven back, wear of a clearance, rebound of a rigid
-    contact, speed at which a stop begins."""
+    """Assumptions of each part: losses of a gear driven back, wear of a clearance, rebound, speed before a stop."""
     for name, gear in spec.gears.items():
         if gear.efficiency < 1:
             yield _driven_back(name, gear)
@@ -26,23 +28,9 @@ def assumed(spec: Drivetrain) -> Iterator[Assumption[Drivetrain]]:
             yield _wear(name, link.clearance.module)
         if link.law == "rigid":
             yield _rebound(name, link)
-    if not at_rest(spec):
-        return
-    for index, scene in enumerate(spec.scenes or ()):
-        motor = next((one.motor for one in spec.motors.values() if one.at == spec.main(scene)), None)
-        rated = motor and rated_speed(motor)
-        if isinstance(scene, Stop) and motor is not None and rated:
-            yield _stop_speed(index, rated, motor.no_load_speed or rated, spec.turns(spec.main(scene)))
-
-
-def _stop_speed(index: int, rated: float, highest: float, turns: bool) -> Assumption[Drivetrain]:
-    return Assumption(
-        ("scenes", index, "speed"),
-        units.ANGULAR_SPEED if turns else units.SPEED,
-        lambda spec: rated,
-        lambda spec: Interval(min(rated, highest), max(rated, highest)),
-        "a stop begins at the motor's rated speed, without load at its no-load speed",
-    )
+    for index, scene in enumerate(spec.all_scenes):
+        if isinstance(scene, Stop) and not _moves(spec):
+            yield from _stopped_from(spec, index, scene)
 
 
 def _driven_back(name: str, gear: Gear) -> Assumption[Drivetrain]:
@@ -76,3 +64,41 @@ def _rebound(name: str, link: Link) -> Assumption[Drivetrain]:
         lambda spec: Interval(0.0, _RIGID_RESTITUTION),
         "steel on steel with lubricant: 0 to 0.5",
     )
+
+
+def _moves(spec: Drivetrain) -> bool:
+    """Whether the file gives the speed of a part at the start."""
+    return any(body.speed is not None for body in spec.inertias.values()) or bool(spec.motions)
+
+
+def _stopped_from(spec: Drivetrain, index: int, scene: Stop) -> Iterator[Assumption[Drivetrain]]:
+    """The no-load speed of the first motor that has one, on the shaft of the scene; none without such a motor."""
+    main = spec.main(scene)
+    speeds = _motor_speeds(spec, main)
+    if speeds is None:
+        return
+    speed, most = speeds
+    yield Assumption(
+        ("scenes", index, "speed"),
+        units.ANGULAR_SPEED if spec.turns(main) else units.SPEED,
+        lambda spec: speed,
+        lambda spec: Interval(-most, most),
+        "no-load speed of the motor; in either direction, up to the speed at which the load drives it with its rated"
+        " slip",
+    )
+
+
+def _motor_speeds(spec: Drivetrain, main: str) -> tuple[float, float] | None:
+    """Speed of the main inertia at the no-load speed of its motor, and at that of the motor driven by the load."""
+    names = list(spec.inertias)
+    for one in spec.motors.values():
+        no_load = one.motor.no_load_speed
+        found = turning_with(spec, {names.index(one.at): 1.0}, together=True).get(names.index(main))
+        if no_load is not None and found is not None:
+            return found * no_load, abs(found) * _fastest(one.motor, no_load)
+    return None
+
+
+def _fastest(curve: AnyMotor, no_load: float) -> float:
+    """Speed of a motor that is driven with its rated slip [rad/s]."""
+    return 2 * no_load - curve.speed if isinstance(curve, InductionBase) else (1 + _SLIP) * no_load

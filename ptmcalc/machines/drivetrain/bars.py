@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found, of
+from ptmcalc.contract.result import Found, family, of
 from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import Case
 from ptmcalc.machines.drivetrain.motion import Course, Readings, part_of
@@ -20,7 +20,7 @@ _POLYNOMIALS = 3e-12
 _UNSEEN = FADED + _POLYNOMIALS
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 
-_FACTS = frozenset({"start_share", "stop_speed_share"})
+_FACTS = frozenset({"start_share", "stop_speed_share", "part_start_share", "part_stop_speed_share", "clutch_slip"})
 """Loads that say whether a start or stop is over, which all runs agree on; what is left of the speed where it is not is
 read from runs that are no closer than their bars."""
 
@@ -55,11 +55,11 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
     found = {}
     for name, (value, time) in own.items():
         at = {"time": time} if time is not None else {}
-        if name not in apart or name in _FACTS:
+        if name not in apart or family(name) in _FACTS:
             same = all(_as_good(name, value, other[name][0]) for other in compared)
             told = Estimate.exact(value) if same else Estimate.unknown(value)
             # a share of a speed that is known no better; without end where the speed at the start is 0
-            if same and name in _FACTS and value not in (0.0, 1.0, math.inf):
+            if same and family(name) in _FACTS and value not in (0.0, 1.0, math.inf):
                 told = Estimate.within(value, (_MARGIN * shares[False] + _UNSEEN) * abs(value))
             found[name] = Found(told, at)
             continue
@@ -76,9 +76,9 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
 
 def _as_good(name: str, value: float, other: float) -> bool:
     """Whether two runs say the same; of shares of a speed, whether both or neither are at their limit."""
-    if name not in _FACTS:
+    if family(name) not in _FACTS:
         return value == other
-    over = 1.0 if name == "start_share" else 0.0
+    over = 1.0 if family(name) in ("start_share", "part_start_share") else 0.0
     return (value == over) == (other == over)
 
 

@@ -3,14 +3,15 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from typing import TypeVar
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at, speed_of_most_braking
 from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, no_repair
 from ptmcalc.contract.result import of
-from ptmcalc.machines.drivetrain.model import at_rest, case_of
-from ptmcalc.machines.drivetrain.spec import Drivetrain, MotorOn, Run, SineTorque, Start, Stop, TrainScene
+from ptmcalc.machines.drivetrain.model import brake_of, case_of
+from ptmcalc.machines.drivetrain.overhauling import overhauled, path_of
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
 from ptmcalc.spec.scene import Scene
 
 WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
@@ -20,6 +21,7 @@ ALL: frozenset[type[Scene]] = frozenset({Run, Start, Stop})
 RUNNING: frozenset[type[Scene]] = frozenset({Run})
 DRIVEN: frozenset[type[Scene]] = frozenset({Run, Start})
 AnyCheck = Check[Drivetrain, TrainScene]
+C = TypeVar("C", bound=TrainScene)
 
 
 def _exactly(value: float) -> Callable[[Drivetrain, TrainScene], Estimate]:
@@ -97,6 +99,35 @@ def _start_needs(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
     return (*_end_of_start(spec, scene), ("checks", "start_time"))
 
 
+def _start_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    """The main part, and each other part with a motor of its own, named where there are several."""
+    yield from _of_parts(START, spec, scene, lambda part: ("checks", "start_time"))
+
+
+def _reach_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    yield from _of_parts(REACHES, spec, scene, lambda part: _motor_on(spec, part))
+
+
+def _motor_on(spec: Drivetrain, body: str) -> KeyPath:
+    return next((("motors", name) for name, one in spec.motors.items() if one.at == body), ("motors",))
+
+
+def _of_parts(
+    check: Check[Drivetrain, C], spec: Drivetrain, scene: C, key: Callable[[str], KeyPath], *, repairs: bool = False
+) -> Iterator[Check[Drivetrain, C]]:
+    """A check of the main part and of the others; `key` governs the verdict of another part."""
+    case = case_of(spec, scene)
+    if not case.others:
+        yield check
+        return
+    yield replace(check, element=case.bodies[case.main], each=None)
+    for part in case.others:
+        name = case.bodies[part.body]
+        path = key(name)
+        made = replace(check, element=name, loads=tuple(of(f"part_{load}", name) for load in check.loads), each=None)
+        yield replace(made, blame=lambda *_, path=path: path, repair=lambda *_, path=path: path if repairs else ())
+
+
 def _motor_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
     return ("motors", next(iter(spec.motors))) if spec.motors else ("inertias",)
 
@@ -114,6 +145,7 @@ START: Check[Drivetrain, Start] = Check(
     needs=_start_needs,
     blame=lambda spec, scene, loads: ("checks", "start_time"),
     repair=no_repair,
+    each=_start_checks,
     what="The inertia considered in the scene reaches its speed within the maximum start time.",
     why="A long start heats the motor.",
     formula="t(w = w_end) <= t_limit",
@@ -131,13 +163,6 @@ def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
     return Estimate.exact(spec.checks.stop_time or math.inf)
 
 
-def _start_of_stop(spec: Drivetrain, scene: Stop) -> tuple[KeyPath, ...]:
-    """The speed at which a stop begins, where neither the file nor a motor gives it."""
-    if scene.speed is not None or not at_rest(spec):
-        return ()
-    return (("scenes", list(spec.all_scenes).index(scene), "speed"),)
-
-
 def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
     if spec.brakes:
         return ("brakes", next(iter(spec.brakes)), "torque")
@@ -146,6 +171,35 @@ def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimat
 
 def _brake_torque(spec: Drivetrain, scene: TrainScene) -> KeyPath:
     return ("brakes", next(iter(spec.brakes)), "torque") if spec.brakes else ()
+
+
+def _from_rest(spec: Drivetrain, scene: TrainScene) -> bool:
+    train = case_of(spec, scene).train
+    return not train.guides and not any(body.speed for body in train.bodies)
+
+
+def _speed_before(spec: Drivetrain, scene: Stop) -> tuple[KeyPath, ...]:
+    """The key without which a stop begins at standstill."""
+    if scene.speed is not None or not _from_rest(spec, scene):
+        return ()
+    return (("scenes", list(spec.all_scenes).index(scene), "speed"),)
+
+
+def _stop_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    """A scene that the file begins at standstill has no stopping time: DRV110 judges whether the brake holds."""
+    if scene.speed is None or not _from_rest(spec, scene):
+        yield from _of_parts(STOP, spec, scene, lambda part: _brake_on(spec, scene, part), repairs=True)
+
+
+def _rest_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    yield from _of_parts(RESTS, spec, scene, lambda part: _brake_on(spec, scene, part), repairs=True)
+
+
+def _brake_on(spec: Drivetrain, scene: Stop, body: str) -> KeyPath:
+    """The torque of the brake or clutch of a part."""
+    case = case_of(spec, scene)
+    name = brake_of(spec, case, case.index(body))
+    return ("brakes", name, "torque") if name is not None else ("inertias",)
 
 
 STOP: Check[Drivetrain, Stop] = Check(
@@ -158,9 +212,10 @@ STOP: Check[Drivetrain, Stop] = Check(
     loads=("stop_time",),
     sense=Sense.AT_MOST,
     limit=stop_limit,
-    needs=lambda spec, scene: (*_start_of_stop(spec, scene), ("checks", "stop_time")),
+    needs=lambda spec, scene: (*_speed_before(spec, scene), ("checks", "stop_time")),
     blame=_stop_blame,
     repair=_brake_torque,
+    each=_stop_checks,
     what="The inertia considered in the scene stops within the maximum stop time and stays at standstill.",
     why="A drive train that moves on hits people or objects beyond its stopping point.",
     formula="t(w = 0 from then on) <= t_limit",
@@ -193,6 +248,7 @@ REACHES: Check[Drivetrain, Start] = Check(
     needs=_end_of_start,
     blame=_motor_blame,
     repair=no_repair,
+    each=_reach_checks,
     what="The inertia considered in the scene reaches the speed that ends the start, without a time limit.",
     why="A motor that stalls or stays below its speed overheats. The machine never operates.",
     formula="max w/w_end >= 1",
@@ -219,9 +275,10 @@ RESTS: Check[Drivetrain, Stop] = Check(
     loads=("stop_speed_share",),
     sense=Sense.AT_MOST,
     limit=_nothing,
-    needs=_start_of_stop,
+    needs=_speed_before,
     blame=_stop_blame,
     repair=_brake_torque,
+    each=_rest_checks,
     what="The inertia considered in the scene stops, without a time limit, and stays at standstill.",
     why="A brake that does not hold lets the load run away.",
     formula="|w(end)|/|w(0)| = 0",
@@ -240,7 +297,7 @@ def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
 
 
 def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
-    if spec.checks.stop_angle is not None:
+    if spec.checks.stop_angle is not None and (scene.speed is None or not _from_rest(spec, scene)):
         yield WAY
 
 
@@ -253,7 +310,7 @@ WAY: Check[Drivetrain, Stop] = Check(
     loads=("stop_angle",),
     sense=Sense.AT_MOST,
     limit=way_limit,
-    needs=_start_of_stop,
+    needs=_speed_before,
     blame=_stop_blame,
     repair=_brake_torque,
     each=_way_checks,
@@ -264,42 +321,39 @@ WAY: Check[Drivetrain, Stop] = Check(
 )
 
 
-def slip_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+def _clutch_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    for grip in case_of(spec, scene).clutches:
+        path = ("brakes", grip.name, "torque")
+        yield CLUTCH.of(grip.name, _no_slip, path, repair=path)
+
+
+def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
     """No slip at all.
 
-    **Range** a clutch at the end of a start or stop.
+    **Range** any clutch that acts in a start.
     **Error** none.
-    **Source** a clutch that slips turns all of its power into heat.
+    **Source** definition of a locked clutch.
     """
     return Estimate.exact(0.0)
 
 
-def _clutch_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
-    acting = {grip.name for grip in case_of(spec, scene).train.grips if grip.second is not None}
-    for name in spec.brakes:
-        if name in acting:
-            path = ("brakes", name, "torque")
-            yield CLUTCH.of(name, slip_limit, path, repair=path)
-
-
-CLUTCH: AnyCheck = Check(
+CLUTCH: Check[Drivetrain, Start] = Check(
     code="DRV112",
-    title="clutch slip after the start or stop",
-    question="Does each clutch lock?",
-    failure="clutch slips after the start or stop",
-    scenes=frozenset({Start, Stop}),
+    title="clutch slip speed after the start",
+    question="Does each clutch lock in the start?",
+    failure="clutch does not lock",
+    scenes=frozenset({Start}),
     loads=("clutch_slip",),
     sense=Sense.AT_MOST,
-    limit=slip_limit,
+    limit=_no_slip,
     needs=no_needs,
     blame=lambda spec, scene, loads: ("brakes",),
     repair=no_repair,
     each=_clutch_checks,
-    what="Each clutch that acts is locked when the start has become steady, or when the inertia considered has"
-    " stopped.",
-    why="A clutch that slips for good burns within minutes. After a stop, the part behind it goes on turning.",
-    formula="|w_1 - w_2| = 0 at the end",
-    source="static balance of the clutch torque and the torque behind it",
+    what="Each clutch that acts in the start is locked at its end.",
+    why="A clutch that slips permanently converts its power to heat, and the part behind it stays below its speed.",
+    formula="|w_1 - w_2|/max(|w_1|, |w_2|) = 0",
+    source="static balance of the clutch torque and the load behind it",
 )
 
 
@@ -385,59 +439,43 @@ OVERLOAD: AnyCheck = Check(
 )
 
 
-_OVERSHOOT = 1.2
-"""Overspeed that electric motors bear, over their no-load speed (IEC 60034-1, 9.7: tested at 1.2)."""
+def _at_least_all(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Braking torque of all motors at least as large as the overhauling torque.
 
-
-def _overspeed_limit(one: MotorOn) -> float | None:
-    """Speed above which a load runs away with a motor [rad/s]; None where it never does, or a motor has no speed of
-    its own. What overshoots less comes back."""
-    free, speed = one.motor.no_load_speed, speed_of_most_braking(one.motor)
-    if free is None or (speed is not None and math.isinf(speed)):
-        return None
-    return max(speed or 0.0, _OVERSHOOT * free)
-
-
-def overspeed_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """The larger of 1.2 times the no-load speed and the speed at which a motor brakes most: of an induction motor that
-    of its breakdown torque as a generator.
-
-    **Range** motors with a no-load speed, whose torque does not grow with the speed without end.
-    **Error** that of the curve.
-    **Source** `components.motor.speed_of_most_braking`; IEC 60034-1, 9.7: motors are tested at 1.2 times their speed.
+    **Range** motors that a load drives at their no-load speed.
+    **Error** none.
+    **Source** torque balance at steady speed.
     """
-    return Estimate.exact(math.inf)
+    return Estimate.exact(1.0)
 
 
-def _overspeed_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
-    for name, one in spec.motors.items():
-        most = _overspeed_limit(one)
-        if most is not None and spec.turns(one.at):
-            path: KeyPath = ("motors", name, "motor")
-            key = number_at((*path, "curve"), one.motor)
-            repair = (*path, key[-1]) if key else ()
-            check = OVERSPEED.of(name, _exactly(most), path, repair=repair)
-            yield replace(check, loads=(of("speed_max", one.at),))
+def _braking_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    """One for each part of the train whose motors a load drives."""
+    for one in overhauled(spec, scene):
+        path = path_of(spec, one.motor)
+        yield BRAKES.of(one.motor, _at_least_all, path, repair=path if len(path) > _MOTOR_PATH else ())
 
 
-OVERSPEED: AnyCheck = Check(
+_MOTOR_PATH = 2
+"""Keys of the path to a motor without the one that its torques grow with."""
+
+BRAKES: AnyCheck = Check(
     code="DRV111",
-    title="motor overspeed under an overhauling load",
-    question="Does the motor hold the load that drives it?",
-    failure="load drives the motor beyond its maximum braking torque: it runs away",
+    title="motor braking torque reserve",
+    question="Does the motor hold the overhauling load at its speed?",
+    failure="load drives the motor beyond its curve",
     scenes=DRIVEN,
-    loads=("speed_max",),
-    sense=Sense.AT_MOST,
-    limit=overspeed_limit,
+    loads=("braking_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_at_least_all,
     needs=no_needs,
     blame=lambda spec, scene, loads: ("motors",),
     repair=no_repair,
-    each=_overspeed_checks,
-    what="The speed of each motor stays below the speed at which it brakes most, or below 1.2 times its no-load speed"
-    " where that is higher.",
-    why="Beyond this speed the braking torque decreases. The load accelerates the drive train until a part bursts.",
-    formula="max w <= w_0 max(1 + s_k, 1.2)   for an induction motor",
-    source="formula of Kloss with negative slip; curve of the file",
+    each=_braking_checks,
+    what="The largest torque with which the motors brake above their no-load speed is at least the overhauling torque.",
+    why="Beyond its largest braking torque the motor brakes less and less. The load runs away.",
+    formula="M_brake/M_load >= 1",
+    source="torque balance at steady speed; curve of the motor",
 )
 
 
@@ -520,4 +558,4 @@ WEAR: AnyCheck = Check(
     source="lecture notes Kramatorsk 2007",
 )
 
-CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR, REACHES, RESTS, OVERSPEED, CLUTCH)
+CHECKS = (TORQUE, START, STOP, WAY, HEATING, OVERLOAD, RESONANCE, WEAR, REACHES, RESTS, BRAKES, CLUTCH)

@@ -13,7 +13,7 @@ Loads = Mapping[str, Estimate]
 
 ELASTICITY_THRESHOLD = 0.05
 BACKLASH_THRESHOLD = 0.1
-CHANGED = MOVING - {"torque_steady", "energy_residual"}
+CHANGED = MOVING - {"torque_steady", "energy_residual", "braking_reserve"}
 """Loads that the links' elasticity or play can change."""
 
 

@@ -1,7 +1,7 @@
 """Starts and stops that are not over at the end of their window: never, or later."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, field, replace
 
 from ptmcalc.base import units
@@ -9,10 +9,11 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
-from ptmcalc.machines.drivetrain import announced, bars, left_behind, motion
-from ptmcalc.machines.drivetrain.announced import Ahead
-from ptmcalc.machines.drivetrain.model import Case, case_of, rigid
+from ptmcalc.machines.drivetrain import announced, bars, motion, overhauling
+from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, brake_of, case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
+from ptmcalc.numerics.train.parts import Governed, Grip
+from ptmcalc.numerics.train.signals import Signal
 
 _PROGRESS = 1e-3
 """Least share of what is missing that a start or a stop that ends gains while its time doubles: an induction motor
@@ -38,14 +39,19 @@ _LOOKS = 12
 """Times that the rigid train is looked at, over twice the time each: 2048 windows."""
 _LONGER = 1.2
 """Time in which an elastic train is taken to end its start or stop, over that of the rigid one, as of its window."""
-_OF_THE_END = frozenset({"start_time", "start_share", "stop_time", "stop_angle", "stop_speed_share"})
+_OF_MAIN = frozenset({"start_time", "start_share", "stop_time", "stop_angle", "stop_speed_share"})
+_OF_THE_END = _OF_MAIN | {
+    "part_start_time",
+    "part_start_share",
+    "part_stop_time",
+    "part_stop_speed_share",
+    "clutch_slip",
+}
 """Loads that are about the end of a start or stop, whenever it is."""
 DOUBLINGS = 2
 """Times that a window is doubled in which a torque has its peak in the second half."""
-_EXTENSIONS = 3
-"""Times that a window is extended to what the file announces for later."""
-_SECONDS = 5.0
-"""Predicted seconds of a run up to which a window is doubled."""
+APPROACHES = 4
+"""Times that a window is made longer for a place that the motion approaches."""
 _CREEP, _MORE = 0.01, 4.0
 """Growth of a peak, relative to it, up to which undamped modes that meet later are the reason; what later windows may
 add is then at most some times the last growth, as the peak of a sum of sines grows ever slower."""
@@ -64,26 +70,19 @@ def steady_runs(
 
     A start or stop whose torque peaks lie in the second half of the window, or whose extreme speeds do and grow on as
     those of the rigid train, is computed over twice the time until none grows; a `duration` of the file stays as it is.
+    Where an event that the file announces lies after the window, each load that it can change has no bound.
     """
+    runs = bars.played(case, end, tolerance)
     if scene.duration is not None or isinstance(scene, Run):
-        return bars.played(case, end, tolerance), {}, ""
-    runs, later = _with_what_comes(case, end, tolerance)
-    if later is not None:
-        unknown = {
-            name: _outward(name, math.inf)
-            for name in motion.readings(spec, runs[0])
-            if name not in ("start_time", "start_share")
-        }
-        return runs, unknown, f"{later.what} acts after the computed window"
+        return runs, {}, ""
+    runs = _past_approached(scene, case, runs, tolerance)
     end = runs[0].record.time
+    later = _announced_later(runs[0])
+    if later:
+        return runs, _by_anything(spec, runs[0]), later
     ahead = _speeds_ahead(spec, scene, runs[0])
     rising = {name for name, (more, size) in ahead.items() if not more < _CREEP * size}
     grown: dict[str, float] = dict.fromkeys(rising, math.inf)
-    if rising and not doublings:  # torques that grow with a speed that grows
-        peaks = motion.readings(spec, runs[0]).items()
-        grown |= {
-            name: math.inf for name, (_, at) in peaks if family(name) in _PEAKS and at is not None and at > end / 2
-        }
     for _ in range(doublings):
         before = motion.readings(spec, runs[0])
         late = [
@@ -91,7 +90,7 @@ def steady_runs(
             for name, (_, at) in before.items()
             if (name in rising or family(name) in _PEAKS) and at is not None and at > end / 2
         ]
-        if not late or motion.seconds(case, 2 * end) > _SECONDS:
+        if not late or motion.seconds(case, 2 * end) > motion.LONG:
             break
         known = bars.loads(spec, *runs)
         end *= 2
@@ -112,19 +111,49 @@ def steady_runs(
     return runs, beyond, f"`{named[0]}` is not steady" if named else ""
 
 
-def _with_what_comes(case: Case, end: float, tolerance: float) -> tuple[tuple[motion.Course, ...], Ahead | None]:
-    """Runs over a window with all in it that the file announces; what comes later where that would take long."""
-    coming = announced.over_time(case)
-    runs: tuple[motion.Course, ...] = ()
-    for _ in range(_EXTENSIONS):
-        if runs and coming.until <= end:
-            return runs, None
-        if coming.until > end and motion.seconds(case, coming.until) > _SECONDS:
+def _past_approached(
+    scene: TrainScene, case: Case, runs: tuple[motion.Course, ...], tolerance: float
+) -> tuple[motion.Course, ...]:
+    """Runs that contain the places which the motion approaches, each followed by the usual window.
+
+    The runs stay as they are where a longer one takes more than `motion.LONG` seconds.
+    """
+    for _ in range(APPROACHES):
+        places = announced.approached(runs[0])
+        if not places:
             break
-        end = max(end, coming.until)
+        end = max(places.values()) + motion.usual_window(scene, case)
+        if not motion.seconds(case, end) <= motion.LONG:
+            break
         runs = bars.played(case, end, tolerance)
-        coming = announced.over_motion(case, runs[0])
-    return runs or bars.played(case, end, tolerance), coming
+    return runs
+
+
+def _announced_later(course: motion.Course) -> str:
+    """The first event that the file announces and the run does not contain; empty without one."""
+    end = course.record.time
+    times = {name: time for name, time in announced.times(course.case).items() if time > end}
+    if times:
+        name = min(times, key=times.__getitem__)
+        return f"`{name}` acts at {units.show(times[name], units.TIME)}"
+    places = announced.approached(course)
+    return f"`{min(places, key=places.__getitem__)}` is not reached" if places else ""
+
+
+def _by_anything(spec: Drivetrain, course: motion.Course) -> dict[str, Interval]:
+    """What an event after the window can add to each load: anything, except to a start that is over."""
+    names = set(motion.readings(spec, course)) | {
+        of(load, name) for load in ("torque_steady", "dynamic_factor") for name in (*spec.links, *spec.gears)
+    }
+    over = set[str]()
+    if not course.case.stopping:
+        for part in course.case.parts:
+            if part.until is not None and math.isfinite(motion.over(course, part)):
+                over |= {_name(course.case, part, "start_time"), _name(course.case, part, "start_share")}
+    signed = _SPEEDS | {"speed_end", "angle_end"}
+    return {
+        name: Interval(-math.inf if family(name) in signed else 0.0, math.inf) for name in names if name not in over
+    }
 
 
 def _outward(name: str, more: float) -> Interval:
@@ -173,34 +202,113 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
             name: one for name, one in result.loads.items() if family(name) not in _OF_THE_WINDOW or name in kept
         }
         result = replace(result, loads=defined)
-    for left in (
-        left_behind.of_motors(spec, scene, course.record.time, _goes_on),
-        left_behind.of_clutches(spec, scene, course),
-    ):
-        result = replace(result, loads={**result.loads, **left.loads}, failures=(*result.failures, *left.failures))
-    found = _ending(spec, scene, course, tolerance)
-    if found is None:
-        return result
-    loads = {name: found.loads.get(name, one) for name, one in result.loads.items()}
-    failures = (*result.failures, *found.failures)
-    work, state = result.work + found.work, found.state or result.open_end
-    return replace(result, loads=loads, failures=failures, open_end=state, work=work)
+    if len(course.case.train.springs) == len(spec.links):  # not a train whose links are made rigid
+        reserves, failures = overhauling.seen(spec, scene, course)
+        result = replace(result, loads={**result.loads, **reserves}, failures=(*result.failures, *failures))
+    for found in _endings(spec, scene, course, tolerance):
+        loads = {name: found.loads.get(name, one) for name, one in result.loads.items()}
+        failures = (*result.failures, *found.failures)
+        work, state = result.work + found.work, found.state or result.open_end
+        result = replace(result, loads=loads, failures=failures, open_end=state, work=work)
+    return result
 
 
-def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Ending | None:
+def _endings(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Iterator[Ending]:
+    """The ends of all parts and clutches that the run does not contain."""
+    for part in course.case.parts:
+        if course.case.stopping or part.until is not None:
+            found = _ending(spec, scene, course, tolerance, part)
+            if found is not None:
+                yield found
+    for grip in course.case.clutches:
+        if motion.slip(course, grip) > 0:
+            yield _slipping(spec, scene, course, tolerance, grip)
+
+
+def _name(case: Case, part: Part, load: str) -> str:
+    """Name of a load of the main part or of another one."""
+    return load if part.body == case.main else of(f"part_{load}", case.bodies[part.body])
+
+
+def _element(case: Case, part: Part) -> str:
+    """The element of the checks of a part: none where there is one part only."""
+    return case.bodies[part.body] if case.others else ""
+
+
+def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float, part: Part) -> Ending | None:
     case, end = course.case, course.record.time
-    if (not case.stopping and case.until is None) or math.isfinite(motion.ended(course)):
-        return None
-    ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end)
+    if math.isfinite(motion.over(course, part)):
+        back = None if case.stopping else _driven_back(spec, course, part)
+        return Ending((back,)) if back is not None else None
+    ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end, _of_part(part))
     if ahead.stuck is not None:
-        left = motion.share(*motion.speeds(course, case.main))
-        kept = {"stop_speed_share": Found(Estimate(left, 0.0, math.inf, model=math.inf))} if case.stopping else {}
-        return Ending((_failure(spec, case, ahead.stuck),), kept)
+        failure = replace(_failure(spec, case, part, ahead.stuck), element=_element(case, part))
+        return Ending((failure,), dict(_growing(course, part, ahead.stuck)))
     if math.isfinite(ahead.over) and scene.duration is None:
-        followed = _followed(spec, scene, case, max(2 * end, _LONGER * ahead.over), tolerance)
+        names = {load if part.body == case.main else _name(case, part, load) for load in _OF_MAIN}
+        until = max(2 * end, _LONGER * ahead.over)
+        followed = _followed(spec, scene, case, until, tolerance, lambda one: motion.over(one, part), names)
         if followed is not None:
             return followed
-    return Ending(loads=dict(_later(case, course, end)), state=_state(spec, case, motion.speeds(course, case.main)[0]))
+    speed = motion.speeds(course, part.body)[0]
+    return Ending(loads=dict(_later(case, course, end, part)), state=_state(spec, case, part, speed))
+
+
+def _slipping(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float, grip: Grip) -> Ending:
+    """A clutch that slips at the end of a start: it never locks, or later."""
+    case, end, name = course.case, course.record.time, of("clutch_slip", grip.name)
+    slip = motion.slip(course, grip)
+    assert grip.second is not None
+    sides = [
+        f"`{case.bodies[body]}` at {units.show(abs(motion.speeds(course, body)[0]), _quantity(spec, case, body))}"
+        for body in (grip.first, grip.second)
+    ]
+    ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end, _of_clutch(grip))
+    if ahead.stuck is not None:
+        message = f"the clutch slips permanently: {sides[0]}, {sides[1]}"
+        failure = Failure("DRV112", message, ("brakes", grip.name, "torque"), "more clutch torque", grip.name)
+        return Ending((failure,), {name: Found(Estimate(slip, 0.0, math.inf, model=math.inf))})
+    if math.isfinite(ahead.over) and scene.duration is None:
+        until = max(2 * end, _LONGER * ahead.over)
+        followed = _followed(spec, scene, case, until, tolerance, lambda one: _locked(one, grip), {name})
+        if followed is not None:
+            return followed
+    note = f"the clutch may lock after {units.show(end, units.TIME)}: {sides[0]}, {sides[1]}"
+    return Ending(loads={name: Found(Estimate(slip, 0.0, math.inf, model=math.inf), note=note)})
+
+
+def _driven_back(spec: Drivetrain, course: motion.Course, part: Part) -> Failure | None:
+    """A start that reaches its speed and ends backward: a later load exceeds the torque of the motors."""
+    case, name = course.case, course.case.bodies[part.body]
+    speed = motion.speeds(course, part.body)[0]
+    assert part.until is not None
+    on = [drive.name for drive in case.train.drives if drive.name in spec.motors and drive.gate.values == (1.0,)]
+    if speed * part.until >= 0 or not on:
+        return None
+    now = units.show(abs(speed), _quantity(spec, case, part.body))
+    message = f"`{name}` reaches its target speed and is driven back at {now} later"
+    cure = "more motor torque than the largest load, or less load"
+    return Failure("DRV109", message, _motor_path(spec, name), cure, _element(case, part))
+
+
+def _quantity(spec: Drivetrain, case: Case, body: int) -> units.Quantity:
+    """Of the speed of a body."""
+    return units.ANGULAR_SPEED if spec.turns(case.bodies[body]) else units.SPEED
+
+
+def _motor_path(spec: Drivetrain, body: str) -> KeyPath:
+    """The motor on a body, or else the first one."""
+    names = [name for name, one in spec.motors.items() if one.at == body] or list(spec.motors)
+    return ("motors", names[0]) if names else ("inertias",)
+
+
+def _growing(course: motion.Course, part: Part, later: float) -> Iterator[tuple[str, Found]]:
+    """The speed left by a stop that gains speed: it depends on the end of the window, and has no upper bound."""
+    speed, before = motion.speeds(course, part.body)
+    if course.case.stopping and abs(later) > (1 + _PROGRESS) * abs(speed):
+        share = motion.share(speed, before) if part.body == course.case.main else 1.0
+        name = _name(course.case, part, "stop_speed_share")
+        yield name, Found(Estimate(share, min(share, 1.0), math.inf, model=math.inf))
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,7 +319,29 @@ class _Ahead:
     stuck: float | None = None
 
 
-def _ahead(case: Case, end: float) -> _Ahead:
+Aim = tuple[Callable[[motion.Course], float], Callable[[motion.Course], tuple[float, float]]]
+"""When a run is over, and the speed at its end with the one that is wanted."""
+
+
+def _of_part(part: Part) -> Aim:
+    wanted = 0.0 if part.until is None else part.until
+    return (lambda one: motion.over(one, part)), lambda one: (motion.speeds(one, part.body)[0], wanted)
+
+
+def _of_clutch(grip: Grip) -> Aim:
+    def apart(course: motion.Course) -> tuple[float, float]:
+        assert grip.second is not None
+        return motion.speeds(course, grip.first)[0] - motion.speeds(course, grip.second)[0], 0.0
+
+    return (lambda one: _locked(one, grip)), apart
+
+
+def _locked(course: motion.Course, grip: Grip) -> float:
+    """When a clutch of this name locked in a run of the elastic or the rigid train [s]."""
+    return motion.locked(course, next(one for one in course.case.train.grips if one.name == grip.name))
+
+
+def _ahead(case: Case, end: float, aim: Aim) -> _Ahead:
     """How the rigid train goes on after a window, looked at over twice the time again and again.
 
     From the last change of a torque with time on its motion is that of one speed, which rises or falls for good: where
@@ -221,7 +351,7 @@ def _ahead(case: Case, end: float) -> _Ahead:
     if not math.isfinite(changes):
         return _Ahead()
     end, before = max(end, changes), None
-    wanted = 0.0 if case.until is None else case.until
+    over, speeds = aim
     for look in range(_LOOKS):
         if look > 1 and motion.seconds(case, end) > motion.BESIDE:
             break
@@ -229,23 +359,25 @@ def _ahead(case: Case, end: float) -> _Ahead:
             course = motion.run(case, end, _TOLERANCE, most_work=motion.most_work(case, end))
         except NumericsError:
             break
-        if math.isfinite(motion.ended(course)):
-            return _Ahead(over=max(motion.ended(course), changes))
-        speed = motion.speeds(course, case.main)[0]
+        if math.isfinite(over(course)):
+            return _Ahead(over=max(over(course), changes))
+        speed, wanted = speeds(course)
         if before is not None and not _gains(wanted, before, speed):
             return _Ahead(stuck=speed)
         end, before = 2 * end, speed
     return _Ahead()
 
 
-def _goes_on(case: Case, end: float) -> tuple[float, float | None]:
-    """When a rigid train is over with its start, and the speed that it keeps instead."""
-    ahead = _ahead(case, end / 2)
-    return ahead.over, ahead.stuck
-
-
-def _followed(spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float) -> Ending | None:
-    """The end of a start or stop beyond its window; None where it takes a long run, or is not found."""
+def _followed(
+    spec: Drivetrain,
+    scene: TrainScene,
+    case: Case,
+    end: float,
+    tolerance: float,
+    over: Callable[[motion.Course], float],
+    names: Container[str],
+) -> Ending | None:
+    """These loads of a start or stop that ends beyond its window; None where it takes a long run, or is not found."""
     work = 0
     for _ in range(DOUBLINGS):
         if not motion.seconds(case, end) <= motion.BESIDE:
@@ -257,9 +389,9 @@ def _followed(spec: Drivetrain, scene: TrainScene, case: Case, end: float, toler
         work += sum(course.record.steps for course in runs)
         if motion.untrusted(spec, scene, runs[0], tolerance) is not None:
             return None
-        if all(math.isfinite(motion.ended(course)) for course in runs):
+        if all(math.isfinite(over(course)) for course in runs):
             loads = bars.loads(spec, *runs)
-            return Ending(loads={name: one for name, one in loads.items() if name in _OF_THE_END}, work=work)
+            return Ending(loads={name: one for name, one in loads.items() if name in names}, work=work)
         end *= 2
     return None
 
@@ -271,58 +403,68 @@ def _gains(wanted: float, speed: float, later: float) -> bool:
 
 
 def _last_change(case: Case) -> float:
-    """Time after which no torque depends on the time any more; infinite under a sine."""
-    signals = announced.signals_of(case)
-    if any(signal.sines or (signal.slopes and signal.slopes[-1] != 0) for signal in signals):
-        return math.inf
-    stages = [stage for drive in case.train.drives for stage in drive.stages]
-    times = [stage.until_time for stage in stages if stage.until_time is not None]
-    return max([0.0, *times, *(impulse.time for impulse in case.train.impulses), *map(announced.last_of, signals)])
+    """Time after which no torque depends on the time any more; infinite under a sine or what waits for a trigger."""
+    train = case.train
+    signals = [drive.gate for drive in train.drives]
+    signals += [grip.capacity for grip in train.grips]
+    signals += [guide.acceleration for guide in train.guides]
+    laws = [stage.law for drive in train.drives if not drive.name.startswith(REACHED) for stage in drive.stages]
+    signals += [law for law in laws if isinstance(law, Signal)]
+    signals += [law.reference for law in laws if isinstance(law, Governed)]
+    last = max([impulse.time for impulse in train.impulses], default=0.0)
+    for drive in train.drives:
+        last = max([last, *(stage.until_time for stage in drive.stages if stage.until_time is not None)])
+    for signal in signals:
+        if signal.sines or (signal.slopes and signal.slopes[-1] != 0):
+            return math.inf
+        last = max(last, signal.times[-1], signal.decay_start + _FADED * signal.decay_time if signal.decay else 0.0)
+    return last
 
 
-def _failure(spec: Drivetrain, case: Case, speed: float) -> Failure:
-    name = case.bodies[case.main]
-    quantity = units.ANGULAR_SPEED if spec.turns(name) else units.SPEED
+def _failure(spec: Drivetrain, case: Case, part: Part, speed: float) -> Failure:
+    name = case.bodies[part.body]
+    quantity = _quantity(spec, case, part.body)
     now = units.show(abs(speed), quantity)
     if not case.stopping:
-        wanted = units.show(abs(case.until or 0.0), quantity)
-        motor = next(iter(spec.motors), None)
-        path: KeyPath = ("motors", motor) if motor is not None else ("inertias",)
+        until = part.until or 0.0
+        wanted = units.show(abs(until), quantity)
         at_rest = not speed
-        backward = speed * (case.until or 0.0) < 0
+        backward = speed * until < 0
         how = "stays at rest" if at_rest else f"is driven back at {now}" if backward else f"stays at {now}"
         cure = "more motor torque at rest" if at_rest or backward else "more motor torque at this speed"
-        return Failure(
-            "DRV109", f"`{name}` {how} and never reaches {wanted}", path, f"{cure}, or less load and resistance"
-        )
-    brake = next(iter(spec.brakes), None)
-    path = ("brakes", brake, "torque") if brake is not None else ("inertias",)
+        message = f"`{name}` {how} and never reaches {wanted}"
+        return Failure("DRV109", message, _motor_path(spec, name), f"{cure}, or less load and resistance")
+    brake = brake_of(spec, case, part.body)
+    path: KeyPath = ("brakes", brake, "torque") if brake is not None else ("inertias",)
     message = f"`{name}` does not come to rest: it still moves at {now}, and no torque slows it down"
     cure = "more brake torque than the load drives with" if brake is not None else "add a `brakes` block"
     return Failure("DRV110", message, path, cure)
 
 
-def _later(case: Case, course: motion.Course, end: float) -> Iterator[tuple[str, Found]]:
+def _later(case: Case, course: motion.Course, end: float, part: Part) -> Iterator[tuple[str, Found]]:
     """Loads of a start or stop that goes on: at least what they are so far."""
     after = Found(Estimate(end, end, math.inf, model=math.inf))
     if case.stopping:
-        place = course.index("position", case.bodies[case.main])
-        assert place is not None
-        moved = abs(float(course.record.last[place] - course.record.first[place]))
-        yield "stop_time", after
-        yield "stop_angle", Found(Estimate(moved, 0.0, math.inf, model=math.inf))
-        yield "stop_speed_share", Found(Estimate(motion.share(*motion.speeds(course, case.main)), 0.0, math.inf))
+        yield _name(case, part, "stop_time"), after
+        share = motion.share(*motion.speeds(course, part.body))
+        if part.body == case.main:
+            place = course.index("position", case.bodies[case.main])
+            assert place is not None
+            moved = abs(float(course.record.last[place] - course.record.first[place]))
+            yield "stop_angle", Found(Estimate(moved, 0.0, math.inf, model=math.inf))
+        else:
+            share = motion.share_of_fastest(course, part.body)
+        yield _name(case, part, "stop_speed_share"), Found(Estimate(share, 0.0, math.inf))
     else:
-        assert case.until is not None
-        reached = motion.reached_share(course, case.until)
-        yield "start_time", after
-        yield "start_share", Found(Estimate(reached, reached, 1.0, model=1.0 - reached))
+        reached = motion.reached_share(course, part)
+        yield _name(case, part, "start_time"), after
+        yield _name(case, part, "start_share"), Found(Estimate(reached, reached, 1.0, model=1.0 - reached))
 
 
-def _state(spec: Drivetrain, case: Case, speed: float) -> str:
-    name = case.bodies[case.main]
-    quantity = units.ANGULAR_SPEED if spec.turns(name) else units.SPEED
+def _state(spec: Drivetrain, case: Case, part: Part, speed: float) -> str:
+    name = case.bodies[part.body]
+    quantity = _quantity(spec, case, part.body)
     now = units.show(abs(speed), quantity)
-    if case.until is None:
+    if part.until is None:
         return f"`{name}` still at {now}"
-    return f"`{name}` at {now} of {units.show(abs(case.until), quantity)}"
+    return f"`{name}` at {now} of {units.show(abs(part.until), quantity)}"

@@ -20,10 +20,17 @@ STOP_TIME = LoadInfo("stop_time", "stopping time", units.TIME, governing=True)
 STOP_ANGLE = LoadInfo("stop_angle", "stopping angle or distance", units.ANGLE, governing=True)
 START_SHARE = LoadInfo("start_share", "share of the target speed reached", units.SHARE, governing=True)
 STOP_SHARE = LoadInfo("stop_speed_share", "speed left, relative to the initial speed", units.SHARE, governing=True)
+PART_START_TIME = LoadInfo("part_start_time", "starting time", units.TIME, governing=True)
+PART_START_SHARE = LoadInfo("part_start_share", "share of the target speed reached", units.SHARE, governing=True)
+PART_STOP_TIME = LoadInfo("part_stop_time", "stopping time", units.TIME, governing=True)
+PART_STOP_SHARE = LoadInfo(
+    "part_stop_speed_share", "speed left, relative to the largest speed", units.SHARE, governing=True
+)
+CLUTCH_SLIP = LoadInfo("clutch_slip", "clutch slip speed / faster side", units.SHARE, governing=True)
 START_BY_TERMS = LoadInfo("start_time_by_terms", "starting time, efficiency per term", units.TIME)
 STOP_BY_TERMS = LoadInfo("stop_time_by_terms", "stopping time, efficiency per term", units.TIME)
-CLUTCH_SLIP = LoadInfo("clutch_slip", "clutch slip at the end / maximum speed", units.SHARE, headline=False)
 MOTOR_PEAK = LoadInfo("motor_torque_peak", "motor torque, maximum", units.TORQUE, governing=True)
+BRAKING = LoadInfo("braking_reserve", "motor braking torque / overhauling torque", units.RATIO, governing=True)
 MOTOR_RMS = LoadInfo("motor_torque_rms", "motor torque, rms", units.TORQUE, governing=True)
 FREQUENCY = LoadInfo("natural_frequency", "natural frequency", units.ANGULAR_FREQUENCY)
 SEPARATION = LoadInfo("resonance_separation", "excitation separation from resonance", units.SHARE, governing=True)
@@ -41,9 +48,14 @@ LOADS = (
     STOP_BY_TERMS,
     STOP_SHARE,
     STOP_ANGLE,
+    PART_START_TIME,
+    PART_START_SHARE,
+    PART_STOP_TIME,
+    PART_STOP_SHARE,
     CLUTCH_SLIP,
     MOTOR_PEAK,
     MOTOR_RMS,
+    BRAKING,
     SPEED_MAX,
     SPEED_END,
     SPEED_MIN,
@@ -67,17 +79,20 @@ def parts(spec: Drivetrain) -> Iterator[LoadInfo]:
             for name, end in ends.items():
                 force = info.quantity is units.TORQUE and not spec.turns(end)
                 yield info.of(name, units.FORCE if force else None)
-        elif info in (SPEED_MAX, SPEED_END, SPEED_MIN, ANGLE_END):
-            other = units.LENGTH if info is ANGLE_END else units.SPEED
+        elif info in (PART_START_TIME, PART_START_SHARE, PART_STOP_TIME, PART_STOP_SHARE):
             for name in spec.inertias:
-                yield info.of(name, None if spec.turns(name) else other)
-        elif info in (MOTOR_PEAK, MOTOR_RMS):
-            for name in spec.motors:
                 yield info.of(name)
         elif info is CLUTCH_SLIP:
             for name, brake in spec.brakes.items():
                 if brake.against != GROUND:
                     yield info.of(name)
+        elif info in (SPEED_MAX, SPEED_END, SPEED_MIN, ANGLE_END):
+            other = units.LENGTH if info is ANGLE_END else units.SPEED
+            for name in spec.inertias:
+                yield info.of(name, None if spec.turns(name) else other)
+        elif info in (MOTOR_PEAK, MOTOR_RMS, BRAKING):
+            for name in spec.motors:
+                yield info.of(name)
         elif info is WEAR:
             for name, link in spec.links.items():
                 if link.clearance is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ptmcalc.base.memory import remembered
-from ptmcalc.components.motor import AnyMotor, ConverterMotor
+from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.laws import backlash
 from ptmcalc.machines.drivetrain.spec import (
@@ -21,6 +21,7 @@ from ptmcalc.machines.drivetrain.spec import (
     OverSpeed,
     OverTime,
     RisingTorque,
+    Run,
     SineTorque,
     Start,
     Stop,
@@ -51,18 +52,45 @@ from ptmcalc.numerics.train.tree import Groups
 _SLOPES = 2.5
 """Steps in which the slope of a smooth torque curve is used, over its steepest."""
 REACHED = "start over"
-"""Name of the event of a start that is over; no part can be called so."""
+"""Name of the event of a start that is over, and what those of other parts begin with; no part can be called so."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A body that starts or stops with the scene; `until` is the speed that ends its start."""
+
+    body: int
+    until: float | None
+    event: str = REACHED
+    """name of the event of its target speed"""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A scene in numbers. `main` is the body the scene is about; `until` the speed that ends a start."""
+    """A scene in numbers. `main` is the body the scene is about; `until` the speed that ends a start.
+
+    `others` are bodies of parts that no gear and no link ties to the main one: with motors of their own in a start,
+    behind a brake or clutch in a stop.
+    """
 
     train: Train
     bodies: tuple[str, ...]
     main: int
     until: float | None
     stopping: bool
+    impulses: tuple[str, ...] = ()
+    """names of the impulses"""
+    others: tuple[Part, ...] = ()
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """The main body and the others."""
+        return (Part(self.main, self.until), *self.others)
+
+    @property
+    def clutches(self) -> tuple[Grip, ...]:
+        """The clutches that act in a start."""
+        return () if self.stopping else tuple(one for one in self.train.grips if one.second is not None)
 
     def index(self, name: str) -> int:
         """Index of an inertia."""
@@ -130,12 +158,6 @@ def rigid(case: Case) -> Case:
     return replace(case, train=_with_common_speeds(replace(train, meshes=tuple(meshes), springs=tuple(springs))))
 
 
-def same_shaft(case: Case, one: str, other: str) -> bool:
-    """Whether two inertias turn together but for the elasticity and play of links."""
-    joined = _joined(rigid(case).train)
-    return joined(case.index(one)) == joined(case.index(other))
-
-
 def _joined(train: Train) -> Callable[[int], int]:
     """The rigid part of each body."""
     of = list(range(len(train.bodies)))
@@ -160,6 +182,49 @@ def _with_common_speeds(train: Train) -> Train:
     return replace(train, bodies=bodies)
 
 
+def brake_of(spec: Drivetrain, case: Case, body: int) -> str | None:
+    """The first brake or clutch on the part of a body, or for the main part the first one of the file."""
+    tied = _tied(spec)
+    for name, one in spec.brakes.items():
+        sides = [case.index(side) for side in (one.at, one.against) if side != GROUND]
+        if body == case.main or tied[body] in {tied[side] for side in sides}:
+            return name
+    return None
+
+
+def _tied(spec: Drivetrain) -> list[int]:
+    """The part of each body, of those that gears and links tie together."""
+    at, part = list(spec.inertias).index, list(range(len(spec.inertias)))
+    pairs = [(gear.start, gear.end) for gear in spec.gears.values()]
+    pairs += [(one, two) for one, two in (link.between for link in spec.links.values())]
+    for one, two in pairs:
+        if GROUND not in (one, two):
+            old, new = part[at(one)], part[at(two)]
+            part = [new if member == old else member for member in part]
+    return part
+
+
+def turning_with(spec: Drivetrain, known: dict[int, float], *, together: bool) -> dict[int, float]:
+    """Speeds of inertias by index, with those of all that gears tie to them.
+
+    `together` includes links and clutches that are always closed.
+    """
+    at = list(spec.inertias).index
+    ties = [(at(gear.start), at(gear.end), gear.speed_ratio) for gear in spec.gears.values()]
+    if together:
+        pairs = [link.between for link in spec.links.values()]
+        pairs += [(clutch.at, clutch.against) for clutch in spec.brakes.values() if clutch.applied == "always"]
+        ties += [(at(one), at(two), 1.0) for one, two in pairs if GROUND not in (one, two)]
+    found = dict(known)
+    for _ in spec.inertias:
+        for inner, outer, ratio in ties:
+            if inner in found:
+                found.setdefault(outer, found[inner] / ratio)
+            elif outer in found:
+                found.setdefault(inner, found[outer] * ratio)
+    return found
+
+
 class _Builder:
     def __init__(self, spec: Drivetrain, scene: TrainScene, backlash: bool) -> None:
         self.spec, self.scene, self.backlash = spec, scene, backlash
@@ -168,17 +233,18 @@ class _Builder:
         self.main = self.names.index(spec.main(scene))
 
     def case(self) -> Case:
-        until = self._until()
+        until, bodies = self._until(), self._bodies()
+        others = tuple(self._others(bodies))
         train = Train(
-            bodies=self._bodies(),
+            bodies=bodies,
             meshes=tuple(self._meshes()),
             grips=tuple(self._grips()),
-            drives=tuple(self._drives(until)),
+            drives=(*self._drives(until), *(_watch(one) for one in others if one.until is not None)),
             guides=tuple(self._guides()),
             impulses=tuple(Impulse(self.at(one.at), one.time, one.size) for one in self.spec.impulses.values()),
         )
         train = replace(train, springs=tuple(self._springs(train)))
-        return Case(train, self.names, self.main, until, self.stopping)
+        return Case(train, self.names, self.main, until, self.stopping, tuple(self.spec.impulses), others)
 
     def at(self, name: str) -> int:
         return self.names.index(name)
@@ -196,18 +262,9 @@ class _Builder:
         """Speeds at the start: those the file writes, and of what turns with it; with the scene's speed, of all."""
         known = {self.at(name): body.speed for name, body in self.spec.inertias.items() if body.speed is not None}
         known |= {self.at(one.at): one.points[0].speed for one in self.spec.motions.values()}
-        ties = [(self.at(gear.start), self.at(gear.end), gear.speed_ratio) for gear in self.spec.gears.values()]
         if self.scene.speed is not None:
             known.setdefault(self.main, self.scene.speed)
-            pairs = (link.between for link in self.spec.links.values())
-            ties += [(self.at(one), self.at(two), 1.0) for one, two in pairs if GROUND not in (one, two)]
-        for _ in self.names:
-            for inner, outer, ratio in ties:
-                if inner in known:
-                    known.setdefault(outer, known[inner] / ratio)
-                elif outer in known:
-                    known.setdefault(inner, known[outer] * ratio)
-        return known
+        return turning_with(self.spec, known, together=self.scene.speed is not None)
 
     def _meshes(self) -> Iterator[Mesh]:
         for name, gear in self.spec.gears.items():
@@ -297,10 +354,30 @@ class _Builder:
                 law = Straight("speed", (0.0, 1.0), (0.0, -friction.viscous), extends=True)
                 yield Drive.of(f"{name} (viscous)", self.at(friction.at), law)
         if until is not None:
-            backward = until < 0
-            yield Drive.of(
-                REACHED, self.main, Signal.constant_from(0.0, Trigger(self.main, "speed", until, not backward))
-            )
+            yield _watch(Part(self.main, until))
+
+    def _others(self, bodies: tuple[Body, ...]) -> Iterator[Part]:
+        """One body of each part beside the main one that has to start or to stop."""
+        tied = _tied(self.spec)
+        known = {tied[self.main]}
+        for body in self._stopped(bodies) if self.stopping else [self.at(one.at) for one in self.spec.motors.values()]:
+            if tied[body] in known or isinstance(self.scene, Run):
+                continue
+            until = None if self.stopping else self._until_of(body)
+            if until is not None or self.stopping:
+                known.add(tied[body])
+                yield Part(body, until, f"{REACHED}, {self.names[body]}")
+
+    def _stopped(self, bodies: tuple[Body, ...]) -> Iterator[int]:
+        """Bodies that a brake or clutch acts on, of parts that move or are behind a clutch."""
+        tied = _tied(self.spec)
+        moving = {tied[index] for index, body in enumerate(bodies) if body.speed}
+        for one in self.spec.brakes.values():
+            if one.applied == "never":
+                continue
+            clutch = one.against != GROUND
+            sides = [self.at(one.at), *([self.at(one.against)] if clutch else [])]
+            yield from (side for side in sides if clutch or tied[side] in moving)
 
     def _gate(self, one: MotorOn) -> Signal | None:
         """When a motor drives; None where it never does in this scene."""
@@ -315,9 +392,11 @@ class _Builder:
         """Speed of the main inertia that ends a start."""
         if not isinstance(self.scene, Start):
             return None
-        if self.scene.until is not None:
-            return self.scene.until
-        speeds = [rated_speed(one.motor) for one in self.spec.motors.values() if self.at(one.at) == self.main]
+        return self.scene.until if self.scene.until is not None else self._until_of(self.main)
+
+    def _until_of(self, body: int) -> float | None:
+        """95 % of the speed of the slowest motor on a body."""
+        speeds = [_rated_speed(one) for one in self.spec.motors.values() if self.at(one.at) == body]
         known = [speed for speed in speeds if speed]
         return 0.95 * min(known, key=abs) if known else None
 
@@ -329,15 +408,16 @@ class _Builder:
             yield Guide(name, self.at(one.at), Signal(times, (*slopes, 0.0), (0.0,) * len(times)))
 
 
-def at_rest(spec: Drivetrain) -> bool:
-    """Whether the file gives no part a speed at the start."""
-    return not spec.motions and all(body.speed is None for body in spec.inertias.values())
+def _watch(part: Part) -> Drive:
+    """A torque of 0 that begins when a body has its target speed: its event."""
+    assert part.until is not None
+    trigger = Trigger(part.body, "speed", part.until, rising=part.until >= 0)
+    return Drive.of(part.event, part.body, Signal.constant_from(0.0, trigger))
 
 
-def rated_speed(motor: AnyMotor) -> float | None:
-    """Rated speed of a motor, or that without load [rad/s or m/s]."""
-    speed = getattr(motor, "speed", None)
-    return float(speed) if speed is not None else motor.no_load_speed
+def _rated_speed(one: MotorOn) -> float | None:
+    speed = getattr(one.motor, "speed", None)
+    return float(speed) if speed is not None else one.motor.no_load_speed
 
 
 def _stages(one: MotorOn) -> Iterator[Stage]:

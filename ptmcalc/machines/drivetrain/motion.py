@@ -10,15 +10,17 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
+from ptmcalc.machines.drivetrain import announced
 from ptmcalc.machines.drivetrain.loads import parts
-from ptmcalc.machines.drivetrain.model import REACHED, Case, rigid
+from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import PANEL, Record
 from ptmcalc.numerics.train import price
 from ptmcalc.numerics.train.ledger import Ledger, ledger
 from ptmcalc.numerics.train.modes import frequencies
-from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Smooth
+from ptmcalc.numerics.train.parts import HUNT_CROSSLEY, Grip, Smooth
+from ptmcalc.numerics.train.state import NO_FRICTION
 from ptmcalc.numerics.train.system import TrainSystem
 
 _CLOSES = 1e-9
@@ -29,6 +31,8 @@ _EVENTS, _ROUNDS = 5e-3, 3.0
 """Seconds that the events of a play take; what a smooth torque curve costs over a linear motion."""
 BESIDE = 0.3
 """Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
+LONG = 5.0
+"""Predicted seconds of a run up to which its window is made longer."""
 MOST_BESIDE = BESIDE / PANEL
 """Panels at which such a run is given up that was predicted to take less."""
 _LEAST_WORK, _MOST_TIMES = 2e5, 30.0
@@ -106,30 +110,48 @@ def run(
 
 
 def window(scene: TrainScene, case: Case) -> float:
-    """How long a scene is looked at [s].
+    """How long a scene is computed [s].
 
-    The `duration` of the file; else 1.2 times the rigid train's start or stop and ten periods of the lowest natural
-    frequency, so that the last oscillation reaches its peak, times `window_factor`.
+    The `duration` of the file; else the usual window, and after the last time that the file announces once more the
+    usual window, where that is computed within `LONG` seconds.
     """
     if scene.duration is not None:
         return scene.duration
+    usual = usual_window(scene, case)
+    last = max(announced.times(case).values(), default=0.0)
+    if last + _ringing(case) <= usual or seconds(case, last + usual) > LONG:
+        return usual
+    return last + usual
+
+
+def usual_window(scene: TrainScene, case: Case) -> float:
+    """Time in which a start or stop takes place and its last oscillation reaches its peak [s].
+
+    1.2 times the rigid train's start or stop and ten periods of the lowest natural frequency, times `window_factor`.
+    """
+    return getattr(scene, "window_factor", 1.0) * (1.2 * _rigid_time_of(_Identity(case)) + _ringing(case))
+
+
+def _ringing(case: Case) -> float:
+    """Ten periods of the lowest natural frequency [s]."""
     lowest = float(frequencies(case.train).min(initial=math.inf))
-    ringing = _PERIODS * 2 * math.pi / lowest if math.isfinite(lowest) else 0.0
-    return getattr(scene, "window_factor", 1.0) * (1.2 * _rigid_time(rigid(case)) + ringing)
+    return _PERIODS * 2 * math.pi / lowest if math.isfinite(lowest) else 0.0
 
 
 @remembered(64)
 def _rigid_time_of(key: "_Identity") -> float:
-    case, end = key.case, _FIRST
+    case, end, main = rigid(key.case), _FIRST, math.inf
     while end <= _LONGEST:
         try:
-            found = ended(run(case, end, 1e-6, most_work=most_work(case, end)))
+            course = run(case, end, 1e-6, most_work=most_work(case, end))
         except NumericsError:  # the solver that meets it says so; a plan only needs some time
             break
+        found, main = settled(course), ended(course)
         if math.isfinite(found):
             return max(found, 1e-3)
         end *= 4
-    return _LONGEST / 64
+    # a part that never comes to its end is followed without its links (`ending`)
+    return max(main, 1e-3) if math.isfinite(main) else _LONGEST / 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,30 +165,72 @@ class _Identity:
         return isinstance(other, _Identity) and self.case is other.case
 
 
-def _rigid_time(case: Case) -> float:
-    return _rigid_time_of(_Identity(case))
-
-
 def ended(course: Course) -> float:
-    """When the start or stop was over [s]; infinite where it was not."""
-    return stopped(course) if course.case.stopping else reached(course)
+    """When the start or stop of the main part was over [s]; infinite where it was not."""
+    return over(course, course.case.parts[0])
 
 
-def reached(course: Course) -> float:
-    """When the main inertia first had the speed that ends a start."""
-    times = (event.time for event in course.record.events if event.element == REACHED and event.after == "started")
+def settled(course: Course) -> float:
+    """When the start or stop of all parts was over and all clutches of a start were locked [s]; infinite before."""
+    parts = [over(course, part) for part in course.case.parts]
+    return max([*parts, *(locked(course, grip) for grip in course.case.clutches)])
+
+
+def over(course: Course, part: Part) -> float:
+    """When the start or stop of a part was over [s]; infinite where it was not."""
+    if course.case.stopping:
+        return stopped(course, part.body)
+    times = (event.time for event in course.record.events if event.element == part.event and event.after == "started")
     return float(next(times, math.inf))
 
 
-def stopped(course: Course) -> float:
-    """When the main inertia came to rest for good; 0 where it never moved, infinite where it still does."""
-    system, case = course.system, course.case
-    group = system.groups.of[case.main]
-    if course.record.mode.turning[group] != 0:
+def stopped(course: Course, body: int) -> float:
+    """When a body came to rest until the end; 0 where it never moved, infinite where it still does.
+
+    What only a clutch holds is at rest while the clutch is locked and its other side is at rest.
+    """
+    system = course.system
+    group = system.groups.of[body]
+    turning = course.record.mode.turning[group]
+    if turning == NO_FRICTION:
+        return _stopped_by_clutch(course, group)
+    if turning != 0:
         return math.inf
-    name = system.friction_name(group)
-    times = [event.time for event in course.record.events if event.element == name and event.after == "at rest"]
+    return _last_event(course, system.friction_name(group), "at rest")
+
+
+def _stopped_by_clutch(course: Course, group: int) -> float:
+    of = course.system.groups.of
+    for index, slip in zip(course.system.clutches, course.record.mode.clutches, strict=True):
+        grip = course.case.train.grips[index]
+        assert grip.second is not None
+        sides = (of[grip.first], of[grip.second])
+        if group in sides and slip == 0:
+            other = sides[0] if sides[1] == group else sides[1]
+            if course.record.mode.turning[other] == 0:
+                rest = _last_event(course, course.system.friction_name(other), "at rest")
+                return max(_last_event(course, grip.name, "locked"), rest)
+    return math.inf
+
+
+def locked(course: Course, grip: Grip) -> float:
+    """When a clutch locked until the end [s]; 0 where it never slipped, infinite where it still does."""
+    for index, slip in zip(course.system.clutches, course.record.mode.clutches, strict=True):
+        if course.case.train.grips[index] is grip:
+            return math.inf if slip else _last_event(course, grip.name, "locked")
+    return 0.0
+
+
+def _last_event(course: Course, element: str, after: str) -> float:
+    times = [event.time for event in course.record.events if event.element == element and event.after == after]
     return float(times[-1]) if times else 0.0
+
+
+def slip(course: Course, grip: Grip) -> float:
+    """Slip speed of a clutch at the end, relative to the speed of its faster side; 0 where it is locked."""
+    assert grip.second is not None
+    one, two = speeds(course, grip.first)[0], speeds(course, grip.second)[0]
+    return abs(one - two) / max(abs(one), abs(two)) if math.isinf(locked(course, grip)) else 0.0
 
 
 # -- what is read ---------------------------------------------------------------------------------------------------
@@ -201,7 +265,7 @@ def readings(spec: Drivetrain, course: Course) -> Readings:
             time = spec.checks.cycle_time or record.time
             found[of("motor_torque_rms", name)] = math.sqrt(max(float(square), 0.0) / time), None
     if case.stopping:
-        found["stop_time"] = stopped(course), None
+        found["stop_time"] = ended(course), None
         place = course.index("position", case.bodies[case.main])
         assert place is not None
         moved = abs(float(record.last[place] - record.first[place]))
@@ -209,8 +273,19 @@ def readings(spec: Drivetrain, course: Course) -> Readings:
         found["stop_angle"] = moved if rests else math.inf, None
         found["stop_speed_share"] = 0.0 if rests else share(*speeds(course, case.main)), None
     elif case.until is not None:
-        found["start_time"] = reached(course), None
-        found["start_share"] = reached_share(course, case.until), None
+        found["start_time"] = ended(course), None
+        found["start_share"] = reached_share(course, case.parts[0]), None
+    for part in case.others:
+        time = over(course, part)
+        if case.stopping:
+            left = 0.0 if math.isfinite(time) else share_of_fastest(course, part.body)
+            found[of("part_stop_time", case.bodies[part.body])] = time, None
+            found[of("part_stop_speed_share", case.bodies[part.body])] = left, None
+        else:
+            found[of("part_start_time", case.bodies[part.body])] = time, None
+            found[of("part_start_share", case.bodies[part.body])] = reached_share(course, part), None
+    for grip in case.clutches:
+        found[of("clutch_slip", grip.name)] = slip(course, grip), None
     return {name: _without_dust(name, found) for name in found}
 
 
@@ -226,12 +301,20 @@ def share(speed: float, of: float) -> float:
     return abs(speed / of) if of else math.inf
 
 
-def reached_share(course: Course, until: float) -> float:
-    """Largest speed of the main inertia towards the one that ends a start, relative to it; 1 where it is reached."""
-    if math.isfinite(reached(course)):
-        return 1.0
-    index = course.index("speed", course.case.bodies[course.case.main])
+def share_of_fastest(course: Course, body: int) -> float:
+    """Speed of a body at the end relative to its largest speed."""
+    index = course.index("speed", course.case.bodies[body])
     assert index is not None
+    return share(float(course.record.last[index]), course.largest(index)[0])
+
+
+def reached_share(course: Course, part: Part) -> float:
+    """Largest speed of a part towards the one that ends its start, relative to it; 1 where it is reached."""
+    if math.isfinite(over(course, part)):
+        return 1.0
+    index, until = course.index("speed", course.case.bodies[part.body]), part.until
+    assert index is not None
+    assert until is not None
     extreme = course.record.top if until > 0 else course.record.bottom
     return min(max(float(extreme.values[index]) / until, 0.0), 1.0)
 
@@ -242,7 +325,7 @@ def _without_dust(name: str, found: Readings) -> tuple[float, float | None]:
     if "[" not in name:
         return value, time
     alike = [abs(one) for other, (one, _) in found.items() if part_of(other) == part_of(name)]
-    return (0.0 if abs(value) <= _DUST * max(alike) else value), time
+    return (0.0 if math.isfinite(value) and abs(value) <= _DUST * max(alike) else value), time
 
 
 def part_of(name: str) -> tuple[str, str]:
@@ -292,10 +375,10 @@ def chattering(course: Course) -> dict[str, int]:
 
 def events(course: Course) -> tuple[Event, ...]:
     """The events of a run, for the report."""
-    main = course.case.bodies[course.case.main]
+    bodies = {part.event: course.case.bodies[part.body] for part in course.case.parts}
     return tuple(
-        Event(float(one.time), main, "starting", "at speed")
-        if one.element == REACHED
+        Event(float(one.time), bodies[one.element], "starting", "at speed")
+        if one.element.startswith(REACHED)
         else Event(float(one.time), one.element, one.before, one.after)
         for one in course.record.events
     )

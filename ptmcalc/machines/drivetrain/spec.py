@@ -521,8 +521,7 @@ class Stop(TrainScene, TransientScene):
 
     type: Literal["stop"] = "stop"
     speed: Annotated[AnySpeed | None, Assumed()] = None
-    """speed of that inertia at the start; the others turn with it. When left out, and no part of the file moves at the
-    start, the motor's rated speed is assumed"""
+    """speed of that inertia at the start; the others turn with it; that of the motor without load when left out"""
 
 
 AnyScene = Annotated[Run | Start | Stop, Field(discriminator="type")]

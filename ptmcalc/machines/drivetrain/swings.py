@@ -120,7 +120,7 @@ def swings(case: Case, end: float) -> Swings | None:
     pushes, courses = [], []
     for drive in train.drives:
         signal = signal_of(drive)
-        if drive.name != REACHED and signal is not None:
+        if not drive.name.startswith(REACHED) and signal is not None:
             course = _course(signal, end)
             push = modes.shapes[:, groups.of[drive.body]] * groups.ratio[drive.body]
             start = start - push * course.first / modes.frequencies**2

@@ -7,8 +7,9 @@ from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import backlash
 from ptmcalc.machines.drivetrain.by_terms import time_by_terms
-from ptmcalc.machines.drivetrain.loads import FAMILIES, MOVING
+from ptmcalc.machines.drivetrain.loads import BRAKING, FAMILIES, MOVING
 from ptmcalc.machines.drivetrain.model import case_of
+from ptmcalc.machines.drivetrain.overhauling import braking_reserve
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
 from ptmcalc.numerics.train.modes import frequencies
 
@@ -41,6 +42,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         if time is not None:
             name = "stop_time_by_terms" if isinstance(scene, Stop) else "start_time_by_terms"
             loads[name] = Found(Estimate.unknown(time))
+    loads |= braking_reserve(spec, scene)
     return Result(loads, work=1)
 
 
@@ -50,7 +52,7 @@ MODAL: Solver[Drivetrain, TrainScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset(),
-    gives=FAMILIES - MOVING,
+    gives=(FAMILIES - MOVING) | {BRAKING.name},
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
     source="linear vibration",

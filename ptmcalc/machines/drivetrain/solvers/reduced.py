@@ -31,7 +31,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     case = rigid(case_of(spec, scene, backlash=False))
     end = motion.window(scene, case_of(spec, scene))
     # what elasticity changes is known over the window only
-    doublings = ending.DOUBLINGS if spec.effects.get("elasticity") == "off" else 0
+    doublings = ending.DOUBLINGS if spec.effects.get("elasticity") == "off" or not spec.links else 0
     runs, beyond, state = ending.steady_runs(spec, scene, case, end, TOLERANCES[1], doublings)
     end = runs[0].record.time
     fine, loads = runs[0], bars.loads(spec, *runs)
