@@ -250,12 +250,14 @@ def _flips(
     found: dict[Key, tuple[AssumedReport, float, Verdict]] = {}
     for value, end, other in variants(spec, assumed):
         left: dict[str, set[tuple[str, str]]] = {}
+        readers = {one.label for one in spec.all_scenes if value.read_in(one)}
         for key, ruling in rulings.items():
-            if ruling.verdict in (Verdict.PASS, Verdict.FAIL) and key not in found and value.read_by(ruling.check):
+            settled_once = ruling.verdict in (Verdict.PASS, Verdict.FAIL) and key not in found
+            if settled_once and key[0] in readers and value.read_by(ruling.check):
                 left.setdefault(key[0], set()).add((key[1], key[2]))
         if not left:
             continue
-        again = plan(kind, other, [one for one in other.all_scenes if one.label in left and value.read_in(one)])
+        again = plan(kind, other, [one for one in other.all_scenes if one.label in left])
         ends = [purse.settle(kind, other, one, left[one.scene.label]) for one in again.scenes]
         found |= {
             key: (value, end, ruling.verdict)

@@ -300,7 +300,10 @@ class Study:
         try:
             spec, assumed = self._machine([Lanes(column) for column in self.points.values[where].T])
             found = self._ruled(spec, label, where.size)
+            scene = _scene(spec, label)
             for value in assumed:
+                if not value.read_in(scene) or not any(value.read_by(check) for check in found.checks.values()):
+                    continue
                 for end in (value.interval.low, value.interval.high):
                     other = self._ruled(spec.with_value(value.path, end), label, where.size)
                     for key, (said, *_) in found.rulings.items():
