@@ -75,7 +75,7 @@ def test_the_verdict_and_its_reason_stand_on_the_first_screen(report: FileReport
         f"{worst.verdict.value} {worst.code} {words.subject(worst)}, {scene}:",
         f"{words.number(worst.value.value, worst.quantity).split()[0]}",
         f"limit {words.SIGN[worst.sense]} {words.amount(worst.limit, worst.quantity)}",
-        f"margin {words.margin(worst)}",
+        *([f"margin {words.margin(worst)}"] if not (worst.reason and (worst.margin or 0) >= 0) else []),
         f"governing key: {dotted(worst.blame.path)} {place}",
     ]
     if worst.repair:
