@@ -759,7 +759,10 @@ def test_a_value_left_out_is_assumed_and_listed_with_its_interval(key: str) -> N
 def test_the_length_factor_is_assumed_unless_a_force_stands_for_it() -> None:
     by_table = loaded(without(template(), ("resistance", "secondary")))
     by_force = loaded(
-        changed(template(), resistance={"coefficient": 0.022, "start_factor": 1.2, "secondary_force": "4 kN"})
+        changed(
+            template(),
+            resistance={"coefficient": 0.022, "start_factor": 1.2, "rest_factor": 0.5, "secondary_force": "4 kN"},
+        )
     )
     assert [value.path for value in by_table.assumed] == [("resistance", "secondary")]
     assert by_force.assumed == ()
