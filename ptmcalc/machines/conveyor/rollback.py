@@ -1,5 +1,6 @@
 """Scenes in which a loaded belt that climbs can run back."""
 
+from ptmcalc.base.memory import kept_for
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
 
@@ -14,17 +15,25 @@ def rest_factor(spec: Conveyor) -> float:
 
 
 def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
-    """Whether a scene is the one in which the rollback torque is checked.
+    """Whether a scene is one in which the rollback torque is checked."""
+    return isinstance(scene, Hold) or scene == _asked_in(spec)
 
-    Each `backstop` scene is. Without one it is, of a belt that climbs, the first loaded scene that ends at rest or
-    begins with less than the full torque; of a file without scenes, the loaded run.
+
+@kept_for(64)
+def _asked_in(spec: Conveyor) -> ConveyorScene | None:
+    """The scene in which the rollback torque is checked without a `backstop` scene.
+
+    Of a belt that climbs, it is the first loaded scene that ends at rest or begins with less than the full torque; of a
+    file without scenes, the loaded run.
     """
     loaded = [one for one in spec.all_scenes if one.load in ("full", "uphill")]
-    if isinstance(scene, Hold) or any(isinstance(one, Hold) for one in loaded):
-        return isinstance(scene, Hold)
-    if not any(part.lift > 0 for part in spec.route.parts):
-        return False
-    return scene == next((one for one in loaded if _can_run_back(spec, one)), None)
+    for one in loaded:
+        if isinstance(one, Hold):
+            return None
+    for part in spec.route.parts:
+        if part.lift > 0:
+            return next((one for one in loaded if _can_run_back(spec, one)), None)
+    return None
 
 
 def _can_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:

@@ -1,6 +1,7 @@
 """Steady running on the torque curves of the motors: reserve of all drives, torque of each motor over its rated one."""
 
 from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.memory import kept_for
 from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
@@ -10,6 +11,7 @@ from ptmcalc.machines.conveyor.forces import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start
 
 
+@kept_for(64)
 def motors_of(spec: Conveyor) -> dict[str, Motors]:
     """The motors of each drive; empty where one of them has no curve."""
     drives = spec.all_drives
