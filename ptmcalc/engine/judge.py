@@ -44,7 +44,7 @@ def _off(kind: AnyKind, spec: MachineSpec, scene: Scene) -> Iterator[Ruling]:
     """The checks that the file switches off, with its reason."""
     for check in kind.checks:
         reason = spec.settings.switched_off(check.code) if check.applies_to(scene) else ""
-        if reason:
+        if reason and any(check.on(spec, scene)):
             yield Ruling(check, Verdict.OFF, None, None, ("checks", check.code, "off"), reason)
 
 

@@ -195,7 +195,7 @@ def _rulings(
     whole = only is None and verdicts is None
     rulings = tuple(
         found_to_fail(one, failure)
-        if (failure := settled.failure_of(one.check))
+        if one.verdict is not Verdict.OFF and (failure := settled.failure_of(one.check))
         else contradicted(one, settled.broken | settled.disjoint)
         for one in judge(kind, spec, settled.plan.scene, settled.estimates)
         if one.verdict is not Verdict.OFF or whole

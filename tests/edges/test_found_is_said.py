@@ -184,6 +184,14 @@ def test_a_failure_names_its_cure(name: str) -> None:
             assert one.repair or one.tried or "; " in one.reason or one.blame.path == ("brake",)
 
 
+@pytest.mark.parametrize("name", CASES)
+def test_a_check_switched_off_stays_off(name: str) -> None:
+    data, codes = CASES[name]
+    off = {code: {"off": "held by others"} for code in codes}
+    report = report_of({**data, "checks": {**(data.get("checks") or {}), **off}})
+    assert {one.verdict for _, one in report.judgements if one.code in codes} == {Verdict.OFF}
+
+
 MOTIONS = frozenset({"NUM110"})
 """Findings of a motion that does not come about."""
 

@@ -24,8 +24,10 @@ _STATE = ("along", "across", "along_rate", "across_rate")
 _INHERITED = 10.0
 """By how much an error of the state with which a piece begins may have grown by the end of it."""
 _AT_SPEED = 1e-9
-_STILL = 1e-9
-"""Share of the way within which a crane that its load drags stands."""
+_STANDS = 1e-9
+"""Share of the full speed below which the crane stands."""
+_WIDEST = math.radians(80.0)
+"""Amplitude up to which the horizontal pull of the load stays below 2 m g sin(a/2) in every part of the swing."""
 _PARTS = 3
 """Times the usual time after a stop that are looked at more where the load still drags the crane."""
 _MOST_STEPS = 3000
@@ -256,11 +258,7 @@ def _against(spec: SlewingCrane, scene: SlewingScene, since: float, *, gust: boo
 
 def _stop(march: _March, rigid: float) -> tuple[float, float, float]:
     """The stop: when the crane stands for the first time, the farthest position it gets to, and how far a load that
-    swings on may still drag it through its closed brake after the window.
-
-    What is dragged from swing to swing falls at least as the inverse square of their number, since the swing loses
-    energy by it: all that follows is less than the last part times the number of parts that have been.
-    """
+    swings on may still drag it through its closed brake after the window."""
     spec, brake = march.spec, march.spec.brake
     after = _PERIODS_AFTER * _period(spec)
     after += (march.scene.window_factor - 1) * (march.time + rigid + after)
@@ -291,24 +289,51 @@ def _stop(march: _March, rigid: float) -> tuple[float, float, float]:
         motion = swing(march.case(None, blown, gear, outer), longest + after, most_steps=_MOST_STEPS)
         stands = _stands(motion)
         if stands is not None and stands <= longest:
-            part = _PERIODS_AFTER * _period(spec)
-            dragged = _dragged(motion, part)
-            if dragged > _STILL * march.position:
-                more = _PARTS * part
-                motion = swing(march.case(None, blown, gear, outer), longest + after + more, most_steps=_MOST_STEPS)
-                march.keep(motion, longest + after + more, 0.0)
-                far = _dragged(motion, part)
-                return stands, motion.largest("position").value, far * (motion.end - stands) / part
+            resists = (
+                full / (spec.gear.back if on_motor else 1.0) + spec.friction - model.driving_wind(spec, march.scene)
+            )
+            if _way_left(march, motion, resists):
+                longest += _PARTS * _PERIODS_AFTER * _period(spec)
+                motion = swing(march.case(None, blown, gear, outer), longest + after, most_steps=_MOST_STEPS)
             march.keep(motion, longest + after, 0.0)
-            return stands, motion.largest("position").value, 0.0
+            return stands, motion.largest("position").value, _way_left(march, motion, resists)
         longest *= _LONGER
     raise NumericsError("NUM102", f"the crane does not stop within {longest:.3g} s")
 
 
-def _dragged(motion: Swing, lately: float) -> float:
-    """By how much the farthest position has grown in the last part of a motion."""
-    before = motion.largest("position", 0.0, motion.end - lately).value
-    return max(motion.largest("position", 0.0, motion.end).value - before, 0.0)
+def _way_left(march: _March, motion: Swing, resists: float) -> float:
+    """How far a load that swings on can still drag the crane through its closed brake, after the motion [rad].
+
+        0   where m g R sin a cos a <= H
+        2 (P - H)/(k R^2)   where P = 2 m g R sin(a/2) <= 2 H,  k = m g/L
+        (m g L (1 - cos a) + J w^2/2)/H   else, and for a crane that turns yet
+
+    a: amplitude of the swing by its energy E; its plane turns, so that all of it may come to pull along the circle. H:
+    what resists, brake and friction less the wind. J: of the crane and its motor.
+
+    **Range** amplitudes up to 80 degrees; above, and where nothing resists, no bound.
+    **Error** an upper bound; of a swing that only just drags the crane, twice what follows.
+    **Source** derived. A turn phi of the crane takes W <= P phi - k R^2 phi^2/2 of the energy E, since the pull is at
+    most R sqrt(2 k E); it ends where W = H phi. Of several turns the last one begins with P >= H, and all of them
+    together take H phi: the sum is largest for a single turn while P <= 2 H, and E/H beyond.
+    """
+    load, spec = march.spec.load, march.spec
+    assert load is not None
+    assert load.rope_length is not None
+    swings, turns = (motion.known(name, motion.end) for name in ("amplitude", "speed"))
+    angle, speed = swings.value + swings.bar, abs(turns.value) + turns.bar
+    if resists <= 0 or angle > _WIDEST:
+        return math.inf
+    weight, stands = model.hanging_mass(spec, march.scene) * spec.gravity, speed <= _STANDS * spec.speed
+    pull = math.sin(angle) * math.cos(angle) if angle < math.pi / 6 else 2 * math.sin(angle / 2)
+    if stands and weight * load.radius * pull <= resists:
+        return 0.0
+    most = 2 * weight * load.radius * math.sin(angle / 2)
+    if stands and most <= 2 * resists:
+        return 2 * (most - resists) / (weight / load.rope_length * load.radius**2)
+    inertia = model.structure_inertia(spec) + model.rotor_at_axis(spec)
+    energy = weight * load.rope_length * (1 - math.cos(angle)) + inertia * speed**2 / 2
+    return energy / resists
 
 
 def _stands(motion: Swing) -> float | None:

@@ -71,6 +71,8 @@ class Simulated(Course):
     """when each phase begins, and its name"""
     share: float = 0.0
     """numerical bar of the pull over its size"""
+    later: State | None = None
+    """bounds of the states in which a crane that stands is dragged again after the window"""
 
     def extreme(self, of: Reading, largest: bool) -> Worst:
         assert self.seen is not None
@@ -81,6 +83,8 @@ class Simulated(Course):
         value = float(values[k])
         bar = self._unseen(heights, k) + self.share * abs(value) if math.isfinite(value) else 0.0
         estimate = Estimate.exact(value) if bar == 0 else Estimate.within(value, bar)
+        if self.later is not None:
+            estimate = _with_later(estimate, np.asarray(of(self.later), float), largest)
         time = float(self.times[k])
         phase = [name for begins, name in self.phases_of if begins <= time][-1]
         state = State(*(np.atleast_1d(np.asarray(part))[[k]] for part in self.seen))
@@ -371,6 +375,15 @@ def continued(case: Case, leg: Leg) -> Case:
     return replace(case, axis=axis, load=load)
 
 
+def _with_later(seen: Estimate, later: FloatArray, largest: bool) -> Estimate:
+    """An extreme with what it can still come to after the window."""
+    far = float(later.max() if largest else later.min())
+    if not (far > seen.high if largest else far < seen.low):
+        return seen
+    low, high = (seen.low, far) if largest else (far, seen.high)
+    return replace(seen, low=low, high=high, model=seen.model + abs(far - (seen.high if largest else seen.low)))
+
+
 # -- what is read off -----------------------------------------------------------------------------------------------
 
 
@@ -410,8 +423,38 @@ def _read(motion: Motion, legs: list[Leg], reached: float, begins: float, window
         breaks=breaks,
         phases_of=named,
         share=share,
+        later=_dragged_again(motion, last, times, state),
     )
     return Run(course, tuple(legs), findings, energy)
+
+
+def _dragged_again(motion: Motion, last: Leg, times: FloatArray, seen: State) -> State | None:
+    """Bounds of the states in which a load that swings on drags the standing crane after the window; none where the
+    last period shows that it does not.
+
+    The pull P at which the brakes or the friction give way is the same every time. The swing only loses energy, until
+    its amplitude just reaches P: the vertical part of the rope force goes from what it was to
+
+        m g (1 + sqrt(1 - (2 P/(m g))^2))/2
+
+    With wind on the load or on a slope, it stays within a share 2 a^2 of what it was (to order a^2; a: the largest
+    angle of the last period).
+    """
+    period = 2 * math.pi * math.sqrt(motion.length / motion.gravity)
+    since = max(last.lasts - period, 0.0)
+    moves = [one.time for one in last.swing.events if one.before == "rest" and since <= one.time <= last.lasts]
+    if motion.ramp is not None or motion.starts or not moves:
+        return None
+    marks = [int(np.searchsorted(times, (last.start + mark) * (1 - 2 * _SIDE))) for mark in moves]
+    at = State(*(np.atleast_1d(np.asarray(part))[marks] for part in seen))
+    if motion.wind_on_load or motion.slope:
+        angle = last.swing.farthest("along", since, last.lasts)
+        share = 2 * (abs(angle.value) + angle.bar) ** 2
+        bounds = [at.weight * (1 - share), at.weight * (1 + share)]
+    else:
+        weight = motion.load * motion.gravity
+        bounds = [weight * (1 + np.sqrt(np.maximum(1 - (2 * at.pull / weight) ** 2, 0.0))) / 2]
+    return State(*(np.concatenate([part] * len(bounds)) for part in at))._replace(weight=np.concatenate(bounds))
 
 
 def _time_bar(motion: Motion, last: Leg, at: float) -> float:
