@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 
-import pytest
+from support.each import over
 
 from ptmcalc.base.diagnostic import CODES
 from ptmcalc.cli.explain import explanation
@@ -17,7 +17,7 @@ SOLVERS = [solver for kind in KINDS for solver in kind.solvers]
 NAMES = [*(effect.name for effect in EFFECTS), *(solver.name for solver in SOLVERS)]
 TITLES = {code: text.title for code, text in CODES.items()} | {check.code: check.title for check in CHECKS}
 
-of_every_kind = pytest.mark.parametrize("kind", KINDS, ids=kind_names())
+of_every_kind = over(dict(zip(kind_names(), KINDS, strict=True)))
 
 
 def test_codes_are_unique_over_all_kinds_and_findings() -> None:
@@ -25,12 +25,12 @@ def test_codes_are_unique_over_all_kinds_and_findings() -> None:
     assert [code for code, times in counted.items() if times > 1] == []
 
 
-@pytest.mark.parametrize("code", TITLES)
+@over(TITLES.keys())
 def test_a_code_is_three_letters_and_three_digits(code: str) -> None:
     assert re.fullmatch("[A-Z]{3}[0-9]{3}", code)
 
 
-@pytest.mark.parametrize(("code", "title"), TITLES.items(), ids=TITLES)
+@over({code: (code, title) for code, title in TITLES.items()})
 def test_a_title_is_a_noun_phrase(code: str, title: str) -> None:
     """`drive pulley traction reserve`: no sentence of its own, and nothing that cannot be there."""
     assert title == title.strip()
@@ -40,7 +40,7 @@ def test_a_title_is_a_noun_phrase(code: str, title: str) -> None:
     assert len(title) <= 60
 
 
-@pytest.mark.parametrize("code", CODES)
+@over(CODES.keys())
 def test_a_finding_says_why_and_what_to_do_in_sentences(code: str) -> None:
     for text in (CODES[code].why, CODES[code].fix):
         assert text.endswith(".")
@@ -93,7 +93,7 @@ def test_the_parts_of_a_kind_fit_together(kind: AnyKind) -> None:
 EXPLAINED = [*TITLES, *NAMES]
 
 
-@pytest.mark.parametrize("name", EXPLAINED)
+@over(EXPLAINED)
 def test_everything_that_has_a_name_is_explained(name: str) -> None:
     text = explanation(name)
     assert text.startswith(f"{name}: ")
@@ -101,13 +101,13 @@ def test_everything_that_has_a_name_is_explained(name: str) -> None:
     assert len(text.splitlines()) >= 3
 
 
-@pytest.mark.parametrize("code", TITLES)
+@over(TITLES.keys())
 def test_a_code_is_found_in_small_letters_too(code: str) -> None:
     assert explanation(code.lower()) == explanation(code)
     assert explanation(code).startswith(f"{code}: {TITLES[code]}")
 
 
-@pytest.mark.parametrize("name", [*NAMES, *(check.code for check in CHECKS)])
+@over([*NAMES, *(check.code for check in CHECKS)])
 def test_range_error_and_source_are_explained(name: str) -> None:
     for part in ("**Range**", "**Error**", "**Source**"):
         assert part in explanation(name)

@@ -2,7 +2,7 @@
 
 To write the outputs anew, and then to read the difference before it is committed:
 
-    PTMCALC_UPDATE_DOCS=1 python -m pytest -n 0 tests/house/test_docs.py
+    python tests/update.py docs
 """
 
 import ast
@@ -21,7 +21,7 @@ from ptmcalc.engine.registry import kind_names, load_kind
 DOCS = sorted((ROOT / "docs").rglob("*.md"))
 RUNNING = [path for path in [ROOT / "README.md", *DOCS] if any(True for _ in steps(path.read_text("utf-8")))]
 CHANGES_THE_PACKAGE = "extend.md"
-UPDATE = bool(os.environ.get("PTMCALC_UPDATE_DOCS"))
+UPDATE = bool(os.environ.get("PTMCALC_UPDATE"))
 
 
 def named(path: Path) -> str:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import pytest
+from support.each import over
 
 from ptmcalc import laws
 from ptmcalc.base.units import unit_of
@@ -58,7 +58,7 @@ def test_there_are_laws_and_kinds_to_look_at() -> None:
     assert len(OF_KINDS) > 20
 
 
-@pytest.mark.parametrize("function", [*LAWS.values(), *OF_KINDS.values()], ids=[*LAWS, *OF_KINDS])
+@over(LAWS | OF_KINDS)
 def test_range_error_and_source_are_told(function: Function) -> None:
     text = inspect.getdoc(function) or ""
     for part in PARTS:
@@ -69,7 +69,7 @@ def test_range_error_and_source_are_told(function: Function) -> None:
     assert positions == sorted(positions)
 
 
-@pytest.mark.parametrize("function", [*LAWS.values(), *OF_KINDS.values()], ids=[*LAWS, *OF_KINDS])
+@over(LAWS | OF_KINDS)
 def test_the_first_sentence_stands_on_its_own(function: Function) -> None:
     """`explain` and an editor show it: it ends within its paragraph, before any equation."""
     first = (inspect.getdoc(function) or "").partition("\n\n")[0]
@@ -77,14 +77,14 @@ def test_the_first_sentence_stands_on_its_own(function: Function) -> None:
     assert "**" not in first
 
 
-@pytest.mark.parametrize("function", list(LAWS.values()), ids=LAWS)
+@over(LAWS)
 def test_a_law_shows_its_equation(function: Function) -> None:
     """In front of the arguments; a table is a law too, C = C(L)."""
     head = (inspect.getdoc(function) or "").partition("Args:")[0]
     assert re.search(r"\S[^\n]*( = |/|\^|: )[^\n]*\S", head), head
 
 
-@pytest.mark.parametrize("function", list(LAWS.values()), ids=LAWS)
+@over(LAWS)
 def test_a_law_names_every_argument_in_order_with_its_unit(function: Function) -> None:
     text = inspect.getdoc(function) or ""
     told = dict(ARGUMENT.findall(text.partition("Args:")[2].partition("Returns:")[0]))
@@ -96,7 +96,7 @@ def test_a_law_names_every_argument_in_order_with_its_unit(function: Function) -
         assert UNIT.search(told[name]) or not number, f"{name} has no unit in brackets"
 
 
-@pytest.mark.parametrize("function", list(LAWS.values()), ids=LAWS)
+@over(LAWS)
 def test_a_law_says_what_it_returns(function: Function) -> None:
     text = inspect.getdoc(function) or ""
     returned = text.partition("Returns:\n")[2].partition("**Range**")[0]
@@ -105,7 +105,7 @@ def test_a_law_says_what_it_returns(function: Function) -> None:
     assert UNIT.search(returned) or not numbers, returned
 
 
-@pytest.mark.parametrize("function", list(LAWS.values()), ids=LAWS)
+@over(LAWS)
 def test_units_in_brackets_are_units(function: Function) -> None:
     text = inspect.getdoc(function) or ""
     block = text.partition("Args:")[2].partition("**Range**")[0]
@@ -113,14 +113,14 @@ def test_units_in_brackets_are_units(function: Function) -> None:
         assert unit_of(unit)[0] == 1.0, f"[{unit}] is not an SI unit of the table"
 
 
-@pytest.mark.parametrize("function", list(LAWS.values()), ids=LAWS)
+@over(LAWS)
 def test_no_description_of_a_machine_stands_in_the_signature_of_a_law(function: Function) -> None:
     for annotation in inspect.get_annotations(function, eval_str=True).values():
         assert "ptmcalc.spec" not in str(annotation)
         assert "ptmcalc.machines" not in str(annotation)
 
 
-@pytest.mark.parametrize("kind", KINDS, ids=kind_names())
+@over(dict(zip(kind_names(), KINDS, strict=True)))
 def test_what_explain_prints_besides_docstrings_is_written(kind: AnyKind) -> None:
     for check in kind.checks:
         for text in (check.title, check.what, check.why, check.formula, check.source):

@@ -4,7 +4,7 @@ Examples of checks, effects, solvers and loads are in `examples.json` of each ki
 are held by `test_specs.py`, which checks those files anyway; those with a design file of their own are run here. To
 write them anew after numbers have changed on purpose, and to find some for names that are new:
 
-    PTMCALC_UPDATE_EXAMPLES=1 python -m pytest -n 0 tests/house/test_specs.py tests/house/test_explain.py
+    python tests/update.py examples
 """
 
 import re

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike
+from support.each import over
 
 import ptmcalc.laws
 from ptmcalc.laws import (
@@ -90,6 +91,7 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.laws.mast_modes import Mast
 
 SEEDS = range(5)
+SHAPES_OF_ARRAYS = [(7,), (2, 3), (1,), (0,)]
 Law = Callable[..., Any]
 Dimension = tuple[int, int, int]
 """Exponents of mass, length and time."""
@@ -131,6 +133,10 @@ def argument_units(law: Law) -> dict[str, str]:
     """Unit of every argument that has one."""
     entries = re.split(r"^    (\w+): ", section(law, "Args"), flags=re.MULTILINE)[1:]
     return {name: units(text)[-1] for name, text in zip(entries[::2], entries[1::2], strict=True) if units(text)}
+
+
+def array_arguments(law: Law) -> list[str]:
+    return [name for name, p in inspect.signature(law).parameters.items() if p.annotation == ArrayLike]
 
 
 def all_laws() -> dict[str, Law]:
@@ -761,8 +767,9 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
 }  # fmt: skip
 """Calls of every law, in its range and over its branches."""
 
-ONE_CALL_EACH = [pytest.param(law, call, id=f"{law.__name__}-{k}") for law, calls in CALLS.items()
-                 for k, call in enumerate(calls)]  # fmt: skip
+ONE_CALL_EACH = {f"{law.__name__}-{k}": (law, call) for law, calls in CALLS.items() for k, call in enumerate(calls)}
+BY_NAME = {law.__name__: law for law in CALLS}
+OF_ARRAYS = {name: law for name, law in BY_NAME.items() if array_arguments(law)}
 TABLES_IN_METRES = {
     backlash.new_clearance,
     resistance.length_factor,
@@ -928,7 +935,7 @@ def test_every_law_is_called_here() -> None:
     assert set(CALLS) == set(LAWS.values())
 
 
-@pytest.mark.parametrize("law", CALLS, ids=lambda law: law.__name__)
+@over(BY_NAME)
 def test_every_number_has_a_unit(law: Law) -> None:
     parameters = inspect.signature(law).parameters
     assert list(parameters) == re.findall(r"^    (\w+): ", section(law, "Args"), re.MULTILINE)
@@ -942,7 +949,7 @@ def test_every_number_has_a_unit(law: Law) -> None:
         assert dimension(unit) is not None
 
 
-@pytest.mark.parametrize(("law", "call"), ONE_CALL_EACH)
+@over(ONE_CALL_EACH)
 def test_other_units_of_mass_length_and_time_give_the_same_physics(law: Law, call: tuple[Any, ...]) -> None:
     of, names, here = argument_units(law), list(inspect.signature(law).parameters), list(numbers_of(law(*call)))
     results = units(section(law, "Returns")) or ["1"]  # a result without a unit is a pure number
@@ -958,12 +965,7 @@ def test_other_units_of_mass_length_and_time_give_the_same_physics(law: Law, cal
         assert list(numbers_of(law(*converted))) == pytest.approx(expected, rel=1e-9), seed
 
 
-def array_arguments(law: Law) -> list[str]:
-    return [name for name, p in inspect.signature(law).parameters.items() if p.annotation == ArrayLike]
-
-
-@pytest.mark.parametrize("law", [law for law in CALLS if array_arguments(law)], ids=lambda law: law.__name__)
-@pytest.mark.parametrize("shape", [(7,), (2, 3), (1,), (0,)])
+@over({f"{name}, {shape}": (law, shape) for name, law in OF_ARRAYS.items() for shape in SHAPES_OF_ARRAYS})
 def test_an_array_gives_what_its_numbers_give_one_by_one(law: Law, shape: tuple[int, ...]) -> None:
     rng = np.random.default_rng(8)
     names = list(inspect.signature(law).parameters)
@@ -979,7 +981,7 @@ def test_an_array_gives_what_its_numbers_give_one_by_one(law: Law, shape: tuple[
             assert float(whole[index]) == pytest.approx(float(one), rel=1e-14, abs=1e-300)
 
 
-@pytest.mark.parametrize("law", [law for law in CALLS if array_arguments(law)], ids=lambda law: law.__name__)
+@over(OF_ARRAYS)
 def test_arguments_are_left_as_they_were(law: Law) -> None:
     names = list(inspect.signature(law).parameters)
     given = dict(zip(names, CALLS[law][0], strict=True))
@@ -998,9 +1000,7 @@ def test_the_errors_tested_are_those_documented() -> None:
     assert documented == {law: {error.__name__ for error, _ in calls} for law, calls in REFUSED.items()}
 
 
-@pytest.mark.parametrize(
-    ("law", "error", "call"), [(law, *refused) for law, calls in REFUSED.items() for refused in calls]
-)
+@over({f"{law.__name__}-{k}": (law, *refused) for law, calls in REFUSED.items() for k, refused in enumerate(calls)})
 def test_documented_errors_are_raised(law: Law, error: type[Exception], call: tuple[Any, ...]) -> None:
     with pytest.raises(error, match=r"\w+ \w+"):  # with a sentence
         law(*call)

@@ -2,7 +2,7 @@
 
 A test whose rows are not on the page as they come out fails. To write the page anew, all of it, in one process:
 
-    PTMCALC_UPDATE_VALIDATION=1 python -m pytest -n 0 tests/reference
+    python tests/update.py validation
 """
 
 from collections.abc import Iterator

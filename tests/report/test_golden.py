@@ -2,7 +2,7 @@
 
 The files stand in `tests/golden/`. To write them anew, and then to read the difference before it is committed:
 
-    PTMCALC_UPDATE_GOLDEN=1 python -m pytest tests/report/test_golden.py
+    python tests/update.py golden
 
 Numbers may differ as far as another processor or mathematical library makes them: floats of the JSON by 1e-6 of
 their value, decimals of a text by one unit of their last digit.
@@ -40,7 +40,7 @@ DECIMAL = re.compile(r"[-+]?[0-9]+\.[0-9]+(?:e[-+][0-9]+)?")
 
 def golden(path: Path, text: str) -> str:
     """The snapshot, written first when asked for."""
-    if os.environ.get("PTMCALC_UPDATE_GOLDEN"):
+    if os.environ.get("PTMCALC_UPDATE"):
         path.write_text(text, encoding="utf-8")
     return path.read_text("utf-8")
 

@@ -142,7 +142,7 @@ def pages_of(kind: AnyKind, wanted: Iterable[str]) -> Iterator[str]:
 
 # -- stored ---------------------------------------------------------------------------------------------------------
 
-UPDATE = bool(os.environ.get("PTMCALC_UPDATE_EXAMPLES"))
+UPDATE = bool(os.environ.get("PTMCALC_UPDATE"))
 
 
 def stored(kind: AnyKind) -> dict[str, Kept]:

@@ -18,7 +18,7 @@ import pytest
 from support.command import ROOT
 
 PAGE = ROOT / "docs" / "validation.md"
-UPDATE = bool(os.environ.get("PTMCALC_UPDATE_VALIDATION"))
+UPDATE = bool(os.environ.get("PTMCALC_UPDATE"))
 PASSED = pytest.StashKey[bool]()
 Row = tuple[str, str, str, str, str]
 """What, expected, computed, difference, tolerance."""
@@ -34,7 +34,7 @@ _HEAD = """\
 Every number of a worked case that a test in `tests/reference/` compares, as that test wrote it here: what was expected
 (printed in the literature to that many digits, or a closed form), what ptmcalc computes, the difference, and the
 tolerance of the test. Differences below 1e-9 are rounding and written as such. Each test fails when its rows on this
-page are not what it finds; `PTMCALC_UPDATE_VALIDATION=1 python -m pytest -n 0 tests/reference` writes the page anew.
+page are not what it finds; `python tests/update.py validation` writes the page anew.
 
 The sources are named in the texts of the tests; `BW`, `CH` and `ST` are cases of belts, chains and stops, `C` those of
 cranes, hoists, drives and shafts. A comparison without a number on one side (an order of events, a verdict) is in the
