@@ -10,7 +10,7 @@ from ptmcalc.contract.study import Points
 from ptmcalc.engine.check import Options
 from ptmcalc.engine.load import load_file
 from ptmcalc.engine.points import BLOCK, Study, varied_key
-from ptmcalc.machines.conveyor.solvers import statics
+from ptmcalc.machines.conveyor.running import statics
 
 
 def test_a_hundred_thousand_machines_are_a_few_runs_for_each_block() -> None:

@@ -12,7 +12,7 @@ from support.machines import BW_02, report_of, scene_of, spec_of
 from ptmcalc.engine.check import Options, check_file
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.solvers import characteristics
+from ptmcalc.machines.conveyor.waves import characteristics
 
 SPECS = Path(__file__).parents[2] / "specs"
 

@@ -41,10 +41,10 @@ from ptmcalc.machines.conveyor.model import (
     damping_change,
     starting_force,
 )
-from ptmcalc.machines.conveyor.moving import AFTER_START, moving
-from ptmcalc.machines.conveyor.solvers import network
-from ptmcalc.machines.conveyor.solvers.characteristics import CHARACTERISTICS
+from ptmcalc.machines.conveyor.motion import AFTER_START, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.waves import network
+from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 
 ON_TRIAL = {"conveyor": ("takeup_mass", "viscous_idlers", "coulomb_idlers", "belt_damping", "moving_belt")}
 KIND = load_kind("conveyor")

@@ -17,9 +17,9 @@ from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import Settled, settle
 from ptmcalc.machines.conveyor.model import start_case
-from ptmcalc.machines.conveyor.solvers.rigid import RIGID
-from ptmcalc.machines.conveyor.solvers.two_interval import TWO_INTERVAL
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.starting.rigid import RIGID
+from ptmcalc.machines.conveyor.waves.two_interval import TWO_INTERVAL
 
 ON_TRIAL = {"conveyor": ("rigid", "two_interval", "belt_wave", "slip")}
 KIND = load_kind("conveyor")

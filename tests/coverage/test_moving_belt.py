@@ -16,9 +16,9 @@ from support.conveyors import random_conveyor, text
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.model import TRAVEL_THRESHOLD, belt_line, belt_travel
-from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.solvers import network
+from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.waves import network
 
 CELLS = 240
 MOST_ROUNDS = 16

@@ -15,8 +15,8 @@ from support.machines import spec_of
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.moving import moving
-from ptmcalc.machines.conveyor.solvers import network
+from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.waves import network
 
 ON_TRIAL = {"conveyor": ("network", "running_network")}
 KIND = load_kind("conveyor")

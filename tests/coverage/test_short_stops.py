@@ -16,8 +16,8 @@ from support.machines import check_of, load_of, report_of, scene_of, spec_of
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor import short_stops
-from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, moving, rounds
+from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, moving, rounds
+from ptmcalc.machines.conveyor.stopping import stiff_bounds
 
 ON_TRIAL = {"conveyor": ("stiff_stop",)}
 KIND = load_kind("conveyor")
@@ -85,11 +85,11 @@ def drawn_cases(count: int, seed: int) -> list[Case]:
         rig = _drawn(rng)
         spec = spec_of(rig.data({"type": "stop"}))
         (scene,) = spec.all_scenes
-        stop, case = short_stops.short_stop(spec, scene), moving(spec, scene)
+        stop, case = stiff_bounds.short_stop(spec, scene), moving(spec, scene)
         if stop is None or not 20 < case.window / case.line.contour_time < 200:
             continue
-        values = {name: Estimate.exact(value) for name, value in short_stops.loads(stop).items()}
-        offsets = short_stops.offsets(stop, values)
+        values = {name: Estimate.exact(value) for name, value in stiff_bounds.loads(stop).items()}
+        offsets = stiff_bounds.offsets(stop, values)
         claims = {name: one.widened(offsets[name]) for name, one in values.items() if name in offsets}
         window = (claims["stop_time"].high if claims["stop_time"].bounded else case.window) + 2 * rig.contour()
         motion = rig.stopped(window, ELEMENTS)

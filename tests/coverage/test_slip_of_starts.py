@@ -17,8 +17,8 @@ from support.machines import changed, spec_of
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Result, of
 from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.solvers import characteristics
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.waves import characteristics
 
 TWINS = tuple(sorted(PER_DRIVE - SLIPS))
 STRAIGHT = frozenset({"belt_wave", "tail_jump", "tail_mass", "slip"})

@@ -29,11 +29,12 @@ from support.conveyors import random_conveyor, text
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor import bounds, effects
+from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
 from ptmcalc.machines.conveyor.model import start_case
-from ptmcalc.machines.conveyor.solvers.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 
 ON_TRIAL = {"conveyor": ("characteristics", "tail_jump", "tail_mass", "sag")}
 KIND = load_kind("conveyor")

@@ -140,7 +140,7 @@ def test_lanes_that_differ_from_files_do_not_count() -> None:
 
 
 def test_what_code_cannot_do_by_lanes_is_left_to_files() -> None:
-    with mock.patch("ptmcalc.machines.conveyor.solvers.statics.number", float):
+    with mock.patch("ptmcalc.machines.conveyor.running.statics.number", float):
         made = study(loaded_file(), {"takeup.tension": np.linspace(10e3, 30e3, 4)}, "run_loaded")
         made.run_by_lanes()
     assert made.points.notes == ["scene `run_loaded` is computed point by point: LanesError: lanes have no float"]

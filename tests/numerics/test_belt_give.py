@@ -11,8 +11,8 @@ from support.machines import spec_of
 from support.sagging_scenes import Swing, swing
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.machines.conveyor.cells import set_up
-from ptmcalc.machines.conveyor.moving import moving
+from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.waves.cells import set_up
 from ptmcalc.numerics.belt.course import Course, Reach, lay_out
 from ptmcalc.numerics.belt.give import Give, Rubber
 from ptmcalc.numerics.belt.march import Drawn, march, place_at

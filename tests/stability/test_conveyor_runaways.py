@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from support.machines import spec_of
 
-from ptmcalc.machines.conveyor.solvers import network
+from ptmcalc.machines.conveyor.waves import network
 from ptmcalc.numerics.belt import station
 
 

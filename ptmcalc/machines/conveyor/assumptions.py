@@ -9,8 +9,8 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws import resistance
+from ptmcalc.machines.conveyor.holding.scenes import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.model import load_line_mass
-from ptmcalc.machines.conveyor.rollback import AT_REST, asks_for_hold
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, EmergencyStop, Start, Stop, Stopping
 from ptmcalc.numerics.lanes import value
 

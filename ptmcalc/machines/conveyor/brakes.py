@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ptmcalc.machines.conveyor.forces import filled
+from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Brake, Conveyor, ConveyorScene, EmergencyStop, Stop
 
 

@@ -9,13 +9,12 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.checks_drive import CHECKS_OF_THE_DRIVE
-from ptmcalc.machines.conveyor.checks_start import CHECKS_OF_THE_START, starting_torque_key
-from ptmcalc.machines.conveyor.checks_static import CHECKS_OF_THE_BELT
-from ptmcalc.machines.conveyor.driving import moving_mass, running
+from ptmcalc.machines.conveyor.drives import moving_mass, running
+from ptmcalc.machines.conveyor.holding.scenes import asks_for_hold
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
-from ptmcalc.machines.conveyor.rollback import asks_for_hold
-from ptmcalc.machines.conveyor.safety import safety_limit, safety_needs, strength_key
+from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
+from ptmcalc.machines.conveyor.running.checks_belt import CHECKS_OF_THE_BELT
+from ptmcalc.machines.conveyor.running.checks_motor import CHECKS_OF_THE_DRIVE
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Backstop,
@@ -30,6 +29,7 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stop,
 )
+from ptmcalc.machines.conveyor.starting.checks import CHECKS_OF_THE_START, starting_torque_key
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]
@@ -413,7 +413,7 @@ def _brake_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
 
     **Range** brakes at full torque; delay and rise are in the simulated way (CNV106), not here.
     **Error** that of the gear's efficiency, which is an input.
-    **Source** `moving.braking`.
+    **Source** `motion.braking`.
     """
     forces = sum(braking(spec, brake).force for brake in brakes_of(spec, scene).values())
     return Estimate.exact(forces * spec.main_drive.drum.diameter / 2)

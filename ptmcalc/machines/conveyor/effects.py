@@ -14,10 +14,7 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
 from ptmcalc.laws import sag, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.conveyor import bounds, short_stops
-from ptmcalc.machines.conveyor.bounds import Change
-from ptmcalc.machines.conveyor.braking import GearChange, changing_sides, deceleration
-from ptmcalc.machines.conveyor.driving import moving_mass, running
+from ptmcalc.machines.conveyor.drives import moving_mass, running
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
 from ptmcalc.machines.conveyor.model import (
     DAMPING_THRESHOLD,
@@ -37,7 +34,7 @@ from ptmcalc.machines.conveyor.model import (
     takeup_numbers,
     thrown_back,
 )
-from ptmcalc.machines.conveyor.moving import moving, rough_utilisation
+from ptmcalc.machines.conveyor.motion import moving, rough_utilisation
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Coast,
@@ -49,6 +46,10 @@ from ptmcalc.machines.conveyor.spec import (
     Stop,
     Stopping,
 )
+from ptmcalc.machines.conveyor.stopping import stiff_bounds
+from ptmcalc.machines.conveyor.stopping.rigid import GearChange, changing_sides, deceleration
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.bounds import Change
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -146,15 +147,15 @@ def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     belt. A belt that sags more is unbounded.
 
     What a take-up weight, a resistance that goes with the speed and the running of the belt do to it besides is
-    added from their own bounds. A stop of a short belt has bounds of its own (`short_stops`).
+    added from their own bounds. A stop of a short belt has bounds of its own (`stopping.stiff_bounds`).
 
     **Range** linear undamped belt without slip, one slope, one drive, a start from the frozen running profile; any jump
     of impedance and tail mass. Anything else is unbounded.
     **Error** a bound; at the run-on of a gravity take-up under a torque step it is attained.
     **Source** derived in `laws.loop_bounds` (completeness of the modes, Cauchy-Schwarz, Dunkerley).
     """
-    if isinstance(scene, Stopping) and (stop := short_stops.short_stop(spec, scene)) is not None:
-        return _carried_along(spec, scene, loads, short_stops.offsets(stop, loads))
+    if isinstance(scene, Stopping) and (stop := stiff_bounds.short_stop(spec, scene)) is not None:
+        return _carried_along(spec, scene, loads, stiff_bounds.offsets(stop, loads))
     if not isinstance(scene, Start) or not is_plain(spec, scene):
         return _anything(spec, scene, loads)
     if not _slides_on(spec, scene) and spec.effects.get("coulomb_idlers") != "off":
@@ -643,7 +644,7 @@ def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 
     **Range** any stop; 0 where the belt does not stop.
     **Error** that of the integration, below 1e-4.
-    **Source** power through a gear: losses are on the driven side (`braking.changing_sides`).
+    **Source** power through a gear: losses are on the driven side (`stopping.rigid.changing_sides`).
     """
     meaning = "change of the stopping time by the side of the gear losses"
     return Criterion("dt/t", _gear_change(spec, scene).relative, GEAR_THRESHOLD, meaning, "gear losses")
@@ -663,7 +664,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
     **Range** any stop.
     **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
-    **Source** `braking.changing_sides`.
+    **Source** `stopping.rigid.changing_sides`.
     """
     change = _gear_change(spec, scene)
     if not change.force:

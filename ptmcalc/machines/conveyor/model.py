@@ -17,9 +17,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import belt_modes, capstan, inertia, loop_bounds, motor, start_profile, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
-from ptmcalc.machines.conveyor.forces import extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.keys.route import Section
 from ptmcalc.machines.conveyor.loads import FREQUENCIES
-from ptmcalc.machines.conveyor.sections import Section
+from ptmcalc.machines.conveyor.resistances import extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
 from ptmcalc.numerics import lanes
 

@@ -10,9 +10,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear, Motor
 from ptmcalc.components.start import Profile
 from ptmcalc.laws.sag import DEEPEST
-from ptmcalc.machines.conveyor.belt_data import Belt, Idlers, Load, Transitions
-from ptmcalc.machines.conveyor.resisting import Resistance
-from ptmcalc.machines.conveyor.sections import Route
+from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
+from ptmcalc.machines.conveyor.keys.resistance import Resistance
+from ptmcalc.machines.conveyor.keys.route import Route
 from ptmcalc.spec.fields import (
     FactorFromOne,
     Fraction,

@@ -15,13 +15,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.conveyor import bounds
 from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_mass
-from ptmcalc.machines.conveyor.moving import MOST_ROUNDS, Moving, moving
-from ptmcalc.machines.conveyor.solvers.network import CELLS
+from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.network import CELLS
 from ptmcalc.witness import belt
 from ptmcalc.witness.belt import Length, Motion, Plan, Roller
 

@@ -17,7 +17,7 @@ from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import settle
-from ptmcalc.machines.conveyor.solvers import characteristics
+from ptmcalc.machines.conveyor.waves import characteristics
 
 SPECS = Path(__file__).parents[3] / "specs"
 KIND = load_kind("conveyor")

@@ -5,7 +5,7 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.conveyor.moving import moving
+from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.witness import _moved
 

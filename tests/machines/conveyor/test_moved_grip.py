@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ptmcalc.base.estimate import ANYTHING, NOTHING, Estimate
-from ptmcalc.machines.conveyor.moved_grip import moved_grip
+from ptmcalc.machines.conveyor.traction.bounds import moved_grip
 
 CASES = 300
 

@@ -1,0 +1,179 @@
+"""What the drives pull: their shares in steady motion, their force over a start, the rigid conveyor under it."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ptmcalc.base.memory import kept_for
+from ptmcalc.laws import start_profile
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, belt_line, belt_line_filled, drive_force
+from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive, Start
+from ptmcalc.numerics.belt.station import Torque
+
+_NEARLY, _LEAST_UP_TO = 0.98, 0.9
+_LATE_STAGE = 1e6
+"""A time at which stages that end by time, and ramps, are over [s]."""
+_CURVE_STEPS = 4000
+
+
+@kept_for(64)
+def share(spec: Conveyor) -> Mapping[str, float]:
+    """Part of the whole driving force that each drive has."""
+    forces = {name: drive_force(drive) for name, drive in spec.all_drives.items()}
+    whole = sum(forces.values())
+    return {name: force / whole for name, force in forces.items()}
+
+
+def same_drives(drives: Iterable[PlacedDrive]) -> bool:
+    """Whether drives share the pull in steady motion as their mean starting torques do: their motors have one curve of
+    torque over speed, on pulleys of one speed; taken to be so where no curve is given."""
+    several = list(drives)
+    if all(one.motor.curve is None for one in several):
+        return True
+    return len({repr((one.motor.curve, one.gear.ratio, one.drum.diameter)) for one in several}) == 1
+
+
+def running(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool] | None = None) -> BeltLine:
+    """The belt in steady motion: drives at the tail take their share of the resistance there."""
+    line = belt_line_filled(spec, scene, filling) if filling else belt_line(spec, scene)
+    shares = share(spec)
+    tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
+    return replace(line, tail_pull=tail * line.static_resistance) if tail else line
+
+
+def moving_mass(line: BeltLine) -> float:
+    """Everything that moves, at the rim [kg]."""
+    belt = line.carry.line_mass * line.carry.length + line.back.line_mass * line.back.length
+    return belt + line.tail_mass + line.drive_mass
+
+
+def pull(scene: Start, drive: PlacedDrive, rise: float) -> Callable[[FloatArray], FloatArray]:
+    """Rim force of a drive over a start [N]."""
+    full, shape, delay = drive_force(drive), scene.profile.rise, drive.delay
+    aborted = scene.aborted
+    again = aborted.run + aborted.pause if aborted else 0.0
+
+    def since(times: FloatArray) -> FloatArray:
+        on = times >= 0
+        return np.where(on, full * start_profile.rise(shape, rise, np.maximum(times, 0.0)), 0.0)
+
+    def force(times: FloatArray) -> FloatArray:
+        times = np.asarray(times, float)
+        second = since(times - again - delay)
+        if not aborted:
+            return second
+        return np.where(times < aborted.run, since(times - delay), second)
+
+    return force
+
+
+def rigid_start(
+    spec: Conveyor, scene: Start, line: BeltLine, pulls: dict[str, Callable[[FloatArray], FloatArray]]
+) -> tuple[float, float]:
+    """When the mean speed of all that moves is the rated one, and the way by then, by the trapezium rule; of a start
+    that is broken off, when it is that after the drives came back.
+
+    v = x - min(x so far),  x = integral of (F - W)/M dt: the mean of all that moves, whatever waves there are
+    """
+    mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
+    full = sum(drive_force(drive) for drive in spec.all_drives.values())
+    if full <= resistance:
+        return 0.0, 0.0
+    latest = max(drive.delay for drive in spec.all_drives.values()) + scene.profile.rise_time
+    again = (scene.aborted.run + scene.aborted.pause) if scene.aborted else 0.0
+    latest += again
+    end = latest + mass * line.speed / (full - resistance)
+    times = np.linspace(0.0, end, 20_001)
+    force = sum((pull(times) for pull in pulls.values()), np.zeros_like(times)) - resistance
+    gained = np.concatenate([[0.0], np.cumsum(force[1:] + force[:-1])]) * (times[1] / 2 / mass)
+    speed = gained - np.minimum.accumulate(gained)  # it never turns back: what would pull it back is held
+    if again > 0:
+        speed = _between(gained, line.speed)
+    first = int(np.searchsorted(times, again))
+    has_it = speed[first:] >= line.speed
+    fast = (
+        max(first + int(has_it.argmax()), 1) if has_it.any() else len(times) - 1
+    )  # but for rounding it has at the end
+    if speed[fast - 1] >= line.speed:  # it never lost its speed
+        return float(times[fast]), float((speed[1 : fast + 1] + speed[:fast]).sum()) * times[1] / 2
+    part = min((line.speed - speed[fast - 1]) / (speed[fast] - speed[fast - 1]), 1.0) * times[1]
+    way = float((speed[1:fast] + speed[: fast - 1]).sum()) * times[1] / 2
+    return float(times[fast - 1] + part), way + float((speed[fast - 1] + line.speed) / 2 * part)
+
+
+def _between(gained: FloatArray, top: float) -> FloatArray:
+    """Speed that gains so much, but stays at rest where it would fall below, and at the motors' where it would rise
+    above."""
+    speed = 0.0
+    found = [speed]
+    for more in np.diff(gained).tolist():
+        speed = min(max(speed + more, 0.0), top)
+        found.append(speed)
+    return np.array(found)
+
+
+def along_curve(scene: Start, drive: PlacedDrive) -> Torque:
+    """Rim force of a drive and its slope over the rim's speed, by its motors' curve.
+
+    F = n M(w, t) i eta/R driving,   n M i/(eta R) where the motors brake
+    """
+    curve, count, ratio = drive.motor.curve, drive.motor.count, drive.gear.ratio
+    assert curve is not None
+    efficiency, turns = filled(drive.gear.efficiency), ratio / (drive.drum.diameter / 2)
+    aborted = scene.aborted
+    again = (aborted.run + aborted.pause if aborted else 0.0) + drive.delay
+
+    def force(time: float, speed: float) -> tuple[float, float]:
+        since = time - again
+        if aborted and time < aborted.run:
+            since = time - drive.delay
+        if since < 0:
+            return 0.0, 0.0
+        near = 1e-6 * max(abs(speed), 1.0)
+        torques = count * turns * curve.torque(np.array([speed, speed + near]) * turns, since)
+        forces = np.where(torques > 0, torques * efficiency, torques / efficiency)
+        return float(forces[0]), float(forces[1] - forces[0]) / near
+
+    return force
+
+
+def least_pull(spec: Conveyor, scene: Start) -> float:
+    """Least force of all drives together on the way up to nine tenths of rated speed [N]."""
+    curves = [along_curve(scene, drive) for drive in spec.all_drives.values()]
+    speeds = np.linspace(0.0, _LEAST_UP_TO * spec.speed, 181)
+    return min(sum(curve(_LATE_STAGE, float(speed))[0] for curve in curves) for speed in speeds)
+
+
+def at_rest(curve: Torque) -> Callable[[FloatArray], FloatArray]:
+    """The force at standstill over time [N]."""
+    return lambda times: np.array([curve(float(time), 0.0)[0] for time in np.ravel(times)]).reshape(np.shape(times))
+
+
+def rigid_curve_start(line: BeltLine, curves: Mapping[str, Torque]) -> tuple[float, float]:
+    """When the rigid body reaches rated speed, or nearly the speed at which its motors' curves leave it, and its way,
+    by Heun's rule; (0, 0) where it never gets away."""
+    mass, resistance = moving_mass(line), line.static_resistance + line.tail_pull
+
+    def rate(time: float, speed: float) -> float:
+        return (sum(curve(time, speed)[0] for curve in curves.values()) - resistance) / mass
+
+    speeds = np.linspace(0.0, line.speed, 201)
+    least = min(rate(_LATE_STAGE, speed) for speed in speeds)
+    settles = next((speed for speed in speeds if rate(_LATE_STAGE, speed) <= 0), line.speed)
+    goal = line.speed if least > 0 else _NEARLY * settles
+    if goal <= 0:
+        return 0.0, 0.0
+    typical = float(np.mean([max(rate(_LATE_STAGE, speed), 0.0) for speed in speeds if speed <= goal]))
+    step = goal / typical / (_CURVE_STEPS / 10)
+    time = speed = way = 0.0
+    for _ in range(20 * _CURVE_STEPS):
+        first = rate(time, speed)
+        second = rate(time + step, max(speed + first * step, 0.0))
+        new = max(speed + (first + second) / 2 * step, 0.0)
+        if new >= goal:
+            part = (goal - speed) / (new - speed) * step
+            return time + part, way + (speed + goal) / 2 * part
+        way, time, speed = way + (speed + new) / 2 * step, time + step, new
+    return time, way

@@ -1,0 +1,117 @@
+"""Values of a file that disagree with each other."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base import units
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.result import Finding
+from ptmcalc.machines.conveyor.effects import jumps
+from ptmcalc.machines.conveyor.plausible import implausible
+from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
+
+_SPEED_TOLERANCE = 0.05
+_WEIGHT_TOLERANCE = 0.05
+_MOST_FRICTION = 1.0
+_STEEP = 0.309  # sine of 18 degrees
+
+
+def inspect(spec: Conveyor) -> Iterator[Finding]:
+    """Values of the file that disagree with each other."""
+    for name, drive in spec.all_drives.items():
+        motor = drive.motor.speed
+        rim = motor / drive.gear.ratio * drive.drum.diameter / 2 if motor is not None else spec.speed
+        if abs(rim / spec.speed - 1) > _SPEED_TOLERANCE:
+            whose = f" of `{name}`" if len(spec.all_drives) > 1 else ""
+            yield Finding(
+                "SPC201",
+                f"motor speed, gear ratio and drum{whose} give {units.show(rim, units.SPEED)} at the rim, the belt runs"
+                f" at {units.show(spec.speed, units.SPEED)}",
+                ("speed",),
+                "correct the speed, the ratio or the diameter",
+            )
+        grip = drive.drum.friction
+        if grip is not None and grip > _MOST_FRICTION:
+            yield Finding(
+                "SPC201",
+                f"a friction coefficient of {grip:.4g} between belt and drum: rubber on dry lagging comes to 0.45, on"
+                " ceramic tiles to 0.8",
+                (*spec.drive_path(name), "drum", "friction"),
+                "write `friction: 0.35` for rubber lagging, or the maker's value",
+            )
+    pull = spec.takeup.mass * spec.gravity / 2 if spec.takeup.mass is not None else spec.takeup.tension
+    if abs(pull / spec.takeup.tension - 1) > _WEIGHT_TOLERANCE:
+        yield Finding(
+            "SPC201",
+            f"a take-up weight on two falls pulls with half of it, {units.show(pull, units.FORCE)}; the tension is"
+            f" {units.show(spec.takeup.tension, units.FORCE)}",
+            ("takeup", "mass"),
+            f"write `mass: {units.show(2 * spec.takeup.tension / spec.gravity, units.MASS)}`, or correct the tension",
+        )
+    yield from implausible(spec)
+    yield from _of_scenes(spec)
+    yield from _of_curves(spec)
+    if spec.route.inclination == "small_angle" and abs(spec.route.climb) > _STEEP * spec.route.span:
+        yield Finding(
+            "SPC201",
+            "the slope is above 18 degrees: its cosine is not 1",
+            ("route", "inclination"),
+            "write `inclination: exact`",
+        )
+
+
+def _of_curves(spec: Conveyor) -> Iterator[Finding]:
+    """Curves between equal slopes, and curves that do not fit between their neighbours."""
+    parts, curves = spec.route.parts, {curve.number: curve for curve in spec.route.curves}
+    reach = [0.0] * (len(parts) + 1)
+    for number, curve in curves.items():
+        reach[number - 1] = curve.tangent
+    for index, part in enumerate(parts):
+        path: KeyPath = ("route", "sections", index, "curve_radius")
+        if part.curve_radius is not None and index + 1 not in curves:
+            yield Finding(
+                "SPC201", "the section before has the same slope: nothing curves", path, "delete `curve_radius`"
+            )
+        if reach[index] + reach[index + 1] > part.length * (1 + 1e-9):
+            taken, given = (units.show(value, units.SPAN) for value in (reach[index] + reach[index + 1], part.length))
+            at = index if index + 1 in curves else index + 1
+            yield Finding(
+                "SPC201",
+                f"the vertical curves at its ends take {taken} of section {index + 1}, which is {given} long",
+                ("route", "sections", at, "curve_radius"),
+                "write a smaller `curve_radius`, or longer sections",
+            )
+
+
+def _of_scenes(spec: Conveyor) -> Iterator[Finding]:
+    """What a scene asks for and the machine does not have."""
+    late = [name for name, drive in spec.all_drives.items() if drive.delay > 0]
+    for index, scene in enumerate(spec.scenes or ()):
+        path: KeyPath = ("scenes", index)
+        lifts = [part.lift for part in spec.route.parts]
+        if (scene.load == "uphill" and max(lifts) <= 0) or (scene.load == "downhill" and min(lifts) >= 0):
+            does = "climbs" if scene.load == "uphill" else "falls"
+            yield Finding(
+                "SPC201", f"no section of the route {does}: the belt is empty", (*path, "load"), "write `load: empty`"
+            )
+        if jumps(spec, scene):
+            yield Finding(
+                "SPC201",
+                "a Kelvin-Voigt belt answers a drum that stops at once with an infinite force: the jam is computed"
+                " without damping",
+                path,
+                "write `time: 50 ms`, in which the drum comes to rest",
+            )
+        if isinstance(scene, EmergencyStop) and not spec.brakes:
+            yield Finding(
+                "SPC201",
+                "there are no `brakes`: the belt runs out",
+                (*path, "type"),
+                "add `brakes: {disc: {torque: 3000 N*m}}`, or write `type: coast`",
+            )
+        if isinstance(scene, Start) and scene.profile.imposes_speed and late:
+            yield Finding(
+                "SPC201",
+                f"an imposed speed turns all drums at once: the `delay` of `{late[0]}` does not count",
+                (*path, "profile"),
+                "write `control: torque`",
+            )

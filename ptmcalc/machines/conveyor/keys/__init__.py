@@ -1,0 +1,1 @@
+"""Keys of a belt conveyor that its parts share: route, belt, idlers, damping, resistance."""

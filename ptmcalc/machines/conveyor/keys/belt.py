@@ -1,0 +1,169 @@
+"""Belt, idlers and load as a designer writes them."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ptmcalc.base import units
+from ptmcalc.machines.conveyor.keys.damping import Damping
+from ptmcalc.spec.fields import (
+    Length,
+    LineMass,
+    Mass,
+    MassFlow,
+    Measure,
+    PositiveDensity,
+    PositiveForce,
+    PositiveLength,
+    PositiveLineForce,
+    PositiveLineMass,
+    PositiveLineStiffness,
+    PositiveSpan,
+)
+from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
+from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
+
+TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
+SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
+
+
+class Belt(Fragment):
+    """The belt itself."""
+
+    mass: PositiveLineMass
+    """mass per length of the bare belt"""
+    width: Annotated[PositiveLength | None, OneOf("stiffness, breaking_force")] = None
+    """belt width; needed with `modulus` or `strength`"""
+    stiffness: Annotated[PositiveForce | None, OneOf("modulus")] = None
+    """tensile stiffness EA of the whole belt, or give `modulus` and `width`"""
+    modulus: Annotated[PositiveLineStiffness | None, OneOf("stiffness")] = None
+    """tensile modulus per width, e.g. `72000 N/mm`"""
+    breaking_force: Annotated[PositiveForce | None, Checked()] = None
+    """breaking force of the whole belt, or give `strength` and `width`"""
+    strength: Annotated[PositiveLineForce | None, Checked()] = None
+    """rated strength per width, e.g. `1600 N/mm` for an ST 1600"""
+    carcass: Literal["textile", "steel_cord"] | None = None
+    """what carries the tension; chooses the default safety factors"""
+    damping: Damping | None = None
+    """internal damping; an elastic belt when left out, which swings longest"""
+    minimum_drum_diameter: Annotated[PositiveLength | None, Limit()] = None
+    """smallest drive drum the maker of the belt allows; or give `carcass_thickness` and `warp`"""
+    carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
+    """of the plies without the covers, or of the cords of a steel-cord belt"""
+    warp: Literal["cotton", "polyamide", "polyester", "aramid", "steel_cord"] | None = None
+    """material that carries the tension; with `carcass_thickness` it says how small a drive drum may be"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """Stiffness and strength are of the whole belt, or per width with the width."""
+        yield from exactly_one(given, "stiffness", "modulus")
+        yield from at_most_one(given, "breaking_force", "strength")
+        per_width = " and ".join(f"`{key}`" for key in ("modulus", "strength") if key in given)
+        if per_width and "width" not in given:
+            yield given.missing("width", f"{per_width} per width: `width` is missing")
+        yield from at_most_one(given, "minimum_drum_diameter", "carcass_thickness")
+        yield from together(given, "carcass_thickness", "warp", "how small a drum may be goes by the material too")
+        carcass, warp = given.word("carcass"), given.word("warp")
+        if carcass is not None and warp is not None and (carcass == "steel_cord") != (warp == "steel_cord"):
+            reason = f"a `{carcass}` carcass has no warp of `{warp}`"
+            yield Conflict(("warp",), reason, "delete `warp`, or correct `carcass`")
+
+
+class IdlerRow(Fragment):
+    """The idlers of one strand."""
+
+    pitch: Annotated[
+        PositiveLength | None, Absent("sag is `not checked`, and waves are those of a taut belt, the stiffest")
+    ] = None
+    """distance of the idler sets; needed for sag and with `set_mass`"""
+    set_mass: Annotated[Mass | None, OneOf("line_mass")] = None
+    """rotating mass of one idler set, reduced to the rim"""
+    line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
+    """rotating mass per length, or give `set_mass` and `pitch`"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The mass is per length, or per set with the pitch."""
+        yield from exactly_one(given, "set_mass", "line_mass")
+        yield from together(given, "set_mass", "pitch", "`set_mass` is per idler set")
+
+    @property
+    def rotating_line_mass(self) -> float:
+        """Rotating mass per length [kg/m]."""
+        return self.mass_at(self.pitch)
+
+    def mass_at(self, pitch: float | None) -> float:
+        """Rotating mass per length where the sets stand so far apart [kg/m]."""
+        if self.line_mass is not None:
+            return self.line_mass
+        assert self.set_mass is not None
+        assert pitch is not None
+        return self.set_mass / pitch
+
+
+class Trough(Fragment):
+    """The trough of the carry strand, on three rolls or on two."""
+
+    angle: TroughAngle
+    """of the wing rolls to the level"""
+    middle_roll: Length
+    """length of the middle roll; 0 mm for two rolls"""
+
+
+class CarryRow(IdlerRow):
+    """The idlers of the carry strand."""
+
+    trough: Trough | None = None
+    """its shape; needed for the cross-section of the load, transitions and the edges in vertical curves"""
+
+
+class Idlers(Fragment):
+    """Idlers of both strands."""
+
+    carry: CarryRow
+    """under the carry strand"""
+    back: IdlerRow = Field(alias="return")
+    """under the return strand"""
+
+
+class Load(Fragment):
+    """What is conveyed."""
+
+    mass: Annotated[PositiveLineMass | None, OneOf("capacity")] = None
+    """load per length of the carry strand, or give `capacity`"""
+    capacity: Annotated[MassFlow | None, OneOf("mass")] = None
+    """mass flow; the load per length is capacity over belt speed"""
+    density: Annotated[PositiveDensity | None, Absent("the check of the cross-section needs it and does not apply")] = (
+        None
+    )
+    """bulk density; with it the cross-section of the load is checked"""
+    surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
+    """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
+
+    @classmethod
+    def conflicts(cls, given: Given) -> Iterator[Conflict]:
+        """The load is given in one way."""
+        yield from exactly_one(given, "mass", "capacity")
+        if "surcharge_angle" in given and "density" not in given:
+            reason = "the cross-section is compared with the stream: `density` is missing"
+            yield Conflict((), reason, "add `density: 1600 kg/m^3`")
+
+
+class Transition(Fragment):
+    """The way between a drum and the first full trough."""
+
+    length: PositiveSpan
+    """from the drum's axis to the first full trough"""
+    pulley_lift: Annotated[Length, Absent("a pulley at the height of the middle roll strains the edges most")] = 0.0
+    """height of the drum's face over the middle roll; a third of the trough's depth is usual"""
+
+
+class Transitions(Fragment):
+    """Where the trough of the carry strand opens."""
+
+    head: Transition | None = None
+    """before the head drum"""
+    tail: Transition | None = None
+    """behind the tail drum"""

@@ -1,0 +1,152 @@
+"""A scene in which the belt moves: its window, and what sets it in motion or stops it over time."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ptmcalc.laws import capstan, start_profile
+from ptmcalc.machines.conveyor.drives import along_curve, at_rest, pull, rigid_curve_start, rigid_start, running, share
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
+from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Start, Stop, Stopping
+from ptmcalc.machines.conveyor.stopping.rigid import deceleration, rigid_stop
+from ptmcalc.numerics.belt.station import Torque
+
+_CONTOURS = 2.0
+"""Times a wave goes round the belt that are looked at after it has come to rest."""
+_AFTER_JAM = 4.0
+"""The same after a drum has jammed: a period of the lowest mode of a uniform loop; friction then damps."""
+AFTER_START = 2.0
+"""Times a wave goes round after the drum has its speed: half a period of the lowest mode of a uniform loop."""
+MOST_ROUNDS = 1000.0
+"""Rounds of a wave in the time of a scene from which on simulating it takes a minute."""
+_LATE = 1.25
+"""How much longer than the rigid body the belt may take to come to rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """A scene in numbers: the belt, its window, and what sets it in motion or stops it.
+
+    `forces` gives the rim force of every drive over time [N], `imposed` the speed of all drums where the drives
+    control it.
+    """
+
+    spec: Conveyor
+    scene: ConveyorScene
+    line: BeltLine
+    pulls: dict[str, Callable[[FloatArray], FloatArray]]
+    imposed: Callable[[float], float] | None
+    speed: float
+    window: float
+    rigid_time: float
+    """when the rigid body reaches rated speed, or rest [s]"""
+    rigid_way: float
+    """what it goes by then [m]"""
+    curves: Mapping[str, Torque] = field(default_factory=dict)
+    """rim forces of drives that follow their motors' curves"""
+
+    @property
+    def begins_loose(self) -> bool:
+        """Whether the belt lies without friction in it at the start."""
+        return isinstance(self.scene, Start) and self.scene.belt == "relaxed"
+
+    @property
+    def brings_to_rest(self) -> bool:
+        """Whether the scene ends with a belt at rest."""
+        return isinstance(self.scene, Stopping)
+
+
+def moving(spec: Conveyor, scene: ConveyorScene) -> Moving:
+    """A scene of this conveyor in motion, over its window."""
+    case = _usual(spec, scene)
+    factor: float = getattr(scene, "window_factor", 1.0)
+    return case if factor == 1 else replace(case, window=case.window * factor)
+
+
+def _usual(spec: Conveyor, scene: ConveyorScene) -> Moving:
+    """The same over the usual window."""
+    line = running(spec, scene)
+    names = list(spec.all_drives)
+    whole = line.static_resistance + line.tail_pull
+    if isinstance(scene, Start):
+        return _start(spec, scene, line)
+    held = {name: share(spec)[name] * whole for name in names}
+    if isinstance(scene, Jam):
+        there = [name for name in names if spec.all_drives[name].at != scene.at]
+        pulls = {name: _constant(held[name] if name in there else 0.0) for name in names}
+        return Moving(
+            spec, scene, line, pulls, None, spec.speed, scene.duration or _AFTER_JAM * line.contour_time, 0, 0
+        )
+    assert isinstance(scene, Stop | EmergencyStop | Coast)
+    time, way = rigid_stop(spec, scene, line)
+    window = (_LATE * time if math.isfinite(time) else 2 * line.contour_time) + _CONTOURS * line.contour_time
+    return Moving(spec, scene, line, {name: _constant(0.0) for name in names}, None, spec.speed, window, time, way)
+
+
+def rounds(spec: Conveyor, scene: ConveyorScene) -> float:
+    """How often a wave goes round the belt in the time of a scene."""
+    case = moving(spec, scene)
+    return case.window / case.line.contour_time
+
+
+def _start(spec: Conveyor, scene: Start, line: BeltLine) -> Moving:
+    profile = scene.profile
+    rise = profile.rise_time
+    if profile.imposes_speed:
+        window = rise + 4 * line.contour_time
+
+        def imposed(time: float) -> float:
+            return line.speed * float(start_profile.rise(profile.rise, rise, time))
+
+        pulls = {name: _constant(0.0) for name in spec.all_drives}
+        return Moving(spec, scene, line, pulls, imposed, 0.0, window, rise, math.nan)
+    pulls = {name: pull(scene, drive, rise) for name, drive in spec.all_drives.items()}
+    if profile.shape == "curve":
+        curves = {name: along_curve(scene, drive) for name, drive in spec.all_drives.items()}
+        pulls = {name: at_rest(curve) for name, curve in curves.items()}
+        time, way = rigid_curve_start(line, curves)
+        return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way, curves)
+    time, way = rigid_start(spec, scene, line, pulls)
+    return Moving(spec, scene, line, pulls, None, 0.0, _until_steady(line, time), time, way)
+
+
+def _until_steady(line: BeltLine, time: float) -> float:
+    """Window of a start whose rigid body has its speed at a time [s]: the torque falls there, and the waves of that
+    fall go round; 0 where the belt never moves."""
+    return time + AFTER_START * line.contour_time if time > 0 else 0.0
+
+
+def _constant(force: float) -> Callable[[FloatArray], FloatArray]:
+    return lambda times: np.full(np.shape(times), force)
+
+
+def rough_utilisation(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Most of any drum's grip in use by the rigid body's tensions, the dynamic part taken twice.
+
+    From the slack side on, every drum of the head adds its own drive's force (start) or takes its share of what the
+    belt gives (stop); a jammed drum takes all of it.
+    """
+    line = running(spec, scene)
+    if isinstance(scene, Jam):
+        return math.inf
+    shares = share(spec)
+    whole = line.static_resistance + line.tail_pull
+    belt = line.carry.line_mass * line.carry.length + line.back.line_mass * line.back.length
+    behind, worst = line.run_off, 0.0
+    for name, drive in reversed(list(spec.all_drives.items())):
+        if drive.at == "tail":
+            continue
+        added = (
+            drive_force(drive)
+            if isinstance(scene, Start)
+            else shares[name] * (whole - 2 * belt * deceleration(spec, scene, line))
+        )
+        above = behind + added
+        if drive.drum.friction is not None:
+            tight, slack = max(above, behind), min(above, behind)
+            exponent = drive.drum.friction * drive.drum.wrap
+            worst = max(worst, float(capstan.slip_utilisation(tight, slack, line.centrifugal_at_speed, exponent)))
+        behind = above
+    return worst

@@ -1,0 +1,1 @@
+"""Steady running: tensions, power, trough, curves, motor torque."""

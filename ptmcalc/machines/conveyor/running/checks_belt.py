@@ -1,0 +1,264 @@
+"""Checks of what lies on the belt, and of what drums, transitions and vertical curves ask of it."""
+
+import math
+from collections.abc import Callable, Iterable
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.laws import vertical_curve
+from ptmcalc.machines.conveyor.keys.belt import Transition
+from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.model import breaking_force
+from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
+from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data, hollows
+from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
+from ptmcalc.numerics.lanes import value
+
+Checks = Iterable[AnyCheck]
+
+_WIDTH: KeyPath = ("belt", "width")
+_TROUGH: KeyPath = ("idlers", "carry", "trough")
+
+
+# -- cross-section of the load --------------------------------------------------------------------------------------
+
+
+def _fill_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Largest share of the cross-section of the file, 1 by default.
+
+    **Range** even feed; less leaves room for surges and lumps.
+    **Error** none: a chosen limit.
+    **Source** DIN 22101: filling ratio 0.7 to 1.1.
+    """
+    return Estimate.exact(spec.checks.section_fill)
+
+
+def _fill_checks(spec: Conveyor, scene: Run) -> Checks:
+    """Where the file gives the bulk density."""
+    return (FILL,) if spec.load.density is not None else ()
+
+
+FILL: Check[Conveyor, Run] = Check(
+    code="CNV112",
+    title="belt filling ratio",
+    question="Does the load cross-section carry the mass flow at the steepest section?",
+    failure="belt is overfilled",
+    scenes=frozenset({Run}),
+    loads=("section_fill",),
+    sense=Sense.AT_MOST,
+    limit=_fill_limit,
+    needs=lambda spec, scene: (_TROUGH, _WIDTH),
+    blame=lambda spec, scene, loads: _WIDTH,
+    repair=lambda spec, scene: _WIDTH,
+    each=_fill_checks,
+    what="The load cross-section carries the mass flow at the steepest point of the route. The filling ratio is at"
+    " most the limit.",
+    why="An overfilled belt spills its load over the edges and at the loading point.",
+    formula="Q/(rho v (S_2 + k S_1)) <= limit,   S_2 = (l + e cos(lambda)) e sin(lambda),\n"
+    "S_1 = (l + 2 e cos(lambda))^2 tan(theta)/6,   e = (0.9 B - 0.05 m - l)/2,   k^2 = 1 - sin^2 delta/sin^2 theta",
+    source="ISO 5048:1989; DIN 22101 (k)",
+)
+
+# -- drums ----------------------------------------------------------------------------------------------------------
+
+
+def _drum_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Diameter of the drive drum.
+
+    **Range** drive drums (group A); others may be smaller by the tables of the standard.
+    **Error** none: it is given.
+    **Source** the file.
+    """
+    return Estimate.exact(spec.main_drive.drum.diameter)
+
+
+def _drum_checks(spec: Conveyor, scene: Run) -> Checks:
+    """One for each drive, where the file says what the belt bears."""
+    for name, drive in spec.all_drives.items() if has_drum_data(spec) else ():
+        key = (*spec.drive_path(name), "drum", "diameter")
+        yield DRUM.of(name, _given(drive.drum.diameter), key, repair=key)
+
+
+def _given(limit: float) -> Callable[[Conveyor, ConveyorScene], Estimate]:
+    return lambda spec, scene: Estimate.exact(limit)
+
+
+DRUM: Check[Conveyor, Run] = Check(
+    code="CNV113",
+    title="required drive pulley diameter",
+    question="Is every drive pulley large enough for the belt carcass?",
+    failure="drive pulley is too small for the belt",
+    scenes=frozenset({Run}),
+    loads=("drum_diameter_required",),
+    sense=Sense.AT_MOST,
+    limit=_drum_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: (*spec.main_path, "drum", "diameter"),
+    repair=lambda spec, scene: (*spec.main_path, "drum", "diameter"),
+    each=_drum_checks,
+    what="The diameter of every drive pulley is at least the diameter that the belt manufacturer or the belt carcass"
+    " requires.",
+    why="A belt bent too sharply at full tension breaks its plies or cords, first at the splice.",
+    formula="c d <= D,   c = 80 cotton, 90 polyamide, 108 polyester, 138 aramid, 145 steel cord\n"
+    "D_min <= D   (the diameter the maker of the belt gives)",
+    source="DIN 22101, drums of group A",
+)
+
+# -- fibres across the belt -----------------------------------------------------------------------------------------
+
+
+def _place_key(place: Curve | Transition, name: str) -> KeyPath:
+    return curve_key(place) if isinstance(place, Curve) else ("transitions", name, "length")
+
+
+def curve_key(curve: Curve) -> KeyPath:
+    """Where the radius of a curve stands in the file."""
+    return ("route", "sections", curve.number - 1, "curve_radius")
+
+
+def _fibre_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Largest tension per width of a single fibre: that of the belt's safety in steady running, times an overload.
+
+        k = (breaking force/W) m/safety,   m = 1.15 by default
+
+    **Range** steady running; the rest of the belt bears the mean.
+    **Error** none: a chosen limit.
+    **Source** CEMA, "Belt Conveyors for Bulk Materials": edges up to 115 % of the rated tension, as quoted in public
+    handbooks; to be compared with the edition in force.
+    """
+    strength = breaking_force(spec)
+    if strength is None or spec.belt.width is None:
+        return Estimate.exact(math.inf)
+    most = strength / spec.belt.width / safety_limit(spec, scene).value
+    return Estimate.exact(most * spec.checks.edge_overload)
+
+
+def _least_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """No fibre may be pressed.
+
+    **Range** steady running.
+    **Error** none.
+    **Source** a belt has no stiffness against pressure: it folds.
+    """
+    return Estimate.exact(0.0)
+
+
+def _places(spec: Conveyor) -> dict[str, Curve | Transition]:
+    """Transitions and crests, which nothing else checks, and hollows of a belt whose trough is given."""
+    troughed = spec.idlers.carry.trough is not None
+    return {
+        name: place
+        for name, place in bent(spec).items()
+        if troughed or not isinstance(place, Curve) or not place.hollow
+    }
+
+
+def _fibre_checks(spec: Conveyor, scene: Run) -> Checks:
+    for name, place in _places(spec).items():
+        key = _place_key(place, name)
+        needs = (_TROUGH, _WIDTH, *safety_needs(spec, scene))
+        yield FIBRE.of(name, _fibre_limit, key, needs, key)
+
+
+def _least_checks(spec: Conveyor, scene: Run) -> Checks:
+    for name, place in _places(spec).items():
+        key = _place_key(place, name)
+        yield PRESSED.of(name, _least_limit, key, (_TROUGH, _WIDTH), key)
+
+
+_FIBRES = (
+    "k = S/W + (EA/W) eps,   eps = z/R in a vertical curve, z the height of edge or middle over the mean of the\n"
+    "trough; eps of a transition from the way of each fibre from the drum to the trough"
+)
+
+FIBRE: Check[Conveyor, Run] = Check(
+    code="CNV114",
+    title="maximum belt fibre tension",
+    question="Is the tension of edge and centre within its limit in transitions and vertical curves?",
+    failure="belt edge or centre is overstressed",
+    scenes=frozenset({Run}),
+    loads=("fibre_tension_max",),
+    sense=Sense.AT_MOST,
+    limit=_fibre_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("transitions",),
+    repair=no_repair,
+    each=_fibre_checks,
+    what="The maximum fibre tension per width is at most the limit in every transition, convex curve and concave"
+    " curve. The criterion applies to every partial loading of the belt.",
+    why="Edges stretched beyond their strength crack, and the belt then runs off permanently.",
+    formula=_FIBRES,
+    source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
+)
+
+PRESSED: Check[Conveyor, Run] = Check(
+    code="CNV115",
+    title="minimum belt fibre tension",
+    question="Do edge and centre stay in tension in transitions and vertical curves?",
+    failure="belt edge or centre buckles",
+    scenes=frozenset({Run}),
+    loads=("fibre_tension_min",),
+    sense=Sense.AT_LEAST,
+    limit=_least_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("transitions",),
+    repair=no_repair,
+    each=_least_checks,
+    what="Every fibre of the belt stays in tension in every transition, convex curve and concave curve. The criterion"
+    " applies to every partial loading of the belt.",
+    why="A fibre under compression folds. The centre buckles in a convex curve, the edges flutter in a concave curve,"
+    " and load spills.",
+    formula=_FIBRES + "; k >= 0",
+    source="DIN 22101 and CEMA: transition lengths and radii of vertical curves; derived from lengths of fibres",
+)
+
+# -- hollows --------------------------------------------------------------------------------------------------------
+
+
+def _lift_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Tension at which the bare belt lifts off its idlers in a hollow: the file's own curves, one by one.
+
+        T = rho g R cos(delta),   delta the steeper slope of both sides
+
+    **Range** a belt at rest or slow, which is on the safe side; a curve longer than a few idler pitches.
+    **Error** a belt without bending stiffness.
+    **Source** `laws.vertical_curve.lift_off_tension`.
+    """
+    return Estimate.exact(min((_lift_off(spec, curve) for curve in hollows(spec)), default=math.inf))
+
+
+def _lift_off(spec: Conveyor, curve: Curve) -> float:
+    return value(
+        vertical_curve.lift_off_tension, curve.radius, spec.belt.mass, 0.0, spec.gravity, curve.steepest_cosine
+    )
+
+
+def _lift_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
+    for curve in hollows(spec):
+        key = curve_key(curve)
+        yield LIFT.of(str(curve.number), _given(_lift_off(spec, curve)), key, repair=key)
+
+
+LIFT: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV116",
+    title="belt tension in concave curves",
+    question="Does the empty belt stay on its idlers in every concave curve?",
+    failure="belt lifts off its idlers in a concave curve",
+    scenes=(IN_MOTION | {Run}) - {Jam},
+    loads=("tension_curve_max",),
+    sense=Sense.AT_MOST,
+    limit=_lift_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("route",),
+    repair=no_repair,
+    each=_lift_checks,
+    what="The empty belt stays on its idlers in every concave curve: its tension there is at most the lift-off"
+    " tension. In steady running, the criterion applies to every partial loading of the belt. Every scene of the"
+    " file is verified with its own tension in the curve.",
+    why="A belt that lifts off drops its load next to the conveyor, or comes down next to its idlers.",
+    formula="S_max in the curve <= rho_belt g R cos(delta)",
+    source="DIN 22101 and CEMA, concave vertical curves; derived from the equilibrium of an element",
+)
+
+CHECKS_OF_THE_BELT: tuple[AnyCheck, ...] = (FILL, DRUM, FIBRE, PRESSED, LIFT)

@@ -1,0 +1,229 @@
+"""Loads of a steadily running belt that follow from what its file says of belt, trough and curves."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo, of
+from ptmcalc.laws import belt_section, sag, vertical_curve
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.drives import running, share
+from ptmcalc.machines.conveyor.keys.belt import Transition
+from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, load_line_mass
+from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.spec import Conveyor, Run
+from ptmcalc.numerics.lanes import number, value
+
+STATIC_LOADS = (
+    LoadInfo("power_motor_empty", "power at motor shafts, empty belt", units.POWER, headline=False),
+    LoadInfo("section_fill", "filling ratio (mass flow/capacity)", units.SHARE, headline=False),
+    LoadInfo("capacity_max", "mass flow capacity of belt section", units.FLOW, headline=False),
+    LoadInfo("drum_diameter_required", "minimum drive pulley diameter of the belt", units.LENGTH, headline=False),
+    LoadInfo("sag_carry", "belt sag ratio h/a, carrying strand", units.SHARE, headline=False),
+    LoadInfo("sag_return", "belt sag ratio h/a, return strand", units.SHARE, headline=False),
+    LoadInfo("tension_curve_max", "belt tension in concave curve, maximum", units.FORCE, headline=False),
+    LoadInfo("fibre_tension_max", "belt fibre tension per width, maximum", units.LINE_FORCE, headline=False),
+    LoadInfo("fibre_tension_min", "belt fibre tension per width, minimum", units.LINE_FORCE, headline=False),
+)
+"""Loads besides those of `loads.LOADS`, the most of them once for each part of the machine."""
+
+OF_STATICS = frozenset(info.name for info in STATIC_LOADS)
+
+
+def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
+    """Those of them that a conveyor has."""
+    sections = [str(number) for number, _ in enumerate(spec.route.sections or (), 1)]
+    across = list(bent(spec))
+    elements: Mapping[str, list[str]] = {
+        "drum_diameter_required": list(spec.all_drives),
+        "sag_carry": sections,
+        "sag_return": sections,
+        "tension_curve_max": [str(curve.number) for curve in hollows(spec)],
+        "fibre_tension_max": across,
+        "fibre_tension_min": across,
+    }
+    for info in STATIC_LOADS:
+        if info.name in elements:
+            yield from (info.of(element) for element in elements[info.name])
+        else:
+            yield info
+
+
+def static_loads(spec: Conveyor, scene: Run, line: BeltLine) -> dict[str, float]:
+    """What the file gives enough for."""
+    found = _fill(spec) | _drums(spec) | _sags(spec, line)
+    if bent(spec):
+        whatever = fillings(spec, scene)
+        found |= _curves(spec, whatever) | _fibres(spec, whatever)
+    return found
+
+
+# -- the load on the belt, the belt on the drum ---------------------------------------------------------------------
+
+
+def _fill(spec: Conveyor) -> dict[str, float]:
+    """Stream over what the cross-section holds at its steepest place."""
+    load, trough, width = spec.load, spec.idlers.carry.trough, spec.belt.width
+    if load.density is None or trough is None or width is None:
+        return {}
+    bed = value(belt_section.usable_width, width), trough.middle_roll, trough.angle
+    surcharge = filled(load.surcharge_angle)
+    steepest = max(abs(part.slope) for part in spec.route.parts)
+    heaped = value(belt_section.surcharge_section, *bed, surcharge)
+    section = value(belt_section.water_section, *bed)
+    section += heaped * value(belt_section.slope_reduction, steepest, surcharge)
+    most = value(belt_section.capacity, section, spec.speed, load.density)
+    stream = load_line_mass(spec) * spec.speed
+    return {"capacity_max": most, "section_fill": value(belt_section.fill_share, stream, most)}
+
+
+def has_drum_data(spec: Conveyor) -> bool:
+    """Whether the file says how small a drum the belt bears."""
+    return spec.belt.minimum_drum_diameter is not None or spec.belt.carcass_thickness is not None
+
+
+def _drums(spec: Conveyor) -> dict[str, float]:
+    belt = spec.belt
+    if not has_drum_data(spec):
+        return {}
+    least = belt.minimum_drum_diameter
+    if least is None:
+        least = belt_section.minimum_pulley_diameter(belt.warp or "", filled(belt.carcass_thickness))
+    return {of("drum_diameter_required", name): least for name in spec.all_drives}
+
+
+# -- sag, section by section ----------------------------------------------------------------------------------------
+
+
+def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
+    """Sag of each section at the lower of its ends, where the sections are the file's own; and the largest of all."""
+    found: dict[str, float] = {}
+    ratios: list[FloatArray] = []
+    for name, which in (("sag_carry", CARRY), ("sag_return", RETURN)):
+        part = line.strand(which)
+        if not part.span_weights:
+            continue
+        ends = line.static_ends(which)[0] + part.rises
+        lows = np.minimum(ends[1:], ends[:-1])
+        sags = [value(sag.sag_ratio, span, low) for span, low in zip(part.span_weights, lows, strict=True)]
+        if which == RETURN:
+            sags.reverse()  # sections are counted from the tail
+        ratios.append(np.array(sags))
+        if spec.route.sections is not None:
+            found |= {of(name, str(number)): ratio for number, ratio in enumerate(sags, 1)}
+    if len(ratios) == 2:
+        found["sag_relative_max"] = number(max(part.max() for part in ratios))
+    return found
+
+
+# -- over all fillings of the belt ----------------------------------------------------------------------------------
+
+
+def hollows(spec: Conveyor) -> list[Curve]:
+    """The concave curves whose radius is given."""
+    return [curve for curve in spec.route.curves if curve.hollow]
+
+
+@dataclass(frozen=True, slots=True)
+class Fillings:
+    """The carry strand over all choices of loaded sections: the empty belt, what the load of each section adds to the
+    tension at its downstream end and at all places [N], marks between the sections [m]."""
+
+    empty: BeltLine
+    pulls: FloatArray
+    everywhere: FloatArray
+    marks: FloatArray
+
+    def at(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Least and most tension at places along the carry strand [m].
+
+            S(x) = S(0) + sum_k x_k dS_k;   least: x_k = 1 where dS_k < 0,   most: where dS_k > 0
+
+        **Source** `laws.strand_tension.worst_loading`: a linear function on a cube has its extreme at a corner.
+        """
+        passed = np.clip((places[:, None] - self.marks[:-1]) / np.diff(self.marks), 0, 1)
+        gains = passed * self.pulls + self.everywhere
+        base = self.empty.static(CARRY, places / self.empty.carry.length)
+        return base + np.minimum(gains, 0).sum(axis=1), base + np.maximum(gains, 0).sum(axis=1)
+
+
+def fillings(spec: Conveyor, scene: Run) -> Fillings:
+    """All fillings of a conveyor in steady running.
+
+    A loaded section adds its pull to the tension downstream of it, less the share that drives at the tail take; in a
+    fixed loop the mean of that is taken off everywhere. All is linear in the load of each section.
+    """
+    count = len(spec.route.parts)
+    empty, full = (running(spec, scene, [loaded] * count) for loaded in (False, True))
+    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
+    everywhere = np.array([full.tail_force - empty.tail_force] + [0.0] * (count - 1))
+    shares = share(spec)
+    at_tail = sum(shares[name] for name, drive in spec.all_drives.items() if drive.at == "tail")
+    everywhere = everywhere - at_tail * (pulls + everywhere)
+    marks, whole = np.array(full.carry.marks), full.carry.length
+    if full.fixed_length:
+        rest = np.diff(marks) / 2 + whole - marks[1:]
+        everywhere = everywhere - (pulls * rest + everywhere * whole) / (whole + full.back.length)
+    return Fillings(empty, pulls, everywhere, marks)
+
+
+def _places(spec: Conveyor, place: Curve | Transition, name: str) -> FloatArray:
+    """Where the tension counts: at both ends and at the break of a curve, at the drum of a transition [m]."""
+    whole = spec.route.span
+    if isinstance(place, Curve):
+        return np.clip([place.place - place.tangent, place.place, place.place + place.tangent], 0, whole)
+    return np.array([whole if name == "head" else 0.0])
+
+
+def _curves(spec: Conveyor, loads: Fillings) -> dict[str, float]:
+    """Largest tension in each hollow, whatever is loaded."""
+    found = {}
+    for curve in hollows(spec):
+        _, most = loads.at(_places(spec, curve, ""))
+        found[of("tension_curve_max", str(curve.number))] = number(most.max())
+    return found
+
+
+# -- fibres across the belt -----------------------------------------------------------------------------------------
+
+
+def bent(spec: Conveyor) -> dict[str, Curve | Transition]:
+    """Places where fibres of the belt differ in length, by the name of their loads."""
+    places: dict[str, Curve | Transition] = {
+        at: place for at in ("head", "tail") if (place := getattr(spec.transitions, at)) is not None
+    }
+    return places | {f"curve_{curve.number}": curve for curve in spec.route.curves}
+
+
+def _fibres(spec: Conveyor, loads: Fillings) -> dict[str, float]:
+    """Largest and smallest tension per width of any fibre, whatever is loaded.
+
+    k = S/W + (EA/W) eps,   eps of `belt_section.transition_strains`, z/R in a curve
+    """
+    found: dict[str, float] = {}
+    width, stiffness = spec.belt.width, loads.empty.stiffness
+    if spec.idlers.carry.trough is None or width is None:
+        return {}
+    for name, place in bent(spec).items():
+        least, most = loads.at(_places(spec, place, name))
+        more, less = _strains(spec, place)
+        found[of("fibre_tension_max", name)] = number(most.max() + stiffness * more) / width
+        found[of("fibre_tension_min", name)] = number(least.min() - stiffness * less) / width
+    return found
+
+
+def _strains(spec: Conveyor, place: Curve | Transition) -> tuple[float, float]:
+    """How far the tightest fibre is above the mean strain, and the slackest below it."""
+    trough, width = spec.idlers.carry.trough, filled(spec.belt.width)
+    assert trough is not None
+    middle = min(trough.middle_roll, width)
+    side = (width - middle) / 2
+    if isinstance(place, Curve):
+        edge, centre = vertical_curve.trough_heights(middle, side, trough.angle)
+        heights = (centre, edge) if place.hollow else (edge, centre)
+        return cast(tuple[float, float], tuple(height / place.radius for height in heights))
+    return belt_section.transition_strains(place.length, middle, side, trough.angle, place.pulley_lift)

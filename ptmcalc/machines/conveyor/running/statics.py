@@ -1,0 +1,199 @@
+"""Steady running: tensions strand by strand, power, and what tension the belt asks for."""
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.base.estimate import Estimate, Interval
+from ptmcalc.contract.result import Found, History, Result, family, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import belt_resistance, sag, strand_tension
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.drives import running, same_drives, share
+from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
+from ptmcalc.machines.conveyor.resistances import filled
+from ptmcalc.machines.conveyor.running.loads import OF_STATICS, static_loads
+from ptmcalc.machines.conveyor.spec import Conveyor, Run
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.numerics.lanes import exp, expm1, number, value
+
+_OF_RUNNING = frozenset(
+    {
+        "static_resistance",
+        "effective_tension",
+        "effective_tension_worst",
+        "power_drive_running",
+        "power_drive_empty",
+        "power_motor_running",
+        "sag_tension_required",
+        "slack_side_tension_required",
+        "takeup_travel",
+        "takeup_mass",
+        "belt_cycle_time",
+    }
+)
+
+
+def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Result:
+    """Tensions of a steadily running belt from the head's run-off round the loop.
+
+        S(s) = S_off + integral of (resistance + gradient) ds;   S_on = S_off + W
+
+    with S_off the take-up's (gravity) or such that the mean round the loop is the mounting tension (rigid: the
+    total elongation of the belt does not change when it runs). Several drives share W as their torques do.
+
+    **Range** the take-up behind the head's drums; friction independent of speed.
+    **Error** exact for that model: a sum of the given resistances.
+    **Source** ISO 5048:1989; DIN 22101; mean tension of a fixed loop derived from constant elongation.
+    """
+    line = running(spec, scene)
+    places, tensions = _round_the_loop(line)
+    high, low = int(np.argmax(tensions)), int(np.argmin(tensions))
+    loads = {
+        "static_resistance": line.static_resistance,
+        "tension_run_on_max": line.run_on,
+        "tension_run_off_min": line.run_off,
+        "tension_max": number(tensions[high]),
+        "tension_min": number(tensions[low]),
+    }
+    back = len(line.back.marks)
+    lows = number(tensions[:back].min()), number(tensions[back:].min())
+    loads |= bounds.derived_loads(line, number(tensions[high]), lows)
+    loads |= _of_drives(spec, line)
+    loads |= _of_running(spec, scene, line, places, tensions)
+    loads |= static_loads(spec, scene, line)
+    at = {"tension_max": {"position": number(places[high])}, "tension_min": {"position": number(places[low])}}
+    found = {name: Found(Estimate.exact(value), at.get(name, {})) for name, value in loads.items()}
+
+    def histories() -> dict[str, History]:
+        course = History(units.FORCE, places.tolist(), tensions.tolist(), units.SPAN)
+        return {"tension_max": course, "tension_min": course}
+
+    beyond = _unshared(spec, found)
+    state = "the slip lines of different motors decide how they share the pull" if beyond else ""
+    return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
+
+
+def _unshared(spec: Conveyor, found: Iterable[str]) -> dict[str, Interval]:
+    """Loads that depend on how different drives share the pull, without a bound."""
+    drives = spec.all_drives.values()
+    if same_drives(drives):
+        return {}
+    several = {one.at for one in drives} == {"head", "tail"}
+    names = [name for name in found if family(name) in PER_DRIVE and ("[" in name or family(name) in GRIP)] + [
+        name for name in found if several and name in OF_BELT - set(GRIP)
+    ]
+    return {name: Interval(-math.inf, math.inf) for name in names}
+
+
+def _round_the_loop(line: BeltLine) -> tuple[FloatArray, FloatArray]:
+    """Places from the head's run-off on [m] and the tensions there [N]; the tail is there twice."""
+    back, carry = line.static_ends(RETURN)[0] + line.back.rises, line.static_ends(CARRY)[0] + line.carry.rises
+    places = np.concatenate([line.back.marks, np.add(line.back.length, line.carry.marks)])
+    return places, np.concatenate([back, carry])
+
+
+def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
+    """Tensions and grip of every drive, and the worst of them."""
+    shares, whole = share(spec), line.static_resistance + line.tail_pull
+    loads: dict[str, float] = {}
+    worst: list[dict[str, float]] = []
+    for at, behind in (("head", line.run_off), ("tail", line.static_ends(CARRY)[0])):
+        drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
+        for name, drive in reversed(drives):
+            above = behind + shares[name] * whole
+            loads[of("tension_run_on_max", name)], loads[of("tension_run_off_min", name)] = above, behind
+            if drive.drum.friction is not None:
+                sides = [bounds.Sides(above, behind, line.centrifugal_at_speed)]
+                worst.append(bounds.slip_loads(drive.drum.friction * drive.drum.wrap, sides))
+                loads |= {of(load, name): value for load, value in worst[-1].items()}
+            behind = above
+    if len(worst) == len(spec.all_drives):
+        loads["slip_utilisation_max"] = max(one["slip_utilisation_max"] for one in worst)
+        loads["slip_reserve_min"] = min(one["slip_reserve_min"] for one in worst)
+    return loads
+
+
+def _of_running(
+    spec: Conveyor, scene: Run, line: BeltLine, places: FloatArray, tensions: FloatArray
+) -> dict[str, float]:
+    """Power, worst part loaded, tensions asked for, take-up.
+
+    The way the take-up needs goes from the new belt, closed at standstill with the take-up's tension S_0 all round, to
+    the old belt in steady running: s = L_loop ((S_mean - S_0)/EA + eps_p)/2, positive as the belt grows longer.
+
+    * Gravity: the weight keeps S_0 at the run-off, so S_mean is above it, and the weight sinks by the elastic part at
+      every start. What waves add for a moment is `takeup_movement`.
+    * Rigid: the screw was set to the mean S_0, which running does not change: nothing moves, and the way is what the
+      screw must be turned over the life of the belt to bring S_0 back.
+
+    Pulling a slack belt up to S_0 at mounting takes S_0 L_loop/(2 EA) more, which is not in it.
+    """
+    pull = line.static_resistance + line.tail_pull
+    empty = running(spec, scene.model_copy(update={"load": "empty"}))
+    nothing = empty.static_resistance + empty.tail_pull
+    mean = belt_resistance.mean_tension(np.diff(places), tensions)
+    mounting = spec.takeup.tension
+    loads = {
+        "effective_tension": pull,
+        "effective_tension_worst": nothing + _worst_load(spec, scene, empty),
+        "power_drive_running": value(belt_resistance.shaft_power, pull, line.speed),
+        "power_drive_empty": value(belt_resistance.shaft_power, nothing, line.speed),
+        "power_motor_running": _motor_power(spec, pull * line.speed),
+        "power_motor_empty": _motor_power(spec, nothing * line.speed),
+        "belt_cycle_time": belt_resistance.cycle_time(line.back.length + line.carry.length, line.speed),
+        "takeup_travel": value(
+            belt_resistance.takeup_travel,
+            line.back.length + line.carry.length,
+            mean,
+            mounting,
+            line.stiffness,
+            spec.takeup.permanent_elongation or 0.0,
+            2,
+        ),
+    }
+    if not line.fixed_length:
+        loads["takeup_mass"] = value(belt_resistance.takeup_mass, mounting, 2, spec.gravity)
+    spans = [span for span in (line.back.span_weight, line.carry.span_weight) if span is not None]
+    if len(spans) == 2:
+        loads["sag_tension_required"] = max(number(sag.tension_at_sag(span, spec.checks.sag)) for span in spans)
+    at_head = [drive.drum for drive in spec.all_drives.values() if drive.at == "head"]
+    grips = [drum.friction * drum.wrap for drum in at_head if drum.friction is not None]
+    if len(grips) == len(at_head):
+        needed, grip = max(line.static_resistance, 0.0) * spec.checks.slip.reserve, sum(grips)
+        loads["slack_side_tension_required"] = needed * exp(-grip) / -expm1(-grip)  # any grip, however large
+    return loads
+
+
+def _motor_power(spec: Conveyor, power: float) -> float:
+    """Power of all motors for a power on the drum shafts [W], each through its own gear."""
+    shares = share(spec)
+    return sum(
+        value(belt_resistance.motor_power, shares[name] * power, filled(drive.gear.efficiency))
+        for name, drive in spec.all_drives.items()
+    )
+
+
+def _worst_load(spec: Conveyor, scene: Run, empty: BeltLine) -> float:
+    """Pull of the load when only those sections are full where it pulls back [N]."""
+    full = running(spec, scene, [True] * len(spec.route.parts))
+    pulls = np.diff(full.carry.rises) - np.diff(empty.carry.rises)
+    pulls[0] += full.tail_force - empty.tail_force
+    return number(pulls @ strand_tension.worst_loading(pulls, strand_tension.MOST))
+
+
+STATICS: Solver[Conveyor, Run] = Solver(
+    name="statics",
+    title="steady-running belt tensions",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Run}),
+    represents=frozenset(),
+    gives=(OF_BELT - {"tension_dynamic_run_on_max"}).union(_OF_RUNNING, OF_STATICS, PER_DRIVE - SLIPS),
+    run=run,
+    cost=lambda spec, scene, carried, level: 5e-4,
+    source="ISO 5048:1989; DIN 22101",
+    by_lanes=True,
+)

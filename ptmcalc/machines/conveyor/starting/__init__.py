@@ -1,0 +1,1 @@
+"""Starting: motor heat, sharpness, residual oscillation, the rigid conveyor."""

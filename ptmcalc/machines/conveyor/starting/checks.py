@@ -1,0 +1,210 @@
+"""Checks of a start: its motors' heat, its sharpness, the swings it leaves, a control that pulsates."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.starting.loads import allowed_acceleration
+
+Loads = Mapping[str, Estimate]
+Checks = Iterable[AnyCheck]
+
+
+def _profile_key(key: str = "") -> Callable[[Conveyor, Start], KeyPath]:
+    """Where a key of the profile of a scene stands in the file; without one, the key that says how long it takes."""
+    return lambda spec, scene: (
+        "scenes",
+        list(spec.all_scenes).index(scene),
+        "profile",
+        key or scene.profile.time_key,
+    )
+
+
+def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
+    """The key of the starting torque the file uses."""
+    path = path or spec.main_path
+    one = spec.value_at(path).motor
+    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
+    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
+
+
+_time_key, _ripple_key = _profile_key(), _profile_key("ripple")
+
+
+# -- heat of the motors ---------------------------------------------------------------------------------------------
+
+
+def _heat_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Heat the rotor of one motor may take up in one start, from the file.
+
+    **Range** a start from the state of the motor for which its maker gives it: cold, or warm from running.
+    **Error** that of the maker's number.
+    **Source** the motor's data sheet.
+    """
+    return Estimate.exact(spec.main_drive.motor.start_heat or math.inf)
+
+
+def _heat_checks(spec: Conveyor, scene: Start) -> Checks:
+    """One for each drive whose motors say what they bear, in a start on the mains."""
+    for name, drive in spec.all_drives.items() if not scene.profile.imposes_speed else ():
+        most = drive.motor.start_heat
+        if most is None:
+            continue
+        path = spec.drive_path(name)
+        key = starting_torque_key(spec, path)
+        needs = () if drive.motor.curve is not None else ((*path, "motor", "no_load_speed"),)
+        yield MOTOR_HEAT.of(name, _exactly(most), key, needs, () if key[-1] == "curve" else key)
+
+
+def _exactly(limit: float) -> Callable[[Conveyor, Start], Estimate]:
+    return lambda spec, scene: Estimate.exact(limit)
+
+
+MOTOR_HEAT: Check[Conveyor, Start] = Check(
+    code="CNV117",
+    title="rotor heat per start",
+    question="Is the rotor heat of a start within the data-sheet value?",
+    failure="rotor heat of the start exceeds the data-sheet value",
+    scenes=frozenset({Start}),
+    loads=("motor_start_heat",),
+    sense=Sense.AT_MOST,
+    limit=_heat_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: starting_torque_key(spec),
+    repair=no_repair,
+    each=_heat_checks,
+    what="The rotor heat of each mains-fed motor in a start is at most the manufacturer's value.",
+    why="A rotor that accelerates slowly melts its bars before any relay in the stator circuit responds.",
+    formula="integral of M (w_0 - w) dt <= allowed",
+    source="power of the air gap less that of the shaft; the motor's data sheet",
+)
+
+# -- sharpness ------------------------------------------------------------------------------------------------------
+
+
+def _sharp_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Largest acceleration of the file, and what grip and slack surely bear where it asks for that.
+
+    **Range** any start; the margins with one drive and an evenly loaded belt.
+    **Error** on the safe side: the margins are bounds.
+    **Source** the plant's rules; `starting.loads.allowed_acceleration`.
+    """
+    margins = allowed_acceleration(spec, scene) if spec.checks.start_margins == "on" else None
+    asked = [limit for limit in (spec.checks.start_acceleration, margins) if limit is not None]
+    return Estimate.exact(min(asked, default=math.inf))
+
+
+def _sharp_checks(spec: Conveyor, scene: Start) -> Checks:
+    """Where the file gives a limit, or asks for one that is known."""
+    if math.isfinite(_sharp_limit(spec, scene).value):
+        yield SHARP
+
+
+def _sharp_key(spec: Conveyor, scene: Start) -> KeyPath:
+    return _time_key(spec, scene) if scene.profile.rise_time else starting_torque_key(spec)
+
+
+def _sharp_repair(spec: Conveyor, scene: Start) -> KeyPath:
+    key = _sharp_key(spec, scene)
+    return () if key[-1] in ("curve", "points") else key
+
+
+SHARP: Check[Conveyor, Start] = Check(
+    code="CNV118",
+    title="belt starting acceleration",
+    question="Is the acceleration of the start within its limit?",
+    failure="start is too fast",
+    scenes=frozenset({Start}),
+    loads=("acceleration_rigid",),
+    sense=Sense.AT_MOST,
+    limit=_sharp_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _sharp_key(spec, scene),
+    repair=_sharp_repair,
+    each=_sharp_checks,
+    what="The maximum acceleration of the profile is at most the limit of the file. If the file requires it, the"
+    " acceleration is also at most the bound set by traction and slack.",
+    why="In a hard start, load slides back on a slope and the pulley slips. The belt goes slack behind the starting"
+    " wave.",
+    formula="v q'_max <= a   (speed)      (F - W)/M <= a   (torque)",
+    source="practice: 0.1 to 0.3 m/s^2; bounds of `laws.loop_bounds`",
+)
+
+# -- swings ---------------------------------------------------------------------------------------------------------
+
+
+def _residual_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """Largest swing left behind, from the file.
+
+    **Range** profiles that take their time.
+    **Error** none: a chosen limit.
+    **Source** the plant's rules.
+    """
+    return Estimate.exact(spec.checks.start_residual if spec.checks.start_residual is not None else math.inf)
+
+
+def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
+    if spec.checks.start_residual is not None and scene.profile.rise_time:
+        yield RESIDUAL
+
+
+RESIDUAL: Check[Conveyor, Start] = Check(
+    code="CNV119",
+    title="residual belt oscillation after start",
+    question="Does the start profile leave little oscillation in the first belt mode?",
+    failure="start profile excites the first belt mode",
+    scenes=frozenset({Start}),
+    loads=("start_residual",),
+    sense=Sense.AT_MOST,
+    limit=_residual_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _time_key(spec, scene),
+    repair=lambda spec, scene: () if scene.profile.points else _time_key(spec, scene),
+    each=_residual_checks,
+    what="The residual oscillation of the profile in the lowest belt mode is at most the limit of the file.",
+    why="A belt that oscillates after its start wears splices and take-up. A rise time of whole periods leaves no"
+    " oscillation.",
+    formula="R = |integral of q'(t) exp(i w_1 t) dt| <= limit,   1 for a step",
+    source="`laws.start_profile.residual`; frequencies of `laws.belt_modes`",
+)
+
+
+def _band_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """How far a pulsation has to stay from the three lowest frequencies of the belt, 15 % by default.
+
+    **Range** higher modes are damped by belt and idlers.
+    **Error** none: a chosen limit.
+    **Source** 15 %: a damping of 0.05 lets a mode grow to a third of its peak there; an engineering choice.
+    """
+    return Estimate.exact(spec.checks.resonance_band)
+
+
+def _band_checks(spec: Conveyor, scene: Start) -> Checks:
+    if scene.profile.ripple is not None:
+        yield RESONANCE
+
+
+RESONANCE: Check[Conveyor, Start] = Check(
+    code="CNV120",
+    title="drive ripple separation from belt modes",
+    question="Is the drive torque ripple far enough from the three lowest belt modes?",
+    failure="drive ripple is close to a belt natural frequency",
+    scenes=frozenset({Start}),
+    loads=("resonance_distance",),
+    sense=Sense.AT_LEAST,
+    limit=_band_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _ripple_key(spec, scene),
+    repair=_ripple_key,
+    each=_band_checks,
+    what="The relative distance of the drive ripple from each of the three lowest belt natural frequencies is at least"
+    " the band.",
+    why="A small ripple in resonance amplifies the belt oscillation until the pulley slips or a splice fails.",
+    formula="min over k = 1, 2, 3 of |f/f_k - 1| >= band",
+    source="frequencies of `laws.belt_modes`; the band is an engineering choice",
+)
+
+CHECKS_OF_THE_START: tuple[AnyCheck, ...] = (MOTOR_HEAT, SHARP, RESIDUAL, RESONANCE)

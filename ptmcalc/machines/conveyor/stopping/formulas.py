@@ -1,0 +1,234 @@
+"""Stops and standstill of the rigid conveyor: what the brakes and the backstop have to hold, what a run-out tells."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_back import runs_back
+from ptmcalc.components.run_out import too_long_a_way
+from ptmcalc.contract.effect import Criterion
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import AnySolver, Fidelity, Solver, always_valid
+from ptmcalc.laws import stopping
+from ptmcalc.machines.conveyor.brakes import brakes_of, braking
+from ptmcalc.machines.conveyor.drives import moving_mass, running
+from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
+from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
+from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.resistances import extra_forces, filled
+from ptmcalc.machines.conveyor.spec import (
+    Backstop,
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    EmergencyStop,
+    Hold,
+    Run,
+    Start,
+    Stop,
+)
+from ptmcalc.spec.scene import Scene
+
+
+def _exactly(loads: dict[str, float]) -> Result:
+    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+
+
+def brake(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Torque on the drum shaft that stops the rigid conveyor within the way of the file, and its pull on the belt.
+
+        M = (m v^2/(2 s) - W) R,  not below 0;   S_ov = m_belt v^2/(2 s)
+
+    W > 0 opposes the motion and helps; downhill it may drive. m holds everything that moves, rotors included. Without
+    a way in the file the pull is that of the brakes it has, S_ov = m_belt (W + B)/m.
+
+    **Range** uniform deceleration, the brake at full torque from the first moment.
+    **Error** exact for the rigid conveyor; delay, rise and waves are in the simulated way.
+    **Source** lecture notes Kramatorsk 2007, signed form.
+    """
+    way, line = spec.stop_distance_limit(scene), running(spec, scene)
+    resistance, belt = line.static_resistance + line.tail_pull, moving_mass(line) - line.drive_mass
+    if way is None:
+        held = sum(braking(spec, one).force for one in brakes_of(spec, scene).values())
+        return _exactly({"tension_overload_braking": belt * max(resistance + held, 0.0) / moving_mass(line)})
+    force = float(stopping.braking_force(moving_mass(line), line.speed, way)) - resistance
+    return _exactly(
+        {
+            "brake_torque_required": max(force, 0.0) * spec.main_drive.drum.diameter / 2,
+            "tension_overload_braking": float(stopping.braking_force(belt, line.speed, way)),
+        }
+    )
+
+
+def brake_notes(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """The brake torque of the textbook, on the drum shaft.
+
+        M = (|W| + m v^2/(2 s)) R
+
+    **Range** as `brake`; it equals the signed form where the load drives the conveyor.
+    **Error** none bound: uphill it adds the resistance to what the brake must do instead of crediting it.
+    **Source** lecture notes Kramatorsk 2007, M, M_st and M_T in turn.
+    """
+    way = spec.stop_distance_limit(scene)
+    if way is None:
+        return Result({}, work=1)
+    line = running(spec, scene)
+    torque = stopping.brake_torque_for_distance(
+        moving_mass(line), line.static_resistance + line.tail_pull, line.speed, way, spec.main_drive.drum.diameter,
+        ratio=1.0, efficiency=1.0, rotor_inertia=0.0, form=stopping.NOTES,
+    )  # fmt: skip
+    return _exactly({"brake_torque_required": torque})
+
+
+def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) -> Result:
+    """Resistance coefficient that a measured run-out tells.
+
+        m v^2/2 = s (f N + H),   f = (m v^2/(2 s) - H)/N
+
+    N s f is the idlers' work with the factor C of the file, H the lift.
+
+    **Range** a run-out from rated speed without brakes, gears engaged; secondary forces taken off H; not by CEMA.
+    **Error** twice that of the speed, once that of the way.
+    **Source** lecture notes Kramatorsk 2007: energy of the run-out.
+    """
+    way = scene.measured_distance
+    if way is None or spec.resistance.cema is not None:
+        return Result({}, work=1)
+    line = belt_line(spec, scene)
+    friction, lift = _friction_per_coefficient(spec, scene, line)
+    found, _ = stopping.coast_down_coefficient(moving_mass(line), lift, friction, 1.0, line.speed, way, 0.0, 0.0)
+    told = _exactly({"resistance_coefficient_identified": float(found)})
+    return replace(told, findings=too_long_a_way(spec.all_scenes, scene, way, float(found)))
+
+
+def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> tuple[float, float]:
+    """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
+    used = filled(spec.resistance.coefficient) * stop_factor(spec)
+    along = _special(spec, scene)
+    friction = line.back.friction[-1] + line.carry.friction[-1] - along
+    return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force + along
+
+
+def _special(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Forces with a name along both strands [N]."""
+    extra = extra_forces(spec, load_line_mass(spec))
+    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
+    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
+    return carry + extra.along("return", loaded=False)
+
+
+def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Torque on the head's drum shaft with which the stopped belt wants to run back.
+
+        M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
+
+    Only climbing sections are loaded (the worst part). Of the resistance only that of the idlers counts at standstill:
+    loading points, skirt plates and cleaners do not act for certain.
+
+    **Range** standstill; not the blow of a backstop that engages with play.
+    **Error** exact but for the coefficient.
+    **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
+    """
+    force = max(
+        -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
+    )
+    torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
+    found = _exactly({"backstop_torque": torque})
+    if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
+        return found
+    return replace(found, failures=(runs_back("CNV109", "belt", torque, Backstop.model_fields["reserve"].default),))
+
+
+def _rest(spec: Conveyor, scene: Hold) -> float:
+    """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
+    line = belt_line(spec, scene)
+    friction = line.back.friction[-1] + line.carry.friction[-1] - _special(spec, scene)
+    return rest_factor(spec) * friction - line.back.climb[-1] - line.carry.climb[-1]
+
+
+def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Time and way of the rigid conveyor to rest, brakes with delay and rise.
+
+        M v' = -(W + B(t))
+
+    **Range** any stop; infinite where nothing stops it.
+    **Error** none of its own; the belt at the head of a long conveyor stops earlier or later than its mean.
+    **Source** Newton's law.
+    """
+    case = moving(spec, scene)
+    ways = dict.fromkeys(ways_of(scene), case.rigid_way)
+    return _exactly({"stop_time": case.rigid_time} | ways)
+
+
+def _formula(
+    name: str,
+    title: str,
+    run: Callable[..., Result],
+    scenes: set[type[Scene]],
+    gives: Iterable[str],
+    source: str,
+    *,
+    decides: bool = True,
+    valid: Callable[[Conveyor, ConveyorScene], Criterion | None] = always_valid,
+) -> AnySolver:
+    """A closed form of the rigid conveyor, which represents no effect."""
+    return Solver(
+        name=name,
+        title=title,
+        fidelity=Fidelity.FORMULA,
+        scenes=frozenset(scenes),
+        represents=frozenset(),
+        gives=frozenset(gives),
+        run=run,
+        cost=lambda spec, scene, carried, level: 2e-4,
+        source=source,
+        decides=decides,
+        valid=valid,
+    )
+
+
+_NOTES = "lecture notes Kramatorsk 2007"
+BRAKING = _formula(
+    "brake_statics",
+    "required brake torque for the stopping distance",
+    brake,
+    {Stop, EmergencyStop},
+    {"brake_torque_required", "tension_overload_braking"},
+    f"{_NOTES}, signed form",
+)
+BRAKING_NOTES = _formula(
+    "brake_notes",
+    "textbook brake torque for the stopping distance",
+    brake_notes,
+    {Stop, EmergencyStop},
+    {"brake_torque_required"},
+    _NOTES,
+    decides=False,
+)
+IDENTIFY = _formula(
+    "run_out",
+    "friction coefficient from the measured coasting distance",
+    identify,
+    {Coast},
+    {"resistance_coefficient_identified"},
+    _NOTES,
+)
+HOLDING = _formula(
+    "holding",
+    "rollback torque of the stopped belt",
+    hold,
+    {Hold, Stop, EmergencyStop, Coast, Start, Run},
+    {"backstop_torque"},
+    _NOTES,
+    valid=elsewhere,
+)
+RIGID_STOP = _formula(
+    "rigid_stop",
+    "textbook stop, rigid conveyor",
+    rigid_stop,
+    {Stop, EmergencyStop, Coast},
+    OF_STOP,
+    "Newton's law",
+    decides=False,
+)

@@ -1,0 +1,1 @@
+"""Traction: belt slip at the drive pulleys."""

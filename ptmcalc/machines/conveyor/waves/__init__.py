@@ -1,0 +1,1 @@
+"""Belt waves: their bounds without simulation, and the simulations."""

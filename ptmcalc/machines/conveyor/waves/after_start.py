@@ -1,0 +1,214 @@
+"""What waves that still go round the belt at the end of a start can yet do to its loads."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ptmcalc.base.estimate import Interval
+from ptmcalc.contract.result import Found, family, of
+from ptmcalc.laws import capstan
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
+from ptmcalc.machines.conveyor.running.loads import hollows
+from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.numerics.free_waves import Row, swings
+
+_STRANDS = (RETURN, CARRY)
+_X = np.linspace(0.0, 1.0, 129)
+_ALL, _HALVINGS = 8.0, 40
+"""Grip in use above which no more of it is told, and halvings of that until it is known."""
+Place = tuple[int, int]
+"""A strand, and its first (0) or last place (-1)."""
+_FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_reserve"})
+"""Families of loads that are worst when smallest."""
+
+
+MODES = 256
+"""Most springs of a belt whose modes are looked for: the time that takes grows with the cube of it."""
+AT_SPEED = 0.99
+"""Part of its speed from which on a drum counts as having it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """A belt at the end of the window of a start, whose drums are held at their speed.
+
+    `row` are its masses and springs, `tail` which of the masses is at the tail; None where drums are too slow or slip:
+    nothing then bounds what follows, and `state` says how the belt stands. It `drifts` where the belt carries its
+    strain along: speeds held at head and tail then leave ever less of the load to one of the drives.
+    """
+
+    row: Row | None
+    tail: int
+    state: str = ""
+    slips: bool = False
+    drifts: bool = False
+
+
+def ending(line: BeltLine, drum: float, slips: bool, row: Row, tail: int) -> Ending:
+    """The end of a start whose slowest drum has a speed [m/s]."""
+    slow = drum < AT_SPEED * line.speed
+    how = ", the pulley slips" if slips else ""
+    state = f"belt at {drum:.3g} of {line.speed:.3g} m/s{how}" if slow or slips else ""
+    return Ending(None if state else row, tail, state, slips)
+
+
+def still_to_come(spec: Conveyor, line: BeltLine, end: Ending, loads: Mapping[str, Found]) -> dict[str, Interval]:
+    """Offsets by which loads of a start can still change after its window, once the drums are held at their speed.
+
+        |T(s, t) - T_even(s)| <= sum_k A_k |psi_k(s)|
+
+    over the natural modes of the belt whose drums are held, with the amplitudes that the waves have at the end.
+
+    **Range** a start whose drums have their speed at the end; resistances as during the start.
+    **Error** a bound for a straight belt; of one that sags the stiffness of the end holds.
+    **Source** `numerics.free_waves.swings`; derived there.
+    """
+    after = _After(spec, line, end)
+    offsets = {}
+    for name, found in loads.items():
+        kind = family(name)
+        if kind in SLIPS:
+            used = after.loads.get("slip_utilisation_max" + name[len(kind) :], math.inf)
+            offset = Interval(0.0, math.inf if end.slips or used >= 1 else 0.0)
+        elif kind == "takeup_movement":
+            offset = Interval(0.0, max(after.way, 2 * after.way - found.estimate.high))
+        elif name not in after.loads:
+            continue
+        elif kind in _FALL:
+            offset = Interval(min(after.loads[name] - found.estimate.low, 0.0), 0.0)
+        else:
+            offset = Interval(0.0, max(after.loads[name] - found.estimate.high, 0.0))
+        if offset.low < 0 or offset.high > 0:
+            offsets[name] = offset
+    return offsets
+
+
+def _part(shares: FloatArray, most: float) -> FloatArray:
+    """Shares of what may be infinite; none of it is 0."""
+    return np.asarray(shares * most) if math.isfinite(most) else np.where(shares > 0, most, 0.0)
+
+
+class _After:
+    """The belt once its drums are held: the least and the most tension at the places `_X` of both strands, and the most
+    by which its run-off strays from where it is in even running [m]."""
+
+    def __init__(self, spec: Conveyor, line: BeltLine, end: Ending) -> None:
+        self.spec, self.line = spec, line
+        even = np.array([line.static(strand, _X) for strand in _STRANDS])
+        swing, self.way, self.tail = np.full(even.shape, math.inf), math.inf, end.tail
+        self.swings = None if end.row is None or end.drifts else swings(end.row)
+        offset = 0.0
+        if end.row is not None:
+            found, cells = self.swings or swings(end.row), np.cumsum(end.row.compliances) - end.row.compliances / 2
+            parts = (slice(0, end.tail), slice(end.tail, None))
+            for strand, part in zip(_STRANDS, parts, strict=True):
+                ends = np.cumsum(end.row.compliances)[[part.start - 1, (part.stop or 0) - 1]] * [part.start > 0, 1]
+                swing[strand] = np.interp(_X, (cells[part] - ends[0]) / (ends[1] - ends[0]), found.pulls[part])
+            self.way = float(found.ways[0])
+            if end.tail in end.row.held:
+                own = end.row.compliances[end.tail :]
+                offset = float(own @ end.row.pulls[end.tail :]) / float(own.sum())
+        if not line.fixed_length and not spec.takeup_weight:
+            swing[RETURN, 0] = 0.0
+        even[CARRY] += offset
+        self.even, self.least, self.most = even, even - swing, even + swing
+        if end.drifts:
+            side, sense = (self.most, 1) if offset > 0 else (self.least, -1)
+            side[CARRY] = sense * math.inf
+
+    @cached_property
+    def loads(self) -> dict[str, float]:
+        """The worst that every load can come to."""
+        line = self.line
+        high, lows = float(self.most.max()), (float(self.least[RETURN].min()), float(self.least[CARRY].min()))
+        on, off = float(self.most[CARRY, -1]), float(self.least[RETURN, 0])
+        worst = {
+            "tension_run_on_max": on,
+            "tension_dynamic_run_on_max": on - line.run_on,
+            "tension_run_off_min": off,
+            "tension_max": high,
+            "tension_min": min(lows),
+        }
+        worst |= bounds.derived_loads(line, high, lows)
+        needed = line.tail_pull + self._together((CARRY, -1), (RETURN, 0), (1.0, -1.0))
+        worst["starting_force_needed"] = needed
+        worst["starting_reserve"] = starting_force(self.spec) / needed if needed > 0 else math.inf
+        for curve in hollows(self.spec):
+            touched = np.abs(_X * line.carry.length - curve.place) <= curve.tangent + line.carry.length / len(_X)
+            worst[of("tension_curve_max", str(curve.number))] = float(self.most[CARRY, touched].max())
+        return worst | dict(self._of_drives())
+
+    def _of_drives(self) -> Iterator[tuple[str, float]]:
+        """Tensions and grip of every drive; drives at one place share what the belt takes by their starting forces."""
+        friction, spec, used, left = grips(self.spec), self.spec, [], []
+        lift = self.line.centrifugal_at_speed
+        for place, first, last in (("head", (CARRY, -1), (RETURN, 0)), ("tail", (RETURN, -1), (CARRY, 0))):
+            names = [name for name, drive in spec.all_drives.items() if drive.at == place]
+            forces = np.array([drive_force(spec.all_drives[name]) for name in names])
+            shares = np.concatenate([[0.0], np.cumsum(forces) / forces.sum()]) if names else np.zeros(1)
+            least, most = (
+                _part(1 - shares, float(side[first])) + _part(shares, float(side[last]))
+                for side in (self.least, self.most)
+            )
+            for index, name in enumerate(names):
+                yield of("tension_run_on_max", name), float(most[index])
+                yield of("tension_run_off_min", name), float(least[index + 1])
+                if name not in friction:
+                    continue
+                sides = shares[index], shares[index + 1]
+                grip = max(self._used(first, last, pair, lift, friction[name]) for pair in (sides, sides[::-1]))
+                bare = max(self._used(first, last, pair, 0.0, friction[name]) for pair in (sides, sides[::-1]))
+                used.append(grip)
+                left.append(float(capstan.slip_reserve_ratio(bare, friction[name])))
+                yield of("slip_utilisation_max", name), grip
+                yield of("slip_reserve_min", name), left[-1]
+        if used:
+            yield "slip_utilisation_max", max(used)
+            yield "slip_reserve_min", min(left)
+
+    def _used(self, first: Place, last: Place, shares: tuple[float, float], lift: float, exponent: float) -> float:
+        """Most of a drum's grip that is ever in use, where its tight and its slack side lie between two sides of the
+        drums of its place.
+
+            exp(-mu alpha) (T_tight - rho v^2) <= u (T_slack - rho v^2)   at all times for any u above it
+        """
+        tight, slack = ((1 - share, share) for share in shares)
+        squeeze = math.exp(-exponent)
+
+        def exceeds(used: float) -> bool:
+            weights = squeeze * tight[0] - used * slack[0], squeeze * tight[1] - used * slack[1]
+            return self._together(first, last, weights) > (squeeze - used) * lift
+
+        if self.swings is None or exceeds(_ALL):
+            return math.inf
+        if not exceeds(0.0):  # a rope of so many turns holds anything
+            return 0.0
+        low, high = 0.0, _ALL
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if exceeds(middle) else (low, middle)
+        return high
+
+    def _together(self, first: Place, last: Place, weights: tuple[float, float]) -> float:
+        """The most that a weighted sum of the tensions at two places ever comes to [N]."""
+        if self.swings is None:
+            return math.inf
+        springs = {self._spring(first): weights[0], self._spring(last): weights[1]}
+        if not self.line.fixed_length and not self.spec.takeup_weight:
+            springs = {spring: weight for spring, weight in springs.items() if spring > 0}  # its tension is kept
+        even = weights[0] * self.even[first] + weights[1] * self.even[last]
+        return float(even) + self.swings.together(springs)
+
+    def _spring(self, place: Place) -> int:
+        """The spring at an end of a strand."""
+        strand, end = place
+        if strand == RETURN:
+            return 0 if end == 0 else self.tail - 1
+        assert self.swings is not None
+        return self.tail if end == 0 else len(self.swings.bent) - 1

@@ -1,0 +1,237 @@
+"""Loads of a belt in cells that marched on one grid, and the traces whose largest values most of them are."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ptmcalc.contract.result import of
+from ptmcalc.laws import capstan
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.keys.route import Curve
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
+from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.running.loads import hollows
+from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.cells import Set
+from ptmcalc.numerics import peaks
+from ptmcalc.numerics.belt.march import Drawn
+from ptmcalc.numerics.belt.station import Seen, Station
+
+Values = dict[str, tuple[float, dict[str, float]]]
+"""Loads of one grid: the value, and where and when."""
+LOW_RETURN, LOW_CARRY = "tension_min[return]", "tension_min[carry]"
+"""Traces that are no loads themselves: the lowest tension of each strand."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trace:
+    """Something that moves, shape (n,), in steps of a quantity: its largest value is a load, or `sense` -1 its
+    smallest."""
+
+    values: FloatArray
+    step: float
+    sense: int = 1
+
+    @property
+    def at_end(self) -> float:
+        """What it changes by in its last step, if its extreme is there."""
+        signed = self.sense * self.values
+        return float(signed[-1] - signed[-2]) if len(signed) > 1 and signed[-1] > signed[:-1].max() else 0.0
+
+    def extreme(self) -> tuple[float, float]:
+        """The load and where it comes; of values of which some are infinite the first of these."""
+        signed = self.sense * self.values
+        if np.isfinite(signed).all():
+            value, at = peaks.largest(signed, self.step)
+        else:
+            first = int(np.argmax(signed))
+            value, at = float(signed[first]), first * self.step
+        return self.sense * value, at
+
+
+@dataclass(frozen=True, slots=True)
+class OneGrid:
+    """Loads of a march on one grid, and what they come from.
+
+    `traces` by load: over time tensions at the drums, the lowest of the belt, the force that an imposed speed asks for
+    and, of drums that never slip, the ratios that grip is judged by (that of the reserve without the centrifugal
+    tension); over the way round the loop the highest tension. `slid` is the way of the fastest slip in one step [m], by
+    drive.
+    """
+
+    values: Values
+    traces: dict[str, Trace] = field(default_factory=dict)
+    slid: dict[str, float] = field(default_factory=dict)
+
+
+def loads_of(case: Moving, drawn: Drawn, ready: Set) -> OneGrid:
+    """All loads of a march."""
+    line, step = case.line, ready.course.step
+    head, belt = drawn.head, np.array([seen.belt for seen in drawn.head])
+    found = OneGrid({})
+    for station, history in ((ready.head, head), (ready.tail, drawn.tail)):
+        _of_drives(found, case, station, history, step)
+    values, traces = found.values, found.traces
+    traces["tension_run_on_max"] = on = Trace(np.array([seen.tensions[0] for seen in head]), step)
+    traces["tension_run_off_min"] = off = Trace(np.array([seen.tensions[-1] for seen in head]), step, -1)
+    top, top_at = on.extreme()
+    low, low_at = off.extreme()
+    values["tension_run_on_max"] = top, {"time": top_at}
+    values["tension_dynamic_run_on_max"] = top - line.run_on, {"time": top_at}
+    values["tension_run_off_min"] = low, {"time": low_at}
+    _of_belt(found, case, drawn, ready)
+    used = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_utilisation_max[")]
+    left = [(value, at) for name, (value, at) in values.items() if name.startswith("slip_reserve_min[")]
+    if used and len(left) == len(used):
+        values["slip_utilisation_max"] = max(used, key=lambda one: one[0])
+        values["slip_reserve_min"] = min(left, key=lambda one: one[0])
+    if not line.fixed_length:
+        apart = belt - np.array([seen.behind - seen.creep for seen in head])
+        way = np.concatenate([[0.0], np.cumsum((apart[1:] + apart[:-1]) / 2)]) * step / 2
+        values["takeup_movement"] = float(way.max() - way.min()), {}
+    if case.brings_to_rest:
+        values |= _rest(case, belt, drawn.times)
+        values |= _longest_way(case, drawn, values)
+    if case.imposed is not None and isinstance(case.scene, Start):
+        _asked(found, case, drawn, ready)
+    return found
+
+
+def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
+    """Tensions anywhere on the belt, and what follows from them."""
+    line, step, values = case.line, ready.course.step, found.values
+    highs, lows = zip(*(_of_strand(drawn, ready, strand) for strand in (RETURN, CARRY)), strict=True)
+    high, lowest = max(highs), min(lows)
+    values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
+    values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
+    for curve in hollows(case.spec):
+        values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
+    for name, value in bounds.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
+        values[name] = value, {}
+    traces = found.traces
+    traces |= {
+        "tension_max": Trace(drawn.highest, 1 / len(drawn.highest)),
+        "tension_min": Trace(drawn.lows.min(axis=1), step, -1),
+        "slack_margin_min": Trace((drawn.lows - bounds.slack_limits(line)).min(axis=1), step, -1),
+        LOW_RETURN: Trace(drawn.lows[:, RETURN], step, -1),
+        LOW_CARRY: Trace(drawn.lows[:, CARRY], step, -1),
+    }
+
+
+Placed = tuple[float, float, float]
+"""A tension [N], its time [s] and place [m]."""
+
+
+def _of_strand(drawn: Drawn, ready: Set, strand: int) -> tuple[Placed, Placed]:
+    """Largest and smallest tension of a strand: in its cells, and before, between or behind the drums at its ends (what
+    is between drums counts to the strand before them)."""
+    step, places = ready.course.step, ready.course.places
+    inside = (drawn.back_max, drawn.back_min) if strand == RETURN else (drawn.carry_max, drawn.carry_min)
+    behind, before = (drawn.head, drawn.tail) if strand == RETURN else (drawn.tail, drawn.head)
+    middle, whole = float(places[ready.course.tail]), float(places[-1])
+    start, end = (0.0, middle) if strand == RETURN else (middle, whole)
+    histories = [(np.array([seen.tensions[-1] for seen in behind]), start)]
+    rows = list(zip(*(seen.tensions for seen in before), strict=True))
+    histories += [(np.array(row), end) for row in rows[:-1]]
+    highs = [(*peaks.largest(history, step), place) for history, place in histories]
+    lows = [(*peaks.smallest(history, step), place) for history, place in histories]
+    high, low = ((one.value, one.time, one.place) for one in inside)
+    return max([high, *highs]), min([low, *lows])
+
+
+def _in_curve(line: BeltLine, drawn: Drawn, ready: Set, curve: Curve) -> float:
+    """Largest tension of the cells that a curve touches [N]."""
+    places = ready.course.places - line.back.length - curve.place
+    touched = (places[:-1] <= curve.tangent) & (places[1:] >= -curve.tangent)
+    touched[: ready.course.tail] = False
+    return float(drawn.highest[touched].max())
+
+
+def _asked(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
+    """Force that an imposed speed asks of the drives together, sum (m v' + S_on - S_off), over the available one."""
+    step = ready.course.step
+    force = np.zeros(len(drawn.times))
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        if station.imposed is None:
+            continue
+        speed = np.array([seen.belt for seen in history])
+        mass = sum(drum.mass for drum in station.drums)
+        force += np.array([seen.tensions[0] - seen.tensions[-1] for seen in history]) + mass * np.gradient(speed, step)
+    found.traces["starting_force_needed"] = trace = Trace(force, step)
+    needed, at = trace.extreme()
+    available = starting_force(case.spec)
+    reserve = available / needed if needed > 0 else math.inf
+    values = found.values
+    values |= {"starting_force_needed": (needed, {"time": at}), "starting_reserve": (reserve, {})}
+
+
+def _rest(case: Moving, belt: FloatArray, times: FloatArray) -> Values:
+    """When and where the belt at the head comes to rest for the first time."""
+    name = "coast_distance" if case.scene.type == "coast" else "stop_distance"
+    stopped = np.flatnonzero(belt <= 0)
+    if not len(stopped):
+        return {"stop_time": (math.inf, {}), name: (math.inf, {})}
+    last = int(stopped[0])
+    step = float(times[1])
+    way = float((belt[1:last] + belt[: last - 1]).sum()) / 2 * step if last > 1 else 0.0
+    before = float(belt[last - 1])
+    slope = (float(belt[last - 2]) - before) / step if last > 1 else 0.0
+    part = min(before / slope, step) if slope > 0 else step
+    return {"stop_time": (float(times[last - 1]) + part, {}), name: (way + before * part / 2, {})}
+
+
+def _longest_way(case: Moving, drawn: Drawn, values: Values) -> Values:
+    """The longest way of any point of the belt to its rest: at the head, at the tail or between them."""
+    if case.scene.type == "coast":
+        return {}
+    head = values["stop_distance"][0]
+    if not math.isfinite(head):
+        return {"stop_distance_max": (head, {})}
+    step = float(drawn.times[1])
+    speeds = np.array([seen.belt for seen in drawn.tail])
+    tail = np.concatenate([[0.0], np.cumsum((speeds[1:] + speeds[:-1]) / 2)]) * step
+    inside, length = drawn.longest_way, case.line.back.length
+    ways = (head, 0.0), (float(tail.max()), length), (inside.value, inside.place)
+    way, place = max(ways, key=lambda one: one[0])
+    return {"stop_distance_max": (way, {"position": place})}
+
+
+def _of_drives(found: OneGrid, case: Moving, station: Station, history: tuple[Seen, ...], step: float) -> None:
+    """Loads of the drums that have a drive."""
+    values, traces, names = found.values, found.traces, case.spec.all_drives
+    for index, drum in enumerate(station.drums):
+        if drum.name not in names:
+            continue
+        on = np.array([seen.tensions[index] for seen in history])
+        off = np.array([seen.tensions[index + 1] for seen in history])
+        for name, trace in (("tension_run_on_max", Trace(on, step)), ("tension_run_off_min", Trace(off, step, -1))):
+            value, at = trace.extreme()
+            traces[of(name, drum.name)] = trace
+            values[of(name, drum.name)] = value, {"time": at}
+        given = names[drum.name].drum
+        if given.friction is None:
+            continue
+        belt = np.array([seen.belt for seen in history])
+        tight, slack = np.maximum(on, off), np.minimum(on, off)
+        lift = case.line.belt_line_mass * belt**2
+        exponent = given.friction * given.wrap
+        slipped = any(seen.slips[index] for seen in history)
+        if slipped:
+            first = next(k for k, seen in enumerate(history) if seen.slips[index])
+            used, at = math.nextafter(1, 2), first * step
+            reserve = math.nextafter(1, 0)
+            turning = np.array([seen.drums[index] for seen in history])
+            found.slid[drum.name] = float(np.abs(turning - belt).max()) * step
+        else:
+            with_lift = Trace(capstan.slip_utilisation(tight, slack, lift, exponent), step)
+            without = Trace(capstan.slip_utilisation(tight, slack, 0.0, exponent), step)
+            traces[of("slip_utilisation_max", drum.name)] = with_lift
+            traces[of("slip_reserve_min", drum.name)] = without
+            used, at = with_lift.extreme()
+            reserve = capstan.slip_reserve_ratio(without.extreme()[0], exponent)
+        values[of("slip_utilisation_max", drum.name)] = used, {"time": at}
+        values[of("slip_reserve_min", drum.name)] = reserve, {"time": at}
+        values[of("slip_distance", drum.name)] = float(station.slid[index]), {}
+        values[of("slip_heat", drum.name)] = float(station.heat[index]), {}

@@ -1,0 +1,215 @@
+"""A scene in motion as cells and stations, ready to march.
+
+Sums along a strand come from `model.Strand`; drums stand at the head in the order in which the belt meets them, and
+at the tail. Before a start the drums are held (by friction, brake or backstop) until the drives pull harder than the
+belt does.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
+from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, Strand, drive_force, drive_mass
+from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.spec import Conveyor, Jam, Start
+from ptmcalc.numerics.belt.course import Course, Reach, lay_out
+from ptmcalc.numerics.belt.give import Give, Rubber
+from ptmcalc.numerics.belt.march import place_at
+from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
+from ptmcalc.numerics.belt.travel import Travel
+
+_FAST = 1e30
+_ON_THE_GRID = 1e-6
+"""Share of a step by which rounding may move a time that lies on the grid."""
+_MOST_GRIP = 700.0
+"""mu alpha above which no tension makes a drum slip: exp of it is the largest number there is."""
+
+
+def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float, sags: bool) -> list[Reach]:
+    """Reaches of uniform mass of a strand; a part of its resistance goes with the speed."""
+    found = []
+    first = 0
+    spans = strand.span_weights if sags and strand.span_weights else (0.0,) * len(strand.masses)
+    for last in range(1, len(strand.marks)):
+        if last < len(spans) and all(parts[last] == parts[first] for parts in (strand.masses, strand.goes, spans)):
+            continue
+        part = slice(first, last + 1)
+        marks, friction, climb = (np.array(values[part]) for values in (strand.marks, strand.friction, strand.climb))
+        found.append(
+            Reach(
+                strand.masses[first],
+                stiffness,
+                marks - marks[0],
+                (1 - speed_share) * (friction - friction[0]),
+                speed_share / line.speed * (friction - friction[0]),
+                climb - climb[0],
+                spans[first],
+                strand.goes[first],
+            )
+        )
+        first = last
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Set:
+    """A scene ready to march: cells, stations, tensions of the cells at the start [N], what the belt gives besides, and
+    what it carries along."""
+
+    course: Course
+    head: Station
+    tail: Station
+    tension: FloatArray
+    give: Give | None
+    travel: Travel | None
+
+
+def set_up(case: Moving, carried: frozenset[str], cells: int) -> Set:
+    """Cells and stations of a scene, with the effects it carries."""
+    spec, line = case.spec, case.line
+    grows = line.speed_share if "viscous_idlers" in carried else 0.0
+    rubber = rubber_of(case, cells) if "belt_damping" in carried else None
+    stiffness, sags = line.stiffness * (1 + (rubber.stiffer if rubber else 0.0)), "sag" in carried
+    back, carry = (reaches(line, strand, stiffness, grows, sags) for strand in (line.back, line.carry))
+    course = lay_out((*back, *carry), len(back), cells)
+    steps = math.ceil(case.window / course.step) + 2
+    times = np.arange(steps, dtype=np.float64) * course.step
+    at_head, at_tail = place_at(course, 0, line.belt_line_mass), place_at(course, course.tail, line.belt_line_mass)
+    at_tail = replace(at_tail, friction_on=at_tail.friction_on + max(line.tail_force, 0.0))
+    tension = _tensions(case, course)
+    takeup = None
+    if not line.fixed_length:
+        mass = spec.takeup_weight if "takeup_mass" in carried else 0.0
+        takeup = TakeUp(line.takeup_tension, mass)
+    pulled = {"head": 0.0, "tail": 0.0}
+    if isinstance(case.scene, Start):
+        pulled["head"] = float(tension[-1] + course.climb[-1]) - float(tension[0])
+        pulled["tail"] = float(tension[course.tail - 1] - tension[course.tail])
+    head = Station(
+        at_head,
+        _drums(case, carried, "head", times, pulled["head"]),
+        takeup,
+        _imposed(case, "head", times),
+        _shares(spec, "head"),
+    )
+    tail = Station(
+        at_tail,
+        _drums(case, carried, "tail", times, pulled["tail"]),
+        None,
+        _imposed(case, "tail", times),
+        _shares(spec, "tail"),
+    )
+    give = Give(course, rubber, line.stiffness) if rubber or course.sag.any() else None
+    travel = Travel(course, line.stiffness, line.speed) if "moving_belt" in carried else None
+    return Set(course, head, tail, tension, give, travel)
+
+
+def rubber_of(case: Moving, cells: int) -> Rubber | None:
+    """The damping of the belt as so many cells have it; None for an elastic belt."""
+    damping = case.spec.belt.damping
+    if damping is None:
+        return None
+    if damping.stiffening is None:
+        return Rubber.voigt(damping.time, case.line.contour_time, cells)
+    return Rubber(damping.stiffening, damping.time)
+
+
+def _imposed(case: Moving, at: str, times: FloatArray) -> Callable[[float], float] | None:
+    """Speed at which drums are held, looked up on the grid of time: by a jam, or by drives that control it."""
+    if isinstance(case.scene, Jam):
+        imposed = _blocked(case.speed, case.scene.time) if case.scene.at == at else None
+    else:
+        imposed = case.imposed if any(drive.at == at for drive in case.spec.all_drives.values()) else None
+    if imposed is None:
+        return None
+    table, step = [imposed(time) for time in times.tolist()], float(times[1])
+    return lambda time: table[round(time / step)]
+
+
+def _blocked(speed: float, time: float) -> Callable[[float], float]:
+    """Speed of a drum that comes to rest evenly in a time [s]."""
+    return lambda now: speed * max(1 - now / time, 0.0) if time else 0.0
+
+
+def _shares(spec: Conveyor, at: str) -> tuple[float, ...]:
+    forces = [drive_force(drive) for drive in spec.all_drives.values() if drive.at == at]
+    return tuple(force / sum(forces) for force in forces)
+
+
+def _tensions(case: Moving, course: Course) -> FloatArray:
+    """Tension of every cell at the start, less gravity's part: of the running belt, or even all round."""
+    line = case.line
+    if case.begins_loose:
+        if not line.fixed_length:
+            return np.full(course.cells, line.takeup_tension)
+        lengths = np.diff(course.places)
+        mean = float(course.climb_within @ lengths) / float(lengths.sum())
+        return np.full(course.cells, line.takeup_tension - mean)
+    found: FloatArray = line.run_off + np.cumsum(course.friction + course.drag * case.speed)[:-1]
+    found[course.tail :] += line.tail_step
+    return found
+
+
+def _drums(case: Moving, carried: frozenset[str], at: str, times: FloatArray, pulled: float) -> list[Drum]:
+    spec, line = case.spec, case.line
+    drives = [(name, drive) for name, drive in spec.all_drives.items() if drive.at == at]
+    brakes = [braking(spec, brake).at for brake in brakes_of(spec, case.scene).values() if brake.at == at]
+    backstop = at == "head" and spec.backstop is not None
+    if not drives:
+        return [Drum("tail", line.tail_mass, brake=_braked(np.zeros_like(times), float(times[1]), brakes))]
+    forces = {name: case.pulls[name](times) for name, _ in drives}
+    together = sum(forces.values(), np.zeros_like(times))
+    held = np.where(together < pulled, _FAST, 0.0) if isinstance(case.scene, Start) else np.zeros_like(times)
+    held[np.argmax(held == 0) :] = 0.0  # once loose they stay loose
+    step, shafts = float(times[1]), braked_shafts(spec, case.scene)
+    drums = []
+    for index, (name, drive) in enumerate(drives):
+        last = index == len(drives) - 1
+        mass = drive_mass(drive, driven=name in shafts) + (line.tail_mass if at == "tail" and index == 0 else 0.0)
+        exponent = drive.drum.friction * drive.drum.wrap if drive.drum.friction is not None else None
+        drums.append(
+            Drum(
+                name,
+                mass,
+                case.curves.get(name) or _read(forces[name], step),
+                _braked(held, step, brakes if last else ()),
+                exponent if "slip" in carried and exponent is not None and exponent < _MOST_GRIP else None,
+                one_way=backstop,
+                hold=line.speed if _holds(case, name) else math.inf,
+            )
+        )
+    return drums
+
+
+def _holds(case: Moving, name: str) -> bool:
+    """Whether a drive pulls with a mean torque: its motor turns no faster than its own speed."""
+    return isinstance(case.scene, Start) and case.imposed is None and name not in case.curves
+
+
+def _read(values: FloatArray, step: float) -> Callable[[float, float], tuple[float, float]]:
+    """A force sampled on the grid of time."""
+    table = values.tolist()
+    return lambda time, speed: (table[round(time / step)], 0.0)
+
+
+def _braked(held: FloatArray, step: float, brakes: Sequence[Callable[[float], float]]) -> Callable[[float], float]:
+    """What brakes hold over time: looked up at every step several times, and between steps where a drum is caught."""
+    if not brakes and not held.any():
+        return no_brake
+    table: list[float] = held.tolist()
+    known: dict[int, float] = {}
+
+    def capacity(time: float) -> float:
+        place = time / step
+        k = round(place)
+        if abs(place - k) > _ON_THE_GRID:
+            return table[k] + sum((brake(time) for brake in brakes), 0.0)
+        found = known.get(k)
+        if found is None:
+            found = known[k] = table[k] + sum((brake(k * step) for brake in brakes), 0.0)
+        return found
+
+    return capacity

@@ -1,0 +1,123 @@
+"""A belt that sags on the way deeper than a parabola goes: what is certain up to that moment.
+
+From the moment at which spans sag by a tenth of their length, cells with such spans are not trusted. The scene is
+marched again up to that moment on the finest grid, and what has come by then has come: a largest value is at least
+that, a smallest one at most that.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.result import Failure, Finding, Found, family
+from ptmcalc.laws import sag
+from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
+from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.spec import Start
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.numerics.belt.march import Drawn, Extreme
+
+_FRONT_STEPS = 12
+"""Steps of the finest grid that a front is known to: three of the coarsest."""
+_FALLING = frozenset(
+    {
+        "tension_run_off_min",
+        "tension_min",
+        "slack_margin_min",
+        "slip_reserve_min",
+        "belt_safety_min",
+        "starting_reserve",
+    }
+)
+"""Families of loads that only come down as time goes on; all others only go up."""
+
+
+def limits(case: Moving) -> tuple[float, float]:
+    """Tension of return and carry strand below which the belt sags too deep [N]; 0 where a pitch is not given."""
+    line = case.line
+    back, carry = (sag.tension_at_sag(one.span_weight or 0.0, sag.DEEPEST) for one in (line.back, line.carry))
+    return back, carry
+
+
+def too_deep(case: Moving, drawn: Drawn) -> bool:
+    """Whether a strand of a belt whose sag is known came below its limit."""
+    return bool(_sagging(case, drawn))
+
+
+def _sagging(case: Moving, drawn: Drawn) -> list[Extreme]:
+    """Lowest tensions of the strands that come below their limits."""
+    lows = (drawn.back_min, drawn.carry_min)
+    return [low for low, limit in zip(lows, limits(case), strict=True) if limit > 0 and low.value < limit]
+
+
+def trusted_window(case: Moving, drawn: Drawn) -> float:
+    """How long the belt keeps above its limits [s]; 0 if hardly at all."""
+    back, carry = (limit if limit > 0 else -math.inf for limit in limits(case))
+    deep = (drawn.lows < (back, carry)).any(axis=1)
+    end = (int(np.argmax(deep)) - _FRONT_STEPS) * float(drawn.times[1])
+    return end if end > _FRONT_STEPS * float(drawn.times[1]) else 0.0
+
+
+def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found], window: float) -> dict[str, Found]:
+    """Loads of a run that is trusted up to a time only, by those it has up to then; none where that is at once.
+
+    A stop or a jam begins with even running: its loads are at least as bad as there.
+    """
+    even = {} if isinstance(case.scene, Start) else bounds.even_loads(case.line)
+    kept = not case.line.fixed_length and not case.spec.takeup_weight  # a tension that the take-up keeps
+    found = {}
+    for name, one in whole.items():
+        value, begins = one.estimate.value, even.get(name)
+        known = early[name].estimate if name in early else Estimate.unknown(value)
+        if family(name) in OF_STOP:
+            if known.bounded:
+                found[name] = early[name]
+                continue
+            known = Estimate.exact(window if name == "stop_time" else 0.0)
+        if name == "tension_run_off_min" and kept:
+            found[name] = one
+        elif family(name) in _FALLING:
+            high = min(known.high, math.inf if begins is None else begins)
+            found[name] = Found(Estimate(min(value, high), -math.inf, high, known.numerical, math.inf), one.at)
+        else:
+            least = 0.0 if family(name) in SLIPS else -math.inf
+            low = max(known.low, least if begins is None else begins)
+            found[name] = Found(Estimate(max(value, low), low, math.inf, known.numerical, math.inf), one.at)
+    return found
+
+
+def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
+    """Where and when it sags too deep, and what is known nevertheless."""
+    low = min(_sagging(case, drawn), key=lambda one: one.value)
+    does = "goes slack" if low.value < 0 else "sags by more than a tenth of the idler pitch"
+    return taut(f"{does}, most of all at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off", window)
+
+
+def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
+    """A belt that surely goes slack: on every grid its spans sag by twice the tenth that is trusted, or more.
+
+        S < min(S_tenth/2, S_slack)   on a strand, by each grid of the run
+
+    **Range** a belt with idler pitches whose run has left the range of shallow spans.
+    **Error** the factor 2 is an engineering choice; the peaks of such a run have no bound.
+    **Source** sag of a shallow parabola goes with 1/S.
+    """
+    doubtless = [limit / 2 for limit in limits(case)]
+    lows = [(one.back_min, one.carry_min) for one in grids]
+    for strand, (limit, kept) in enumerate(zip(doubtless, bounds.slack_limits(case.line), strict=True)):
+        if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
+            low = lows[-1][strand]
+            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive's run-off"
+            cure = "a higher `tension` keeps the belt taut"
+            yield Failure("CNV105", f"the belt goes slack: {does}", ("takeup", "tension"), cure)
+            return
+
+
+def taut(does: str, window: float) -> Finding:
+    """What a belt does that its tension is too low for, and how long it was trusted [s]."""
+    known = f"what came in the first {window:.3g} s is certain, and no more" if window else "no peak of it is certain"
+    return Finding(
+        "NUM102", f"the belt {does}; {known}", ("takeup", "tension"), "a higher `tension` keeps the belt taut"
+    )
