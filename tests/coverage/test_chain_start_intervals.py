@@ -27,13 +27,13 @@ from support.chain_starts import KIND, built, profile, random_chain
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import ScenePlan, plan_scene
-from ptmcalc.machines.chain_drive.solvers.breakaway import BREAKAWAY
-from ptmcalc.machines.chain_drive.solvers.rigid_start import RIGID_START
-from ptmcalc.machines.chain_drive.solvers.start_waves import ONE_MODE, WAVES, natural_frequencies
-from ptmcalc.machines.chain_drive.solvers.stopping import HELD, STOP_WAVES, STOPPED
-from ptmcalc.machines.chain_drive.solvers.tooth_passes import RANGE, START_TEETH
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.starting import start_case
+from ptmcalc.machines.chain_drive.speed_change.tooth_passes import RANGE, START_TEETH
+from ptmcalc.machines.chain_drive.starting.breakaway import BREAKAWAY
+from ptmcalc.machines.chain_drive.starting.motion import start_case
+from ptmcalc.machines.chain_drive.starting.rigid import RIGID_START
+from ptmcalc.machines.chain_drive.starting.waves import ONE_MODE, WAVES, natural_frequencies
+from ptmcalc.machines.chain_drive.stopping.formulas import HELD, STOP_WAVES, STOPPED
 
 ON_TRIAL = {
     "chain_drive": (

@@ -29,8 +29,8 @@ from support.chain_starts import KIND, built, random_chain
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import NOTHING, Estimate
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.start_bounds import loads_of
-from ptmcalc.machines.chain_drive.starting import StartCase, start_case
+from ptmcalc.machines.chain_drive.starting.bounds import loads_of
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case
 
 ON_TRIAL = {"chain_drive": ("takeup_weight",)}
 WAY = "takeup_weight"

@@ -10,8 +10,8 @@ from support.machines import changed
 from ptmcalc.contract.result import Result
 from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
-from ptmcalc.machines.chain_drive.excitation import FAR, POLYGON, WEAK
-from ptmcalc.machines.chain_drive.solvers.distributed_strand import DISTRIBUTED_STRAND
+from ptmcalc.machines.chain_drive.polygon.distributed_strand import DISTRIBUTED_STRAND
+from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK
 from ptmcalc.machines.chain_drive.witness import MESH, MESH_HARMONICS
 
 SCENES = [

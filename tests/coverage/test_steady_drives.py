@@ -15,7 +15,7 @@ from support.machines import loaded
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.chain_drive.solvers.steady_drive import STEADY_DRIVE as OF_CHAIN
+from ptmcalc.machines.chain_drive.running.motor_torque import STEADY_DRIVE as OF_CHAIN
 from ptmcalc.machines.conveyor.running.motor_torque import STEADY_DRIVE as OF_BELT
 
 WITHOUT_BARS = {"conveyor": ("steady_drive",), "chain_drive": ("chain_steady_drive",)}

@@ -1,6 +1,7 @@
-"""Twenty thousand inputs that nobody wrote: sound files changed key by key and byte by byte, and YAML from nothing.
+"""Inputs that nobody wrote: sound files changed key by key and byte by byte, and YAML from nothing.
 
-The whole, a million: `python -m pytest tests/fuzz -n 2 --dist load -m study`.
+Twenty thousand in ten parts, of which each commit takes another one (`support.turns`). All of them, and a million:
+`python -m pytest tests/fuzz -n 2 --dist load -m study`.
 """
 
 import re
@@ -13,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support import fuzz
 from support.fuzz import FORMS, MAKERS, failures, in_wrong_forms, left_out, made, said, slots, sound, trees, written
+from support.turns import in_turn
 
 from ptmcalc.base.diagnostic import BROKEN
 from ptmcalc.engine import load
@@ -20,10 +22,10 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.report import json as report_json
 
 FIRST, IN_CI, ALL, PART = 1_000, 19_500, 1_000_000, 1_850
-"""The first ones are told apart below, and held to the same; hypothesis makes 500 more."""
+"""The first ones are separated below and must hold too; hypothesis makes 100 more."""
 
 
-@pytest.mark.parametrize("first", range(FIRST, IN_CI, PART))
+@pytest.mark.parametrize("first", in_turn(range(FIRST, IN_CI, PART)))
 def test_no_input_breaks_the_program_or_hangs_it(first: int) -> None:
     assert failures(range(first, first + PART)) == []
 
@@ -37,7 +39,7 @@ def test_no_input_of_a_million_breaks_the_program_or_hangs_it(first: int) -> Non
 # -- every key in every wrong form, or left out -----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("part", in_turn(range(4)))
 def test_no_key_of_any_kind_breaks_the_program_in_a_wrong_form(part: int) -> None:
     """A mapping, a list, a list of mappings, and one of the others in turn."""
     worst = ({}, [], [{}])
@@ -56,7 +58,7 @@ def test_no_key_of_any_kind_breaks_the_program_in_any_form(part: int) -> None:
             assert said(raw).status in (0, 1, 2, 3), slot
 
 
-@pytest.mark.parametrize("part", range(4))
+@pytest.mark.parametrize("part", in_turn(range(4)))
 def test_anything_may_be_left_out(part: int) -> None:
     """What is then refused is told why; what is not can be planned and run, every scene of it."""
     for raw in sorted(set(left_out()))[part::4]:
@@ -100,7 +102,7 @@ VALUES = st.recursive(
 )
 
 
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(
     kind=st.sampled_from([*load.kind_names(), ""]),
     body=st.dictionaries(WORDS, VALUES, max_size=8),

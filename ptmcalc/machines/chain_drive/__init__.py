@@ -9,16 +9,18 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
 from ptmcalc.machines.chain_drive.checks import CHECKS
-from ptmcalc.machines.chain_drive.checks_motion import CHECKS_OF_MOTION
-from ptmcalc.machines.chain_drive.effects import EFFECTS
-from ptmcalc.machines.chain_drive.effects_motion import EFFECTS_OF_MOTION
 from ptmcalc.machines.chain_drive.figures import FIGURES
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
+from ptmcalc.machines.chain_drive.polygon.effects import EFFECTS
 from ptmcalc.machines.chain_drive.relations import RELATIONS
+from ptmcalc.machines.chain_drive.running.checks_motor import CHECKS_OF_THE_DRIVE
 from ptmcalc.machines.chain_drive.solvers import SOLVERS
 from ptmcalc.machines.chain_drive.spec import ChainDrive
+from ptmcalc.machines.chain_drive.speed_change.effects import EFFECTS_OF_MOTION
+from ptmcalc.machines.chain_drive.starting.checks import CHECKS_OF_STARTS
+from ptmcalc.machines.chain_drive.stopping.checks import CHECKS_OF_STOPS
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -86,7 +88,7 @@ KIND = MachineKind(
     effects=(*EFFECTS, *EFFECTS_OF_MOTION),
     figures=FIGURES,
     solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_MOTION),
+    checks=(*CHECKS, *CHECKS_OF_THE_DRIVE, *CHECKS_OF_STARTS, *CHECKS_OF_STOPS),
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),

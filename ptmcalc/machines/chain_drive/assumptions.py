@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.machine import Assumption
+from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.rollback import asks_for_hold
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start, Stopping
 from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene

@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
-from ptmcalc.machines.chain_drive.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import tail_teeth, tension_key
-from ptmcalc.machines.chain_drive.resonances import resonances
+from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK
+from ptmcalc.machines.chain_drive.polygon.resonances import resonances
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 Loads = Mapping[str, Estimate]

@@ -7,7 +7,7 @@ from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.machines.chain_drive import strength
 from ptmcalc.machines.chain_drive.model import chain_line
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run, Start
-from ptmcalc.machines.chain_drive.starting import start_case
+from ptmcalc.machines.chain_drive.starting.motion import start_case
 from ptmcalc.spec.scene import Scene
 
 _RUN: frozenset[type[Scene]] = frozenset({Run})

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import chain_fatigue, chain_selection
-from ptmcalc.machines.chain_drive.excitation import QUIET, Answer
 from ptmcalc.machines.chain_drive.model import ChainLine, breaking_load, ends_at_tail
+from ptmcalc.machines.chain_drive.polygon.excitation import QUIET, Answer
 from ptmcalc.machines.chain_drive.spec import ChainDrive
 
 OF_TENSION = frozenset(

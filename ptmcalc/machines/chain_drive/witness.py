@@ -14,7 +14,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.chain_drive.excitation import (
+from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, ends_at_tail, tail_teeth, vibrating
+from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     POLYGON,
     QUIET,
@@ -27,7 +28,6 @@ from ptmcalc.machines.chain_drive.excitation import (
     residual,
     undamped,
 )
-from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, ends_at_tail, tail_teeth, vibrating
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 from ptmcalc.numerics.harmonic.parts import FREE, KELVIN_VOIGT, ON_SPROCKET, Chain, Line

@@ -13,7 +13,7 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.machines.chain_drive.spec import EmergencyStop, Run, Start
-from ptmcalc.machines.chain_drive.starting import start_case
+from ptmcalc.machines.chain_drive.starting.motion import start_case
 
 HERE = Path(__file__).parent
 INDUCTION = {"type": "induction", "power": "30 kW", "speed": "1470 rpm", "synchronous_speed": "1500 rpm",
@@ -140,8 +140,8 @@ class TestBeyondRatedSpeed:
         case = start_case(spec, spec.all_scenes[0])
         solver = next(one for one in KIND.solvers if one.name == "chain_one_mode")
         found = solver.run(spec, spec.all_scenes[0], solver.always, 0)
-        from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies
-        from ptmcalc.machines.chain_drive.starting import ratios
+        from ptmcalc.machines.chain_drive.starting.motion import ratios
+        from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 
         frequencies = natural_frequencies(case, 1)
         w, zeta = float(frequencies[0]), float(ratios(spec, spec.all_scenes[0], frequencies)[0])

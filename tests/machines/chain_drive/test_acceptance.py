@@ -14,7 +14,7 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import FileReport, LoadReport
-from ptmcalc.machines.chain_drive.solvers.distributed_strand import SWEEP, sweep_speeds
+from ptmcalc.machines.chain_drive.polygon.distributed_strand import SWEEP, sweep_speeds
 from ptmcalc.report import table
 
 PRINTED = 1e-5

@@ -12,8 +12,8 @@ from ptmcalc.contract.result import History, Result
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_file
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.starting import start_case
-from ptmcalc.machines.chain_drive.stopping import stop_case
+from ptmcalc.machines.chain_drive.starting.motion import start_case
+from ptmcalc.machines.chain_drive.stopping.motion import stop_case
 
 PROFILES = {
     "step": {"shape": "step"},

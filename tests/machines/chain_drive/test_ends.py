@@ -12,7 +12,7 @@ from support.chains import CH_05, FIRST, MOTOR, ROLLER, Witness, chain_of
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
-from ptmcalc.machines.chain_drive.resonances import resonances
+from ptmcalc.machines.chain_drive.polygon.resonances import resonances
 
 FILE = Path(__file__).parents[3] / "specs" / "chain_drive.yaml"
 EA, P = 206e9 * 1.6e-3, 0.32

@@ -11,8 +11,8 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_start, inertia, wave
 from ptmcalc.machines.chain_drive.model import filled, mean_arm, motor_side_inertia, radius, sprocket_inertia
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
-from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, rigid_tensions
-from ptmcalc.machines.chain_drive.starting import (
+from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, rigid_tensions
+from ptmcalc.machines.chain_drive.starting.motion import (
     UP_TO,
     StartCase,
     curve_start,

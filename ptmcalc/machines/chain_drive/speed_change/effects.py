@@ -9,12 +9,7 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive import start_bounds
 from ptmcalc.machines.chain_drive.model import chain_line
-from ptmcalc.machines.chain_drive.passing import range_passing, start_passing
-from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies
-from ptmcalc.machines.chain_drive.solvers.stopping import OF_STOP
-from ptmcalc.machines.chain_drive.solvers.tooth_passes import range_loads
 from ptmcalc.machines.chain_drive.spec import (
     ChainDrive,
     ChainScene,
@@ -24,9 +19,14 @@ from ptmcalc.machines.chain_drive.spec import (
     Start,
     Stop,
 )
-from ptmcalc.machines.chain_drive.start_bounds import TENSIONS
-from ptmcalc.machines.chain_drive.starting import StartCase, light_return, start_case
-from ptmcalc.machines.chain_drive.stopping import StopCase, extremes, stop_case
+from ptmcalc.machines.chain_drive.speed_change.teeth import range_passing, start_passing
+from ptmcalc.machines.chain_drive.speed_change.tooth_passes import range_loads
+from ptmcalc.machines.chain_drive.starting import bounds as start_bounds
+from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, light_return, start_case
+from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
+from ptmcalc.machines.chain_drive.stopping.formulas import OF_STOP
+from ptmcalc.machines.chain_drive.stopping.motion import StopCase, extremes, stop_case
 from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.spec.scene import Scene
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
+from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.rollback import asks_for_hold
 from ptmcalc.machines.chain_drive.spec import (
     Backstop,
     ChainDrive,
@@ -22,7 +22,7 @@ from ptmcalc.machines.chain_drive.spec import (
     Stop,
     Stopping,
 )
-from ptmcalc.machines.chain_drive.stopping import acting_brake, allowed_way, stop_case
+from ptmcalc.machines.chain_drive.stopping.motion import acting_brake, allowed_way, stop_case
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

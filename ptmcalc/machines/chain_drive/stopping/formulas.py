@@ -11,18 +11,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
+from ptmcalc.machines.chain_drive.holding.scenes import elsewhere
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
-from ptmcalc.machines.chain_drive.rollback import elsewhere
-from ptmcalc.machines.chain_drive.solvers.start_waves import (
-    beyond_slack,
-    course_at,
-    extreme_anywhere,
-    felt,
-    one_section,
-    peaks_at,
-    sections_of,
-)
 from ptmcalc.machines.chain_drive.spec import (
     Backstop,
     ChainDrive,
@@ -35,8 +26,17 @@ from ptmcalc.machines.chain_drive.spec import (
     Stop,
     Stopping,
 )
-from ptmcalc.machines.chain_drive.starting import speed_over_time
-from ptmcalc.machines.chain_drive.stopping import (
+from ptmcalc.machines.chain_drive.starting.motion import speed_over_time
+from ptmcalc.machines.chain_drive.starting.waves import (
+    beyond_slack,
+    course_at,
+    extreme_anywhere,
+    felt,
+    one_section,
+    peaks_at,
+    sections_of,
+)
+from ptmcalc.machines.chain_drive.stopping.motion import (
     StopCase,
     StopSwing,
     allowed_way,

@@ -7,10 +7,10 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import start_profile
-from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
-from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of
-from ptmcalc.machines.chain_drive.starting import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 from ptmcalc.numerics.two_mass_start import two_mass_start
 
 _POINTS = 201

@@ -5,8 +5,8 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.chain_drive.excitation import FAR, POLYGON, QUIET, WEAK, Answer, Tail, answer_bound
 from ptmcalc.machines.chain_drive.model import chain_line, ends_at_tail
+from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, QUIET, WEAK, Answer, Tail, answer_bound
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 

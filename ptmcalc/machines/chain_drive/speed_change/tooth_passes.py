@@ -14,16 +14,19 @@ from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import loop_bounds, polygon
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
-from ptmcalc.machines.chain_drive.excitation import far_place, residual
 from ptmcalc.machines.chain_drive.layout import TwoShafts
 from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, tail_teeth
-from ptmcalc.machines.chain_drive.passing import (
+from ptmcalc.machines.chain_drive.polygon.excitation import far_place, residual
+from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
+from ptmcalc.machines.chain_drive.speed_change.teeth import (
     Passing,
     has_driven_tail,
     range_passing,
     start_passing,
 )
-from ptmcalc.machines.chain_drive.solvers.start_waves import (
+from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, start_case
+from ptmcalc.machines.chain_drive.starting.waves import (
     Sections,
     beyond_slack,
     one_section,
@@ -31,9 +34,6 @@ from ptmcalc.machines.chain_drive.solvers.start_waves import (
     sections_of,
     travel_time,
 )
-from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
-from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
-from ptmcalc.machines.chain_drive.starting import StartCase, start_case
 from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.numerics import tooth_passes
 

@@ -7,9 +7,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
-from ptmcalc.machines.chain_drive.solvers.steady_drive import motors_of
+from ptmcalc.machines.chain_drive.running.motor_torque import motors_of
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Run, Start
-from ptmcalc.machines.chain_drive.starting import drive_of
+from ptmcalc.machines.chain_drive.starting.motion import drive_of
 
 _CURVE: KeyPath = ("drive", "motor", "curve")
 

@@ -16,7 +16,7 @@ from ptmcalc.laws.start_profile import Phase
 from ptmcalc.machines.chain_drive import strength
 from ptmcalc.machines.chain_drive.model import FloatArray
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.starting import StartCase, Swinging
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging
 
 _X = np.linspace(0.0, 1.0, 129)
 _STRANDS = (RETURN, CARRY)

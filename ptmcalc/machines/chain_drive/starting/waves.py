@@ -15,8 +15,8 @@ from ptmcalc.laws import chain_resonance, loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.chain_drive.model import FloatArray, of_loop, tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Start
-from ptmcalc.machines.chain_drive.start_bounds import TENSIONS, loads_of, static_at
-from ptmcalc.machines.chain_drive.starting import StartCase, Swinging, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.bounds import TENSIONS, loads_of, static_at
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging, ratios, start_case
 from ptmcalc.numerics.mode_sum import Modes, Peaks, kicks, mode_sum, sampled
 
 _FEWEST = 24

@@ -6,10 +6,17 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import inertia
-from ptmcalc.machines.chain_drive.excitation import FAR, POLYGON, WEAK, answer_bound, change_by_drive, static_scale
 from ptmcalc.machines.chain_drive.model import breaking_load, chain_line, drive_mass
-from ptmcalc.machines.chain_drive.resonances import resonances
-from ptmcalc.machines.chain_drive.solvers.chain_modes import loads_of
+from ptmcalc.machines.chain_drive.polygon.chain_modes import loads_of
+from ptmcalc.machines.chain_drive.polygon.excitation import (
+    FAR,
+    POLYGON,
+    WEAK,
+    answer_bound,
+    change_by_drive,
+    static_scale,
+)
+from ptmcalc.machines.chain_drive.polygon.resonances import resonances
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import of_one_chain, unevenness
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from ptmcalc.laws import chain_resonance, chain_start, loop_bounds, polygon, sprocket, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
-from ptmcalc.machines.chain_drive.excitation import residual
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import (
     FloatArray,
@@ -18,9 +17,10 @@ from ptmcalc.machines.chain_drive.model import (
     natural_frequencies,
     tail_teeth,
 )
-from ptmcalc.machines.chain_drive.solvers.start_waves import natural_frequencies as start_frequencies
+from ptmcalc.machines.chain_drive.polygon.excitation import residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, SpeedRange, Start
-from ptmcalc.machines.chain_drive.starting import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.motion import StartCase, ratios, start_case
+from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies as start_frequencies
 from ptmcalc.numerics import tooth_passes
 
 _FOR_BOUNDS = 12

@@ -5,10 +5,10 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance, polygon
-from ptmcalc.machines.chain_drive.excitation import POLYGON
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import filled, load_line_mass
-from ptmcalc.machines.chain_drive.solvers.chain_modes import TEXTBOOK_K
+from ptmcalc.machines.chain_drive.polygon.chain_modes import TEXTBOOK_K
+from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 

@@ -11,7 +11,7 @@ from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import tension_key
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Start
-from ptmcalc.machines.chain_drive.starting import drive_of, start_case
+from ptmcalc.machines.chain_drive.starting.motion import drive_of, start_case
 
 Loads = Mapping[str, Estimate]
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws import chain_resonance
-from ptmcalc.machines.chain_drive.excitation import mass_of_drive, residual
 from ptmcalc.machines.chain_drive.model import (
     FloatArray,
     chain_line,
@@ -14,6 +13,7 @@ from ptmcalc.machines.chain_drive.model import (
     natural_frequencies,
     vibrating,
 )
+from ptmcalc.machines.chain_drive.polygon.excitation import mass_of_drive, residual
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.numerics.harmonic.waves import dynamic_stiffness
 

@@ -9,7 +9,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import polygon
-from ptmcalc.machines.chain_drive.excitation import (
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout
+from ptmcalc.machines.chain_drive.model import chain_line, vibrating
+from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     HARMONICS,
     POLYGON,
@@ -19,9 +21,7 @@ from ptmcalc.machines.chain_drive.excitation import (
     swept,
     undamped,
 )
-from ptmcalc.machines.chain_drive.layout import ConveyorLayout
-from ptmcalc.machines.chain_drive.model import chain_line, vibrating
-from ptmcalc.machines.chain_drive.resonances import operating_range
+from ptmcalc.machines.chain_drive.polygon.resonances import operating_range
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 

@@ -1,0 +1,1 @@
+"""Holding the stopped chain: rollback torque."""

@@ -1,0 +1,1 @@
+"""Polygon effect: excitation by the sprockets, natural frequencies, resonance speeds, dynamic tension."""

@@ -1,0 +1,1 @@
+"""Steady running: tensions, power, choice of the chain, motor torque."""

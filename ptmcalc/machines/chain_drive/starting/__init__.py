@@ -1,0 +1,1 @@
+"""Starting: the rigid chain, its waves, a relaxed chain that breaks loose."""

@@ -1,0 +1,1 @@
+"""Stopping: brakes, stopping distance and time."""
