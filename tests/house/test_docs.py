@@ -38,6 +38,7 @@ def test_a_page_does_what_it_says(path: Path, tmp_path: Path) -> None:
         run = in_a_fresh_one
     page = path.read_text("utf-8")
     played = play(page, tmp_path, run)
+    assert "ptmcalc: internal error" not in played, "no page shows a fault of the program"
     if UPDATE:
         path.write_text(played, encoding="utf-8")
     else:
