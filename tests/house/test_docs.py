@@ -57,7 +57,7 @@ def test_there_is_a_tutorial_for_every_kind_and_type() -> None:
         assert re.search(r": pass [A-Z]{3}[0-9]{3}", page), f"{path.name} shows no way out"
 
 
-@pytest.mark.parametrize("path", [ROOT / "README.md", *DOCS], ids=named)
+@pytest.mark.parametrize("path", [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *DOCS], ids=named)
 def test_links_lead_somewhere(path: Path) -> None:
     """Links to pages of the project, and to their headings."""
     page = path.read_text("utf-8")

@@ -39,6 +39,7 @@ TOP = {
     ".ci",
     ".gitignore",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
     ".pre-commit-hooks.yaml",
     "LICENSE",
     "README.md",
