@@ -481,12 +481,20 @@ def explain(
     ] = "",
     everything: Annotated[bool, typer.Option("--all", help="Of every name: the handbook.")] = False,
     form: Annotated[ExplainFormat, typer.Option("--format", help="How to print.")] = ExplainFormat.TEXT,
+    where: Annotated[
+        bool, typer.Option("--where", help="Print file and line of its definition and of its functions instead.")
+    ] = False,
 ) -> None:
     """Explain a check, an effect, a solver, a load or a finding: formula, symbols, range, error, source, example."""
     from ptmcalc.cli.explain import explanation, handbook
 
     if bool(name) == everything:
         raise UsageError("explain takes a name, or --all", "e.g. `ptmcalc explain CNV101`")
+    if where:
+        from ptmcalc.cli.where import whereabouts
+
+        say(whereabouts(name))
+        return
     say(handbook(form) if everything else explanation(name, form))
 
 

@@ -8,7 +8,7 @@ import difflib
 import inspect
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -102,7 +102,17 @@ def explanation(name: str, form: str = "text") -> str:
     Raises:
         UsageError: nothing has that name.
     """
-    known = dict.fromkeys(key for key, _ in _everything())
+    wanted = known_as(name, dict.fromkeys(key for key, _ in _everything()))
+    found = [make() for key, make in _everything() if key == wanted]
+    return "\n".join(one.markdown if form == "markdown" else one.plain for one in found)
+
+
+def known_as(name: str, known: Collection[str]) -> str:
+    """The known name that a name stands for: a code may be written in small letters.
+
+    Raises:
+        UsageError: nothing has that name.
+    """
     wanted = name.upper() if name.upper() in known else name
     if wanted not in known:
         alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
@@ -110,8 +120,7 @@ def explanation(name: str, form: str = "text") -> str:
         raise UsageError(
             f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
         )
-    found = [make() for key, make in _everything() if key == wanted]
-    return "\n".join(one.markdown if form == "markdown" else one.plain for one in found)
+    return wanted
 
 
 def handbook(form: str = "text") -> str:
@@ -140,8 +149,14 @@ def _everything() -> Iterator[tuple[str, Callable[[], Explanation]]]:
 
 
 def _chapters(whole: AnyKind) -> Iterator[tuple[str, Entries]]:
-    """Entries of a kind: one for each check, effect, solver and load, with all types of the kind that have it."""
-    of: dict[str, dict[str, list[_Shared]]] = {"checks": {}, "effects": {}, "solvers": {}, "loads": {}}
+    """Entries of a kind by chapter."""
+    for title, entries in pieces_of(whole).items():
+        yield title, [(name, partial(one.make, one.kinds, one.piece)) for name, all_ in entries.items() for one in all_]
+
+
+def pieces_of(whole: AnyKind) -> "Mapping[str, Mapping[str, Sequence[Shared]]]":
+    """Checks, effects, solvers and loads of a kind by name, each with all types of the kind that have it."""
+    of: dict[str, dict[str, list[Shared]]] = {"checks": {}, "effects": {}, "solvers": {}, "loads": {}}
     for kind in whole.manifests:
         for check in kind.checks:
             if not check.types or kind.type in check.types:
@@ -153,12 +168,11 @@ def _chapters(whole: AnyKind) -> Iterator[tuple[str, Entries]]:
         for load in kind.loads:
             if len(whole.manifests) == 1 or any(load.name in solver.gives for solver in kind.solvers):
                 _add(of["loads"], load.name, kind, load, partial(_load, whole))
-    for title, entries in of.items():
-        yield title, [(name, partial(one.make, one.kinds, one.piece)) for name, all_ in entries.items() for one in all_]
+    return of
 
 
 @dataclass(slots=True)
-class _Shared:
+class Shared:
     """A check, effect, solver or load, the types of machine that have it, and the function that explains it."""
 
     piece: Any
@@ -167,7 +181,7 @@ class _Shared:
 
 
 def _add(
-    entries: dict[str, list[_Shared]],
+    entries: dict[str, list[Shared]],
     name: str,
     kind: AnyKind,
     piece: Any,
@@ -176,12 +190,12 @@ def _add(
     known = entries.setdefault(name, [])
     same = next((one for one in known if one.piece == piece), None)
     if same is None:
-        known.append(_Shared(piece, [kind], make))
+        known.append(Shared(piece, [kind], make))
     else:
         same.kinds.append(kind)
 
 
-def _label(kinds: Sequence[AnyKind]) -> str:
+def label_of(kinds: Sequence[AnyKind]) -> str:
     """The kind in words, with all types concerned."""
     return f"{kinds[0].name} {', '.join(kind.type for kind in kinds)}".strip()
 
@@ -209,7 +223,7 @@ def _check(whole: AnyKind, kinds: Sequence[AnyKind], check: AnyCheck) -> Explana
         Part("Source", check.source),
         *_example(whole.examples().get(check.code)),
     ]
-    return Explanation(check.code, check.title, f"{_label(kinds)}; scenes: {scenes}", tuple(parts))
+    return Explanation(check.code, check.title, f"{label_of(kinds)}; scenes: {scenes}", tuple(parts))
 
 
 def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Explanation:
@@ -223,7 +237,7 @@ def _effect(whole: AnyKind, kinds: Sequence[AnyKind], effect: AnyEffect) -> Expl
         *_symbols(kinds[0], effect.name, of_effect(effect)),
         *_example(whole.examples().get(effect.name)),
     ]
-    return Explanation(effect.name, effect.title, _label(kinds), tuple(parts))
+    return Explanation(effect.name, effect.title, label_of(kinds), tuple(parts))
 
 
 def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Explanation:
@@ -244,7 +258,7 @@ def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Expl
         *_symbols(kind, solver.name, of_solver(solver)),
         *_example(whole.examples().get(solver.name)),
     ]
-    return Explanation(solver.name, solver.title, _label(kinds), tuple(parts))
+    return Explanation(solver.name, solver.title, label_of(kinds), tuple(parts))
 
 
 def _load(whole: AnyKind, kinds: Sequence[AnyKind], load: LoadInfo) -> Explanation:
@@ -258,7 +272,7 @@ def _load(whole: AnyKind, kinds: Sequence[AnyKind], load: LoadInfo) -> Explanati
     parts += [Part("", "\n".join(lines))]
     parts += [Part("Range, error and source", _where(giving), displayed=True)] if giving else []
     parts += _example(whole.examples().get(load.name))
-    return Explanation(load.name, f"{load.title} [{load.quantity.si}]", f"{_label(kinds)}; load", tuple(parts))
+    return Explanation(load.name, f"{load.title} [{load.quantity.si}]", f"{label_of(kinds)}; load", tuple(parts))
 
 
 def _is_family(kind: AnyKind, load: LoadInfo) -> bool:

@@ -93,6 +93,12 @@ def load_kind(name: str) -> AnyKind:
     return kind
 
 
+def package_of(name: str) -> str:
+    """The package that a kind is defined in, whose modules hold its checks, effects, solvers and loads."""
+    module = import_module(_place(name).partition(":")[0])
+    return module.__package__ or module.__name__
+
+
 def _place(name: str) -> str:
     place = _ours().get(name) or _theirs().get(name)
     if place is None:

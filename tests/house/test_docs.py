@@ -38,6 +38,7 @@ def test_a_page_does_what_it_says(path: Path, tmp_path: Path) -> None:
         run = in_a_fresh_one
     page = path.read_text("utf-8")
     played = play(page, tmp_path, run)
+    assert "ptmcalc: internal error" not in played, "no page shows a fault of the program"
     if UPDATE:
         path.write_text(played, encoding="utf-8")
     else:
@@ -56,7 +57,7 @@ def test_there_is_a_tutorial_for_every_kind_and_type() -> None:
         assert re.search(r": pass [A-Z]{3}[0-9]{3}", page), f"{path.name} shows no way out"
 
 
-@pytest.mark.parametrize("path", [ROOT / "README.md", *DOCS], ids=named)
+@pytest.mark.parametrize("path", [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *DOCS], ids=named)
 def test_links_lead_somewhere(path: Path) -> None:
     """Links to pages of the project, and to their headings."""
     page = path.read_text("utf-8")

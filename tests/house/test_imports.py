@@ -80,6 +80,11 @@ def test_no_command_imports_what_costs_more_than_a_check(arguments: tuple[str, .
     assert "ptmcalc" in found
 
 
+def test_the_line_of_a_name_needs_no_more_than_its_explanation(tmp_path: Path) -> None:
+    plain, where = (modules(tmp_path / "modules.json", "explain", "belt_wave", *more) for more in ((), ("--where",)))
+    assert where - plain == {"ptmcalc.cli.where"}
+
+
 def test_one_file_needs_nothing_of_a_batch(tmp_path: Path) -> None:
     found = packages(tmp_path / "modules.json", "check", "specs/hoist/winding_paper/height_25_rope_17_5.yaml")
     assert found & {"sqlite3", "pathspec", "multiprocessing", "concurrent"} == set()

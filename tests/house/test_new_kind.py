@@ -4,6 +4,7 @@ The kind is `tests/support/toy_kind.py`. Every command is tried in one fresh pro
 """
 
 import json
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -71,6 +72,7 @@ def done(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
         "explain check": ["explain", "TOY101"],
         "explain effect": ["explain", "swing"],
         "explain solver": ["explain", "hanging"],
+        "explain where": ["explain", "TOY101", "--where"],
         "new": ["new", "toy"],
         "plan": ["plan", "sound.yaml", "--format", "json"],
         "solve": ["solve", "overloaded.yaml", "--check", "TOY101", "--vary", "load"],
@@ -127,6 +129,16 @@ def test_its_solver_is_listed_with_its_cost(done: dict[str, Done]) -> None:
 def test_its_parts_are_explained(done: dict[str, Done], command: str, said: str) -> None:
     assert done[command].out.startswith(said)
     assert "**Range**" in done[command].out
+
+
+def test_the_lines_of_its_check_are_found(done: dict[str, Done]) -> None:
+    lines = SOURCE.splitlines()
+    path = r"(?:ptmcalc/machines/toy|far_machines)/__init__\.py"
+    (check, limit) = re.findall(
+        rf"^{path}:([0-9]+): (?:check TOY101, toy|limit of TOY101, .*)$", done["explain where"].out, re.M
+    )
+    assert "Check(" in lines[int(check) - 1]
+    assert lines[int(limit) - 1].startswith("def ")
 
 
 def test_its_template_is_printed_and_passes(done: dict[str, Done]) -> None:

@@ -39,6 +39,7 @@ TOP = {
     ".ci",
     ".gitignore",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
     ".pre-commit-hooks.yaml",
     "LICENSE",
     "README.md",
@@ -131,7 +132,7 @@ OPTIONS = sorted(
 def test_an_option_the_readme_names_exists(option: str) -> None:
     helps = [
         unpainted(ptmcalc(command, "--help").out)
-        for command in ("check", "cost", "solve", "scale", "sweep", "tolerances")
+        for command in ("check", "cost", "solve", "scale", "sweep", "tolerances", "explain")
     ]
     assert any(re.search(rf"(?<!\S){option}\b", text) for text in helps)
 
