@@ -1,9 +1,12 @@
 """Shared fixtures, and the collector of Markdown cases: prose, a spec, and the findings it must give."""
 
 import gc
+import json
 import os
 import sys
+from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,26 +20,51 @@ sys.path.insert(0, str(Path(__file__).parent))
 from support.markdown import MarkdownFile
 
 sys.dont_write_bytecode = False
-LONGEST_FIRST = (
-    "coverage",
-    "test_zoo.py",
-    "stability",
-    "machines",
-    "house",
-    "numerics",
-    "engine",
-    "cli",
-    "reference",
-    "order",
-)
-"""Rooms and files that take longest: begun first, none of them is left to one process at the end."""
+SECONDS = Path(__file__).parent / "seconds.json"
+"""Seconds of each file of tests on a machine of two cores, written by `--store-seconds`."""
+_WORTH = 60.0
+"""A run of fewer seconds has no list of them."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--store-seconds", action="store_true", help=f"write the seconds of each file to {SECONDS.name}")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    def turn(item: pytest.Item) -> int:
-        return next((k for k, room in enumerate(LONGEST_FIRST) if room in item.path.parts), len(LONGEST_FIRST))
+    """The longest files begin first: none of them is left to one process at the end."""
+    known = json.loads(SECONDS.read_text("utf-8")) if SECONDS.exists() else {}
+    items.sort(key=lambda item: -known.get(_file(item.nodeid), 0.0))
 
-    items.sort(key=turn)
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    """Seconds of each room, in all processes together."""
+    files: Counter[str] = Counter()
+    for reports in terminalreporter.stats.values():
+        for one in reports:
+            if isinstance(one, pytest.TestReport):
+                files[_file(one.nodeid)] += one.duration
+    if files.total() < _WORTH:
+        return
+    rooms: Counter[str] = Counter()
+    for file, seconds in files.items():
+        rooms[_room(file)] += seconds
+    terminalreporter.section(f"seconds by room, {files.total():.0f} in all")
+    for room, seconds in rooms.most_common():
+        terminalreporter.write_line(f"{seconds:7.0f}  {room}")
+    if config.getoption("--store-seconds"):
+        known = json.loads(SECONDS.read_text("utf-8")) if SECONDS.exists() else {}
+        told = known | {file: round(seconds, 1) for file, seconds in files.items()}
+        lasting = {file: seconds for file, seconds in sorted(told.items()) if seconds >= 1 and Path(file).exists()}
+        SECONDS.write_text(json.dumps(lasting, indent=1) + "\n", encoding="utf-8")
+
+
+def _file(nodeid: str) -> str:
+    return nodeid.partition("::")[0]
+
+
+def _room(file: str) -> str:
+    """`tests/machines/hoist`, `tests/report`: the folder of the tests, and the kind where there is one."""
+    return "/".join(file.split("/")[: 3 if "/machines/" in file else 2])
 
 
 def pytest_collection_finish() -> None:
