@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.span import dotted, known
 from ptmcalc.contract.study import Driver, FloatArray, Points, Risk, Said, Share, Track, VariedKey
 from ptmcalc.engine.load import Loaded
 from ptmcalc.engine.points import varied_key
@@ -51,7 +52,7 @@ def drawn(loaded: Loaded, count: int, seed: int) -> Points:
 def _values(
     loaded: Loaded, key: VariedKey, measure: Measure, spread: Spread, count: int, chance: np.random.Generator
 ) -> FloatArray:
-    line = loaded.document.key_span((BLOCK, key.name)).line
+    line = loaded.document.key_span((BLOCK, dotted(known(key.path)))).line
     where = f"{loaded.document.name}:{line}: `{BLOCK}.{key.name}`"
     if spread.about_the_file and key.present is None:
         raise UsageError(

@@ -24,6 +24,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
+from ptmcalc.spec.shape import Also
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
@@ -48,7 +49,7 @@ class Belt(Fragment):
     """what carries the tension; chooses the default safety factors"""
     damping: Damping | None = None
     """internal damping; an elastic belt when left out, which swings longest"""
-    minimum_drum_diameter: Annotated[PositiveLength | None, Limit()] = None
+    minimum_drum_diameter: Annotated[PositiveLength | None, Limit(), Also("minimum_pulley_diameter")] = None
     """smallest drive drum the maker of the belt allows; or give `carcass_thickness` and `warp`"""
     carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the plies without the covers, or of the cords of a steel-cord belt"""

@@ -33,6 +33,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, togeth
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 from ptmcalc.spec.scene import TransientScene
+from ptmcalc.spec.shape import Also
 
 Slope = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=0.5)]
 SwayAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=1.2)]
@@ -329,7 +330,7 @@ class SlewingCrane(MachineSpec):
     """what the crane does again and again"""
     handbook: Handbook = Handbook()
     """inputs of the handbook's formulas alone"""
-    ring: Ring = Ring()
+    ring: Annotated[Ring, Also("slewing_ring")] = Ring()
     """the slewing ring"""
     classes: Classes = Field(default=Classes(), alias="class")
     """what the crane is classed as"""

@@ -22,6 +22,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
+from ptmcalc.spec.shape import Also
 
 TripRatio = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
 _TRIP_RATIO = Assumed(
@@ -155,7 +156,7 @@ class SafetyGear(Fragment):
 class Settling(Fragment):
     """How still the column must be before the fork may go out."""
 
-    window: Annotated[PositiveLength | None, Limit()] = None
+    window: Annotated[PositiveLength | None, Limit(), Also("positioning_tolerance")] = None
     """distance to each side of the place of a column without lean within which its far end has to stay; no default"""
     wait: Annotated[Annotated[float, Measure(units.TIME, above=0)] | None, Limit()] = None
     """longest time from the standstill until then; needed to check it"""
