@@ -105,7 +105,7 @@ AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error 
 BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
-    typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
+    typer.Option("--effects", help="NAME=on|off|auto, replaces the setting of the file; may be repeated."),
 ]
 ExcludeOption = Annotated[
     list[str] | None,
@@ -131,7 +131,7 @@ ExecutorOption = Annotated[
     typer.Option(
         "--executor",
         metavar="local|dask://HOST:PORT",
-        help="Who works: processes here, or a cluster of dask.",
+        help="Workers: local processes, or a cluster of dask.",
     ),
 ]
 StudyBudgetOption = Annotated[
@@ -235,7 +235,7 @@ def check(
     ] = None,
     output: Annotated[
         list[str] | None,
-        typer.Option("--output", "-o", help="FORMAT=FILE, besides what is printed; may be repeated."),
+        typer.Option("--output", "-o", help="FORMAT=FILE, in addition to the printed report; may be repeated."),
     ] = None,
     verbose: Annotated[
         bool,
@@ -544,7 +544,7 @@ def solve(
         ),
     ],
     margin: Annotated[
-        str, typer.Option("--margin", help="What is wanted beside the limit: a share of it, e.g. 10%, or in its unit.")
+        str, typer.Option("--margin", help="Required distance from the limit: a share of it, e.g. 10%, or in its unit.")
     ] = "",
     scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
     form: ListOption = ListFormat.TABLE,

@@ -102,7 +102,7 @@ def read_baseline(path: Path) -> Known:
         version = document["schema_version"]
         if version == _FORMER and isinstance(document["findings"], list):
             reason = f"the baseline `{path}` has the form of an earlier version, without scenes and values"
-            raise UsageError(reason, "`--write-baseline` writes it anew; look at what it waives first")
+            raise UsageError(reason, "`--write-baseline` writes it anew; first check which findings it waives")
         found = dict(map(_entry, document["findings"]))
         if version != BASELINE_VERSION or any(one.weight < 0 for one in found.values()):
             raise ValueError

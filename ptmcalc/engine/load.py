@@ -171,8 +171,8 @@ def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
     for told in islice(found, MAX_FAULTS):
         yield told
     if told is not None and next(found, None) is not None:
-        reason = f"the file has more than {MAX_FAULTS} faults besides those of its text"
-        yield Diagnostic("TXT108", reason, told.span, hint="mend those that are told first")
+        reason = f"the file has more than {MAX_FAULTS} faults in addition to those of its text"
+        yield Diagnostic("TXT108", reason, told.span, hint="correct the reported ones first")
 
 
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:

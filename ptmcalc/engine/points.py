@@ -361,7 +361,7 @@ class Study:
                     return f"{code} of a file of its own comes to {its:.9g}, by lanes to {mine:.9g}"
             exact = abs(track.margin[index]) <= _SAME * max(map(abs, numbers))
             if track.said[index] != _SAID[one.verdict] and not (exact or self._open[label][index]):
-                return f"{code} says {one.verdict.value} of a file of its own"
+                return f"{code} is {one.verdict.value} in a file of its own"
         return ""
 
 

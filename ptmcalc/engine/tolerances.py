@@ -63,7 +63,7 @@ def _values(
         mean = present if spread.mean is None else spread.mean
         values = _normal(mean, spread.sd, spread.low, spread.high, count, chance)
         if values is None:
-            raise UsageError(f"{where}: next to nothing of the distribution lies between `min` and `max`", "check them")
+            raise UsageError(f"{where}: the probability between `min` and `max` is almost 0", "check them")
     elif spread.plus is not None and spread.minus is not None:
         values = chance.uniform(present - spread.minus, present + spread.plus, count)
     else:

@@ -117,7 +117,7 @@ def at_most_one(given: Given, *keys: str) -> Iterator[Conflict]:
     """Of keys that say the same thing one is enough."""
     written = [key for key in keys if key in given]
     for key in written[1:]:
-        yield Conflict((key,), f"give it or `{written[0]}`, not both: they say the same thing", f"delete `{key}`")
+        yield Conflict((key,), f"give it or `{written[0]}`, not both: they state the same quantity", f"delete `{key}`")
 
 
 def together(given: Given, key: str, other: str, reason: str) -> Iterator[Conflict]:

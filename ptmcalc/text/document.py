@@ -212,7 +212,7 @@ class _Reader:
 
     def _say(self, code: str, reason: str, span: Span, path: KeyPath, hint: str) -> None:
         if len(self.problems) >= MAX_FAULTS:
-            reason, hint = f"the file has more than {MAX_FAULTS} faults of its text", "mend those above first"
+            reason, hint = f"the file has more than {MAX_FAULTS} faults of its text", "correct those above first"
             raise _UnreadableError("TXT108", reason, span, hint)
         self.problems.append(Diagnostic(code, reason, span, path, hint))
 

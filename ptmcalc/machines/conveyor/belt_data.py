@@ -65,7 +65,9 @@ class Belt(Fragment):
         if per_width and "width" not in given:
             yield given.missing("width", f"{per_width} per width: `width` is missing")
         yield from at_most_one(given, "minimum_drum_diameter", "carcass_thickness")
-        yield from together(given, "carcass_thickness", "warp", "how small a drum may be goes by the material too")
+        yield from together(
+            given, "carcass_thickness", "warp", "the minimum pulley diameter depends on the material too"
+        )
         carcass, warp = given.word("carcass"), given.word("warp")
         if carcass is not None and warp is not None and (carcass == "steel_cord") != (warp == "steel_cord"):
             reason = f"a `{carcass}` carcass has no warp of `{warp}`"

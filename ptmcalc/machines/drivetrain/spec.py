@@ -161,7 +161,7 @@ class Link(Fragment):
         law = given.word("law")
         contact = any(key in given for key in ("gap", "clearance", "slack"))
         if law is not None and not contact:
-            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no play", "add `gap: 0 deg`")
+            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no backlash", "add `gap: 0 deg`")
         if law == "rigid":
             for key in ("stiffness", "damping"):
                 if key in given:

@@ -90,7 +90,7 @@ def carriage_off_the_column(given: Given) -> Iterator[Conflict]:
         wrong = list(_off(path, height, foot, head))
         yield from wrong
         if height is not None and not wrong and least < most and not least <= height <= most:
-            reason = f"the carriage does not come there: its way is from {_m(least)} to {_m(most)}"
+            reason = f"the carriage does not come there: its path is from {_m(least)} to {_m(most)}"
             yield Conflict(path, reason, f"write `height: {_m(most if height > most else least)}`")
 
 
