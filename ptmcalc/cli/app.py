@@ -464,7 +464,7 @@ def cost(
 ) -> None:
     """Measure what accuracy costs: every solver and setting with its time, bar and true error.
 
-    Errors are told against a setting of another method, never against the same one. Exit status 1 when a bar does not
+    Errors are relative to a setting of another method, never to the same one. Exit status 1 when a bar does not
     cover the true error.
     """
     from ptmcalc.cli.cost import show_cost
@@ -549,7 +549,7 @@ def solve(
     scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """Find the value of one key at which a check just passes, its error bar included, and what the others say there.
+    """Find the value of one key at which a check just passes, its error bar included, and the other verdicts there.
 
     Exit status 1 when no value within three decades changes the verdict.
     """
@@ -587,8 +587,8 @@ def sweep(
     """Vary keys of a machine: verdicts, margins and loads at every point, and where verdicts turn.
 
     What closed forms decide is computed for all points at once; the rest goes through the batch as far as the budget
-    goes, and what is open then is told so. Exit status: 0 every point is decided, 2 wrong usage or an invalid file, 3
-    points are open, 4 a bug of ours.
+    allows; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
+    invalid file, 3 points are open, 4 a bug of ours.
     """
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
@@ -618,8 +618,8 @@ def tolerances(
     """Draw machines by the tolerances of a file: how often each check fails, by what, and what margin is left.
 
     Probabilities come with the interval of Clopper and Pearson, margins with that of order statistics; a machine whose
-    verdict is undecided counts as neither, and the upper end says what if they all failed. Exit status: 0 every machine
-    is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
+    verdict is undecided counts as neither, and the upper end is that of all of them failing. Exit status: 0 every
+    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
     """
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options

@@ -31,7 +31,7 @@ def table(report: CostReport, width: int) -> str:
         settings = report.of_scene(scene)
         parts += [f"\n{words.printable(scene)}\n", listing(_COLUMNS, _rows(settings), width=width)]
         parts += [f"{_flowed(note, width)}\n" for note in _notes(settings)]
-    parts += [f"\n{_flowed(_LEGEND, width)}\n\nThe cheapest settings whose bars prove it\n"]
+    parts += [f"\n{_flowed(_LEGEND, width)}\n\nThe fastest settings whose bars prove it\n"]
     parts += [listing(("scene", "for", "settings", "time"), _chosen(report), width=width)]
     parts += [f"\n{_flowed(conclusion(report), width)}\n"]
     return "".join(parts)

@@ -47,7 +47,7 @@ def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
     """A resistance as large as the weight holds the carriage up.
 
     **Range** any guide.
-    **Error** none: a balance; a file may ask for more than 1.
+    **Error** none: a balance; a file may require more than 1.
     **Source** balance of the carriage.
     """
     return Estimate.exact(spec.checks.self_jamming)

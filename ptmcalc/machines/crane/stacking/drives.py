@@ -69,7 +69,7 @@ class Travel(Fragment):
     """to travel, at the rims"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
-    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the rims")] = None
+    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the wheel treads")] = None
     """of the driven wheels; with a `drive`"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the mechanism does all day; needed to check its starts"""
