@@ -99,7 +99,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Delete one of the two keys.",
         ),
         "TXT107": CodeText(
-            "tag in the YAML text",
+            "YAML tag",
             "A design file contains data only. A tag requests the construction of an object and is rejected.",
             "Delete the tag (the word that starts with an exclamation mark).",
         ),
@@ -224,7 +224,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Delete an `off`, or add a scene to which checks apply.",
         ),
         "SPC205": CodeText(
-            "effects that are forced and conflict",
+            "conflicting forced effects",
             "An effect that the file forces on cannot be simulated with other effects that the file forces on or off.",
             "Set one of the stated effects to `auto`.",
         ),
@@ -279,7 +279,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Design with the computed load. The formula is shown for comparison only.",
         ),
         "NUM111": CodeText(
-            "loads that contradict each other",
+            "contradictory loads",
             "The intervals of two loads violate a relation that applies to every machine. An example: the maximum"
             " tension anywhere is at least the tension at the pulley. Every check that reads one of the two loads"
             " is undecided.",
@@ -291,7 +291,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "No action is required. The loads are those with the device.",
         ),
         "NUM112": CodeText(
-            "window ends before the motion is steady",
+            "unsteady motion at the end of the window",
             "The computation ends before the motion of the machine is steady. Loads that can still grow have no bound"
             " beyond the window.",
             "Choose a longer window with `window_factor` of the scene.",

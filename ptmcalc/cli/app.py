@@ -105,7 +105,7 @@ AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error 
 BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
-    typer.Option("--effects", help="NAME=on|off|auto, over what the file says; may be repeated."),
+    typer.Option("--effects", help="NAME=on|off|auto, replaces the setting of the file; may be repeated."),
 ]
 ExcludeOption = Annotated[
     list[str] | None,
@@ -131,7 +131,7 @@ ExecutorOption = Annotated[
     typer.Option(
         "--executor",
         metavar="local|dask://HOST:PORT",
-        help="Who works: processes here, or a cluster of dask.",
+        help="Workers: local processes, or a cluster of dask.",
     ),
 ]
 StudyBudgetOption = Annotated[
@@ -235,7 +235,7 @@ def check(
     ] = None,
     output: Annotated[
         list[str] | None,
-        typer.Option("--output", "-o", help="FORMAT=FILE, besides what is printed; may be repeated."),
+        typer.Option("--output", "-o", help="FORMAT=FILE, in addition to the printed report; may be repeated."),
     ] = None,
     verbose: Annotated[
         bool,
@@ -464,7 +464,7 @@ def cost(
 ) -> None:
     """Measure what accuracy costs: every solver and setting with its time, bar and true error.
 
-    Errors are told against a setting of another method, never against the same one. Exit status 1 when a bar does not
+    Errors are relative to a setting of another method, never to the same one. Exit status 1 when a bar does not
     cover the true error.
     """
     from ptmcalc.cli.cost import show_cost
@@ -552,12 +552,12 @@ def solve(
         ),
     ],
     margin: Annotated[
-        str, typer.Option("--margin", help="What is wanted beside the limit: a share of it, e.g. 10%, or in its unit.")
+        str, typer.Option("--margin", help="Required distance from the limit: a share of it, e.g. 10%, or in its unit.")
     ] = "",
     scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """Find the value of one key at which a check just passes, its error bar included, and what the others say there.
+    """Find the value of one key at which a check just passes, its error bar included, and the other verdicts there.
 
     Exit status 1 when no value within three decades changes the verdict.
     """
@@ -595,8 +595,8 @@ def sweep(
     """Vary keys of a machine: verdicts, margins and loads at every point, and where verdicts turn.
 
     What closed forms decide is computed for all points at once; the rest goes through the batch as far as the budget
-    goes, and what is open then is told so. Exit status: 0 every point is decided, 2 wrong usage or an invalid file, 3
-    points are open, 4 a bug of ours.
+    allows; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
+    invalid file, 3 points are open, 4 a bug of ours.
     """
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
@@ -626,8 +626,8 @@ def tolerances(
     """Draw machines by the tolerances of a file: how often each check fails, by what, and what margin is left.
 
     Probabilities come with the interval of Clopper and Pearson, margins with that of order statistics; a machine whose
-    verdict is undecided counts as neither, and the upper end says what if they all failed. Exit status: 0 every machine
-    is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
+    verdict is undecided counts as neither, and the upper end is that of all of them failing. Exit status: 0 every
+    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
     """
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options

@@ -34,14 +34,14 @@ def decode(
     phase: Annotated[Phase, typer.Option("--phase", help="What the record shows.")],
     start: Annotated[str, typer.Option("--from", help="Angle of the main shaft at the first sample.")] = "0 deg",
     window: Annotated[
-        str, typer.Option("--window", help="Length of the stretches that are fitted, e.g. 50 ms; chosen when left out.")
+        str, typer.Option("--window", help="Length of the fitted segments, e.g. 50 ms; chosen when left out.")
     ] = "",
     form: Annotated[Format, typer.Option("--format", help="How to print.")] = Format.TABLE,
 ) -> None:
     """Decode a measured speed record: motor curve, losses or brake torque, with their uncertainty.
 
-    Columns are in s and rad/s unless their heads say otherwise: `time [ms],speed [rpm]`. The machine runs without its
-    useful load.
+    Columns are in s and rad/s unless their heads state other units: `time [ms],speed [rpm]`. The machine runs without
+    its useful load.
     """
     from pathlib import Path
 

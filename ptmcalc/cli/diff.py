@@ -16,6 +16,7 @@ from ptmcalc.cli.batch import Run
 from ptmcalc.cli.merge import read_report
 from ptmcalc.cli.output import say
 from ptmcalc.engine.check import Options
+from ptmcalc.engine.load import keys_as_known
 from ptmcalc.report import diff, json
 from ptmcalc.report.compare import Entry, FileChange, KeyChange, Pair, Turn, compared, pairs
 from ptmcalc.text.document import MAX_BYTES, Document, parse
@@ -117,7 +118,7 @@ def _with_keys(pair: Pair, before: _State, after: _State) -> Pair:
 
 def _document(path: Path) -> Document:
     try:
-        return parse(beginning_of(path, MAX_BYTES + 1), path.as_posix())
+        return keys_as_known(parse(beginning_of(path, MAX_BYTES + 1), path.as_posix()))
     except OSError:
         return Document(path.as_posix(), None)
 

@@ -244,12 +244,12 @@ def _solver(whole: AnyKind, kinds: Sequence[AnyKind], solver: AnySolver) -> Expl
     kind = kinds[0]
     remarks = ["Effects it carries: " + (", ".join(sorted(solver.represents)) or "none")]
     if not solver.decides:
-        remarks.append("It is shown beside the reported load and never decides.")
+        remarks.append("It is shown next to the reported load and never decides.")
     if solver in kind.witnesses:
         remarks.append("No plan offers it: `ptmcalc cost` holds the errors of the others against it.")
     same = [one.name for one in kind.solvers if one.way == solver.way and one.name != solver.name]
     if same:
-        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` takes neither as a witness of the other.")
+        remarks.append(f"It computes as {', '.join(same)}: `ptmcalc cost` uses neither as a reference for the other.")
     text = _doc(solver.run)
     parts = [
         Part("", "\n".join(remarks)),

@@ -65,7 +65,7 @@ def _planlisted(path: str, rows: Sequence[Row]) -> str:
     first = rows[0]
     about = show(first["predicted_seconds"], TIME, 2)
     title = f"{words.printable(path)}  {first['scene']}: {first['solver']}, predicted {about}\n"
-    columns = ("effect", "will be", "number", "what it says")
+    columns = ("effect", "will be", "number", "meaning")
     return title + (listed(columns, [_plan_cells(row) for row in rows]) if first["effect"] else "")
 
 

@@ -160,7 +160,7 @@ def _info(part: str, document: dict[str, Any]) -> json.RunInfo:
     except _MALFORMED:
         sound = False
     if not sound:
-        reason = f"`{part}` does not say which part of a run it is"
+        reason = f"`{part}` does not state which part of a run it is"
         raise UsageError(reason, "write it anew with this version of ptmcalc")
     return info
 

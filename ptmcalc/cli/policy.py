@@ -26,7 +26,8 @@ BaselineOption = Annotated[
     str, typer.Option("--baseline", metavar="FILE", help="Findings it holds are waived, unless they are worse now.")
 ]
 WriteOption = Annotated[
-    str, typer.Option("--write-baseline", metavar="FILE", help="Write what is found now as a baseline, and go by it.")
+    str,
+    typer.Option("--write-baseline", metavar="FILE", help="Write the present findings as a baseline, and apply it."),
 ]
 ExitZeroOption = Annotated[
     bool, typer.Option("--exit-zero", help="Exit status 0 also where checks fail or are undecided.")

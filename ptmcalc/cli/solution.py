@@ -20,6 +20,7 @@ from ptmcalc.engine.load import Loaded, changed
 from ptmcalc.engine.solve import Solution, Spare, boundary, solve
 from ptmcalc.engine.sweep import axis
 from ptmcalc.report import json, words
+from ptmcalc.spec.alias import key_of
 
 _ACROSS = "="
 Key = tuple[str, str, str]
@@ -39,9 +40,11 @@ def show_solution(path: str, code: str, vary: Sequence[str], scene: str, margin:
             "e.g. --vary takeup.tension, and for the curve --vary 'belt.mass=10 kg/m:30 kg/m:5'",
         )
     spare = _spare(loaded, wanted, margin)
+    assert loaded.spec is not None
+    varied = loaded.document.as_written(key_of(key_path(keys[0]), type(loaded.spec), loaded.document.data))
     if ranges:
-        return _show_boundary(loaded, wanted, key_path(keys[0]), ranges[0], scene, spare, as_json=as_json)
-    solution = solve(loaded, wanted, key_path(keys[0]), scene, spare=spare)
+        return _show_boundary(loaded, wanted, varied, ranges[0], scene, spare, as_json=as_json)
+    solution = solve(loaded, wanted, varied, scene, spare=spare)
     if solution is None:
         say(f"ptmcalc: within three decades no value of `{keys[0]}` changes the verdict of {wanted.code}\n", err=True)
         return 1

@@ -46,7 +46,7 @@ def show_sweep(
         return loaded
     drawn = sample == "lhs"
     if not drawn and count is not None:
-        raise UsageError("a grid has as many points as its keys say", "leave --points out, or add --sample lhs")
+        raise UsageError("the keys define the number of points of a grid", "leave --points out, or add --sample lhs")
     if drawn and count is None:
         raise UsageError("a Latin hypercube needs to know how many points", "add e.g. --points 200")
     axes = sweep.axes(loaded, vary, counted=not drawn)
@@ -129,7 +129,7 @@ def computed(study: Study, means: Means) -> tuple[int, UsageError | None]:
         if len(chosen) < len(where):
             points.notes.append(
                 f"{len(chosen)} of {len(where)} open points are computed one by one in {', '.join(labels)}: each is"
-                f" predicted to take {seconds:.2g} s, all {seconds * len(where):.3g} s; --budget says how much"
+                f" predicted to take {seconds:.2g} s, all {seconds * len(where):.3g} s; --budget sets the limit"
             )
         if chosen.size:
             interrupted, broken_off = _by_files(study, labels, chosen, options, means)

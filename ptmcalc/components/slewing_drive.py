@@ -54,7 +54,9 @@ class SlewMotor(Fragment):
     """of one motor, or give `power` and `speed`; needed to check its heating"""
     power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor"""
-    rated_duty: Annotated[PositiveShare, Absent("continuous: the least torque a motor of this rating bears")] = 1.0
+    rated_duty: Annotated[
+        PositiveShare, Absent("continuous: the smallest torque for which a motor of this rating is designed")
+    ] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
     """the most one motor may be loaded with for a short time"""

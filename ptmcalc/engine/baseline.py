@@ -17,7 +17,7 @@ from typing import Any
 from ptmcalc.base.diagnostic import Diagnostic, Severity, Verdict
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.estimate import Interval
-from ptmcalc.base.span import dotted
+from ptmcalc.base.span import dotted, known
 from ptmcalc.base.units import Quantity, show
 from ptmcalc.contract.check import Sense
 from ptmcalc.contract.report import FileReport, Judgement
@@ -81,11 +81,11 @@ def baseline_of(reports: Sequence[FileReport], folder: Path) -> str:
         name = _name(report, folder)
         for one in _warnings(report):
             for key in _keys(name, one):
-                rows[key] = _row(key, dotted(one.path), Seen(Severity.WARNING.value))
+                rows[key] = _row(key, dotted(known(one.path)), Seen(Severity.WARNING.value))
         for scene, judgement in report.judgements:
             if judgement.verdict in _BAD:
                 key = _key(name, scene.name, judgement)
-                rows[key] = _row(key, dotted(judgement.blame.path), _seen(judgement))
+                rows[key] = _row(key, dotted(known(judgement.blame.path)), _seen(judgement))
     found = [rows[key] for key in sorted(rows)]
     return json.dumps({"schema_version": BASELINE_VERSION, "findings": found}, indent=2, ensure_ascii=False) + "\n"
 
@@ -102,7 +102,7 @@ def read_baseline(path: Path) -> Known:
         version = document["schema_version"]
         if version == _FORMER and isinstance(document["findings"], list):
             reason = f"the baseline `{path}` has the form of an earlier version, without scenes and values"
-            raise UsageError(reason, "`--write-baseline` writes it anew; look at what it waives first")
+            raise UsageError(reason, "`--write-baseline` writes it anew; first check which findings it waives")
         found = dict(map(_entry, document["findings"]))
         if version != BASELINE_VERSION or any(one.weight < 0 for one in found.values()):
             raise ValueError
@@ -220,7 +220,7 @@ def _keys(name: str, warning: Diagnostic) -> list[Key]:
     """Those of a warning: one for each scene it is about, or one of the file."""
     begun = _SCENES.match(warning.message)
     labels = begun["labels"][1:-1].split("`, `") if begun else [""]
-    return [(name, warning.code, label, dotted(warning.path)) for label in labels]
+    return [(name, warning.code, label, dotted(known(warning.path))) for label in labels]
 
 
 def _name(report: FileReport, folder: Path) -> str:

@@ -42,6 +42,7 @@ from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
 from ptmcalc.engine.unknown import why_open
 from ptmcalc.engine.waive import about_waivers, waived
+from ptmcalc.spec.alias import as_written, said_as_written
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
@@ -142,7 +143,8 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
         return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed, computed=False)
     conflicts = tuple(refused(kind, spec, made.scenes, loaded.document, whole=not options.scenes))
     if any(one.severity is Severity.ERROR for one in conflicts):
-        return FileReport(name, kind.name, spec.name, loaded.diagnostics + conflicts, loaded.assumed)
+        named = tuple(said_as_written(one, loaded.document) for one in conflicts)
+        return FileReport(name, kind.name, spec.name, loaded.diagnostics + named, loaded.assumed)
     purse = FilePurse(options.budget)
     settled = [purse.settle(kind, spec, scene) for scene in made.scenes]
     flips = _flips(kind, spec, made, settled, loaded.assumed, purse)
@@ -163,7 +165,27 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     judged = waived(spec, scenes, today)
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
-    return FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
+    report = FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
+    return _as_written(report, loaded.document) if loaded.document.aliased else report
+
+
+def _as_written(report: FileReport, document: Document) -> FileReport:
+    """A report that names keys as the file does."""
+
+    def judgement(one: Judgement) -> Judgement:
+        repair = replace(one.repair, path=document.as_written(one.repair.path)) if one.repair else None
+        path = one.blame.path
+        reason, tried = (as_written(text, document, path) for text in (one.reason, one.tried))
+        return replace(
+            one, blame=replace(one.blame, path=document.as_written(path)), repair=repair, reason=reason, tried=tried
+        )
+
+    return replace(
+        report,
+        diagnostics=tuple(said_as_written(one, document) for one in report.diagnostics),
+        assumed=tuple(replace(one, path=document.as_written(one.path)) for one in report.assumed),
+        scenes=tuple(replace(scene, checks=tuple(map(judgement, scene.checks))) for scene in report.scenes),
+    )
 
 
 def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:

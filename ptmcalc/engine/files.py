@@ -206,7 +206,7 @@ def _spec(lines: Sequence[str]) -> "GitIgnoreSpec | None":
         return None
     for line in lines:
         if any(part.strip("*").count("*") >= _MOST_STARS for part in line.split("/")):
-            raise UsageError(f"the pattern {quote(line)} has too many `*`", "it would be tried in very many ways")
+            raise UsageError(f"the pattern {quote(line)} has too many `*`", "it could match in very many variants")
     from pathspec import GitIgnoreSpec
 
     try:

@@ -20,6 +20,7 @@ from ptmcalc.contract.report import AssumedReport
 from ptmcalc.contract.result import Finding
 from ptmcalc.engine.registry import is_kind, kind_names, load_kind, load_type
 from ptmcalc.engine.spread import tolerance_problems
+from ptmcalc.spec.alias import said_as_written, with_keys
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.optional import constants_of
@@ -60,8 +61,8 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
     """Read a design file from its bytes."""
     document = parse(raw, name)
     asked = _asked(document, effects or {}, accuracy)
-    kind, spec, problems = _read(document, asked)
-    problems = _in_file_order([*document.problems, *problems])
+    document, kind, spec, problems = _read(document, asked)
+    problems = _in_file_order(said_as_written(one, document) for one in (*document.problems, *problems))
     if kind is None or spec is None or problems:
         return Loaded(document, kind, diagnostics=tuple(problems))
     spec, assumed = fill(kind, spec)
@@ -76,7 +77,13 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
         )
         for finding in kind.inspect(spec)
     )
+    notes = tuple(said_as_written(note, document) for note in notes)
     return Loaded(document, kind, spec, assumed, notes, asked)
+
+
+def keys_as_known(document: Document) -> Document:
+    """A document whose keys have the names that the program knows them by."""
+    return _read(document, {})[0]
 
 
 def changed(loaded: Loaded, path: KeyPath, value: float) -> Loaded:
@@ -130,16 +137,21 @@ def _asked(document: Document, effects: Mapping[str, str], accuracy: str) -> Map
     return asked | {"effects": {**own, **effects}} if effects and isinstance(own, dict) else asked
 
 
-def _read(document: Document, asked: Mapping[str, Any]) -> tuple[AnyKind | None, MachineSpec | None, list[Diagnostic]]:
-    """The machine as the file alone describes it, and what is wrong with it."""
+def _read(
+    document: Document, asked: Mapping[str, Any]
+) -> tuple[Document, AnyKind | None, MachineSpec | None, list[Diagnostic]]:
+    """The machine as the file alone describes it, with the document by its keys, and what is wrong with it."""
     if not isinstance(document.data, dict):
-        return None, None, []
+        return document, None, None, []
     data = {**document.data, **asked}
     kind, problems = _kind_of(document, data)
     if kind is not None and kind.types:
         kind, problems = _type_of(kind, document, data)
     if kind is None:
-        return None, None, problems
+        return document, None, None, problems
+    document = with_keys(document, kind.spec)
+    assert isinstance(document.data, dict)
+    data = {**document.data, **asked}
     open_problems = list(islice(_open_key_problems(kind, data, document), MAX_FAULTS + 1))
     open_keys = {found.path for found in open_problems}
     others = (_unknown_waivers(kind, data, document), tolerance_problems(kind.spec, data, document))
@@ -150,7 +162,7 @@ def _read(document: Document, asked: Mapping[str, Any]) -> tuple[AnyKind | None,
     except ValidationError as error:
         faults = problems_of(error, kind.spec, document)
         found = chain(found, (fault for fault in faults if fault.path[:2] not in open_keys))
-    return kind, spec, list(_as_many_as_are_read(found))
+    return document, kind, spec, list(_as_many_as_are_read(found))
 
 
 def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
@@ -159,8 +171,8 @@ def _as_many_as_are_read(found: Iterator[Diagnostic]) -> Iterator[Diagnostic]:
     for told in islice(found, MAX_FAULTS):
         yield told
     if told is not None and next(found, None) is not None:
-        reason = f"the file has more than {MAX_FAULTS} faults besides those of its text"
-        yield Diagnostic("TXT108", reason, told.span, hint="mend those that are told first")
+        reason = f"the file has more than {MAX_FAULTS} faults in addition to those of its text"
+        yield Diagnostic("TXT108", reason, told.span, hint="correct the reported ones first")
 
 
 def fill(kind: AnyKind, spec: MachineSpec) -> tuple[MachineSpec, tuple[AssumedReport, ...]]:

@@ -34,6 +34,7 @@ from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.run import widen
 from ptmcalc.numerics import lanes
 from ptmcalc.numerics.lanes import Lanes, LanesError, SplitError
+from ptmcalc.spec.alias import key_of
 from ptmcalc.spec.fields import Measure
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
@@ -94,14 +95,15 @@ def varied_key(loaded: Loaded, name: str) -> tuple[VariedKey, Measure]:
     """
     spec = loaded.spec
     assert spec is not None
-    path = key_path(name)
+    path = key_of(key_path(name), type(spec), loaded.document.data)
     whole = _is_whole(spec, path)
     measure = Measure(RATIO) if whole else measure_at(spec, path) if path else None
     present = spec.value_at(path)
     if measure is None or isinstance(present, bool) or not isinstance(present, int | float | None):
         known = numbers_of(spec, whole=True)
         raise UsageError(f"`{name}` is no key of a number in this file", did_you_mean(name, known, "keys: "))
-    return VariedKey(path, measure.quantity, present, loaded.document.value_span(path), whole), measure
+    span = loaded.document.value_span(path)
+    return VariedKey(loaded.document.as_written(path), measure.quantity, present, span, whole), measure
 
 
 def _is_whole(spec: MachineSpec, path: KeyPath) -> bool:
@@ -359,7 +361,7 @@ class Study:
                     return f"{code} of a file of its own comes to {its:.9g}, by lanes to {mine:.9g}"
             exact = abs(track.margin[index]) <= _SAME * max(map(abs, numbers))
             if track.said[index] != _SAID[one.verdict] and not (exact or self._open[label][index]):
-                return f"{code} says {one.verdict.value} of a file of its own"
+                return f"{code} is {one.verdict.value} in a file of its own"
         return ""
 
 

@@ -161,7 +161,7 @@ def _in_gravity(spec: MachineSpec, factor: float) -> MachineSpec:
     limit = measure.broken_by(changed) if measure else ""
     if limit:
         raise UsageError(
-            f"the gravity of such a model is {factor:.4g} times the one its law asks for, out of range",
+            f"the gravity of such a model is {factor:.4g} times the one that its law requires, out of range",
             f"in the prototype's terms it must be {limit}",
         )
     return spec.with_value(_GRAVITY, changed)
@@ -229,7 +229,7 @@ def _distortions(model: PhysicalModel, loads: Sequence[ModelLoad]) -> tuple[str,
             f" only with a strength {of.stress:.4g} times the prototype's"
         )
     said += [
-        f"play that tolerances make does not shrink with the machine: it has to be {of.length:.4g} times the"
+        f"clearance due to tolerances does not shrink with the machine: it has to be {of.length:.4g} times the"
         " prototype's, as an angle the same",
         f"delays, rise times and ramps are those of the model's controls: they have to be {of.time:.4g} times the"
         f" prototype's, rotational speeds {of.frequency:.4g} times",

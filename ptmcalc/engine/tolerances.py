@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ptmcalc.base.errors import UsageError
+from ptmcalc.base.span import dotted, known
 from ptmcalc.contract.study import Driver, FloatArray, Points, Risk, Said, Share, Track, VariedKey
 from ptmcalc.engine.load import Loaded
 from ptmcalc.engine.points import varied_key
@@ -51,7 +52,7 @@ def drawn(loaded: Loaded, count: int, seed: int) -> Points:
 def _values(
     loaded: Loaded, key: VariedKey, measure: Measure, spread: Spread, count: int, chance: np.random.Generator
 ) -> FloatArray:
-    line = loaded.document.key_span((BLOCK, key.name)).line
+    line = loaded.document.key_span((BLOCK, dotted(known(key.path)))).line
     where = f"{loaded.document.name}:{line}: `{BLOCK}.{key.name}`"
     if spread.about_the_file and key.present is None:
         raise UsageError(
@@ -62,7 +63,7 @@ def _values(
         mean = present if spread.mean is None else spread.mean
         values = _normal(mean, spread.sd, spread.low, spread.high, count, chance)
         if values is None:
-            raise UsageError(f"{where}: next to nothing of the distribution lies between `min` and `max`", "check them")
+            raise UsageError(f"{where}: the probability between `min` and `max` is almost 0", "check them")
     elif spread.plus is not None and spread.minus is not None:
         values = chance.uniform(present - spread.minus, present + spread.plus, count)
     else:

@@ -462,9 +462,9 @@ def buffer_factor(energy_share: float, edition: str = LINE) -> float:
         ValueError: for a share outside 0 to 1 or another edition.
     """
     if not 0 <= energy_share <= 1:
-        raise ValueError("the energy of a buffer lies between 0 and 1 of its largest force times its stroke")
+        raise ValueError("the energy of a buffer is between 0 and 1 of its largest force times its stroke")
     if edition not in (LINE, TWO_VALUES):
-        raise ValueError(f"phi_7 goes by a {LINE} or by {TWO_VALUES}")
+        raise ValueError(f"phi_7 follows `{LINE}` or `{TWO_VALUES}`")
     if edition == TWO_VALUES:
         return 1.25 if energy_share <= 0.5 else 1.6
     return 1.25 + 0.7 * max(energy_share - 0.5, 0.0)

@@ -84,7 +84,7 @@ DUTY_TYPES: Mapping[str, DutyType] = MappingProxyType(
         ),
         "S8": DutyType(
             "continuous operation, periodic, with changes of load and speed, never at rest",
-            "the losses over the cycle at each speed with those of the rating: a torque alone does not tell them",
+            "the losses over the cycle at each speed with those of the rating: a torque alone does not determine them",
             at_rest=False,
             counts_starts=True,
         ),

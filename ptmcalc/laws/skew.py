@@ -96,7 +96,7 @@ def skew_play(play: float, least_play: float, edition: str = EN_13001_2) -> floa
         EN_1991_3: max(0.75 * play, least_play),
     }
     if edition not in plays:
-        raise ValueError(f"the play of guides goes by {FULL_PLAY}, {EN_13001_2} or {EN_1991_3}")
+        raise ValueError(f"the clearance of guides is that of {FULL_PLAY}, {EN_13001_2} or {EN_1991_3}")
     return plays[edition]
 
 

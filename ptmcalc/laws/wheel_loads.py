@@ -163,7 +163,7 @@ def wheels_of_rail(rear_load: float, front_load: float, positions: FloatArray, c
     if carriage not in (EQUALISED, RIGID):
         raise ValueError(f"wheels of a corner are {EQUALISED} or {RIGID}")
     if len(x) < 2 or len(x) % 2 or not np.all(np.diff(x) > 0):
-        raise ValueError("a rail needs an even number of wheels, told from the rear to the front")
+        raise ValueError("a rail needs an even number of wheels, listed from the rear to the front")
     half = len(x) // 2
     if carriage == EQUALISED:
         return np.repeat([rear_load / half, front_load / half], half)

@@ -284,7 +284,7 @@ class Record:
             self._look()
             rounds += 1
             if self.looks + _ROUND * rounds > self.most_looks:
-                raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be told apart")
+                raise NumericsError("NUM101", "the summits of a vibration as fast as this cannot be separated")
 
     def _watched(self, lengths: FloatArray) -> FloatArray:
         """Signals at the nodes of all that waits, shape (nodes, panels, signals): all panels of a flow at once."""

@@ -18,8 +18,9 @@ _COLUMNS = ("", "setting", "time", "plan", "true error", "bar", "held", "by")
 _LEGEND = (
     "* no setting proves as much for less; o none comes as close for less. The error is that of the worst governing"
     " load, relative, against the setting `by`, which is of another method (-: there is none); `≤` where that one knows"
-    " the load no closer; held: whether the bars cover the errors, open where nobody can say. all: with every effect"
-    " the solver can carry, else with those the scene calls for; f: formula, shown only; w: witness, never planned."
+    " the load no closer; held: whether the bars cover the errors, open where unknown. all: with every effect"
+    " the solver can carry, else with those the scene calls for; f: formula, shown"
+    " only; w: reference method, never planned."
 )
 
 
@@ -30,7 +31,7 @@ def table(report: CostReport, width: int) -> str:
         settings = report.of_scene(scene)
         parts += [f"\n{words.printable(scene)}\n", listing(_COLUMNS, _rows(settings), width=width)]
         parts += [f"{_flowed(note, width)}\n" for note in _notes(settings)]
-    parts += [f"\n{_flowed(_LEGEND, width)}\n\nThe cheapest settings whose bars prove it\n"]
+    parts += [f"\n{_flowed(_LEGEND, width)}\n\nThe fastest settings whose bars prove it\n"]
     parts += [listing(("scene", "for", "settings", "time"), _chosen(report), width=width)]
     parts += [f"\n{_flowed(conclusion(report), width)}\n"]
     return "".join(parts)
@@ -180,7 +181,7 @@ def _of_bars(settings: Sequence[Setting]) -> str:
     if said:
         parts.append(f"{said.count(Held.YES)} of {len(said)} compared settings cover the true error with their bars")
     if said.count(Held.OPEN):
-        parts.append(f"{said.count(Held.OPEN)} are known closer than any other method can tell")
+        parts.append(f"{said.count(Held.OPEN)} are known closer than by any other method")
     if said.count(Held.NO):
         parts.append(f"{said.count(Held.NO)} DO NOT")
     if alone:

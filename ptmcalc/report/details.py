@@ -19,7 +19,7 @@ def effects(console: Console, scenes: Iterable[SceneReport]) -> None:
     rows = [(scene.name, effect) for scene in scenes for effect in scene.effects]
     if not rows:
         return
-    table = new_table("Effects", "scene", "effect", "state", "number", "what it says", "without it")
+    table = new_table("Effects", "scene", "effect", "state", "number", "meaning", "without it")
     console.print(fill(table, [_ledger_row(scene, effect) for scene, effect in rows], console.width))
 
 

@@ -271,7 +271,7 @@ def _markdown_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[st
 def _told(turn: Turn, said: Entry) -> str:
     """A finding of the file itself."""
     where = f", line {said['line']}" if said["line"] else ""
-    how = "new" if turn is Turn.NEW else "no longer said"
+    how = "new" if turn is Turn.NEW else "no longer reported"
     return f"{how}: **{said['severity']}** {escape(said['code'])}{where}: {escape(said['message'])}"
 
 
@@ -299,7 +299,7 @@ def _judged(change: CheckChange) -> str:
         return f"{sign} {name} is new and {_NOW[new['verdict']]}: {escape(_numbers(new))}."
     before = f"before, {_WAS[old['verdict']]} at {_value(old)}"
     if old["limit"] != new["limit"]:
-        before += f", {_limit(old)} asked"
+        before += f", limit {_limit(old)}"
     blame, repair = new["blame"], new.get("repair")
     parts = [f"{sign} {name} {_NOW[new['verdict']]}: {escape(f'{_numbers(new)}; {before}')}."]
     if change.turn is Turn.WORSE:

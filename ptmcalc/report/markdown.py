@@ -17,7 +17,7 @@ _MOST_ROWS = 200
 _MOST_LETTERS = 60_000
 """A comment of GitHub holds 65 536 characters."""
 _LONGEST = 500
-_HEAD = ("| Verdict | Finding | Place | Said |", "|---|---|---|---|")
+_HEAD = ("| Verdict | Finding | Place | Message |", "|---|---|---|---|")
 
 
 def render(reports: tuple[FileReport, ...], *, width: int, color: bool, verbose: bool = False) -> str:

@@ -253,7 +253,7 @@ def risk_table(name: str, points: Points, found: Sequence[Risk], confidence: flo
         for one in found
     ]
     text += listing(columns, rows, width=width)
-    text += f"in brackets: where that surely lies (at {sure}); behind a key: its rank correlation with the margin\n"
+    text += f"in brackets: its interval (at {sure}); behind a key: its rank correlation with the margin\n"
     return text + "".join(f"note: {note}\n" for note in points.notes)
 
 

@@ -8,7 +8,7 @@ import ast
 import inspect
 import itertools
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from types import ModuleType
 
@@ -16,7 +16,7 @@ from pydantic import BaseModel, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from ptmcalc.spec.shape import usual
+from ptmcalc.spec.shape import aliases_of, usual
 
 
 class Described(BaseModel):
@@ -32,7 +32,27 @@ class Described(BaseModel):
                 about["description"] = text
             if about is not None and (listed := usual(cls, field.alias or name)):
                 _show_usual(about, listed)
+        if aliases := aliases_of(cls):
+            _show_aliases(handler.resolve_ref_schema(found), aliases)
         return found
+
+
+def _show_aliases(schema: JsonSchemaValue, aliases: Mapping[str, str]) -> None:
+    """Allow each other name in place of its key, but not both."""
+    properties, required = schema["properties"], schema.get("required", [])
+    for name, key in aliases.items():
+        text = f"other name of `{key}`; " + properties[key].get("description", "")
+        title = name.replace("_", " ").title()
+        properties[name] = properties[key] | {"title": title, "description": text.removesuffix("; ")}
+    for key in dict.fromkeys(aliases.values()):
+        names = [key, *(name for name, meant in aliases.items() if meant == key)]
+        each = [{"required": [name]} for name in names]
+        if key in required:
+            required.remove(key)
+            schema.setdefault("allOf", []).append({"oneOf": each})
+        else:
+            pairs = [{"required": list(pair)} for pair in itertools.combinations(names, 2)]
+            schema.setdefault("allOf", []).append({"not": {"anyOf": pairs}})
 
 
 def _show_usual(about: JsonSchemaValue, value: str) -> None:

@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails, InitErrorDetails, PydanticCustomError
 from ptmcalc.base.span import KeyPath
 from ptmcalc.spec.described import Described
 from ptmcalc.spec.fields import Measure, problem
-from ptmcalc.spec.shape import Model, example_at, inner, keys_of, meant, measure_of, model_of, words_of
+from ptmcalc.spec.shape import Model, example_at, inner, keys_of, meant_key, measure_of, model_of, words_of
 
 _NAME = re.compile(r"[\w-]+")
 _MOST_SLIPS = 100
@@ -48,7 +48,7 @@ class Given:
         known = keys_of(self.model)
         written = {key: value for key, value in self.raw.items() if value is not None}
         for slip in [key for key in written if key not in known][:_MOST_SLIPS]:
-            written.setdefault(meant(slip, tuple(known)), written[slip])
+            written.setdefault(meant_key(slip, self.model), written[slip])
         object.__setattr__(self, "_written", written)
 
     def __contains__(self, key: str) -> bool:
@@ -117,7 +117,7 @@ def at_most_one(given: Given, *keys: str) -> Iterator[Conflict]:
     """Of keys that say the same thing one is enough."""
     written = [key for key in keys if key in given]
     for key in written[1:]:
-        yield Conflict((key,), f"give it or `{written[0]}`, not both: they say the same thing", f"delete `{key}`")
+        yield Conflict((key,), f"give it or `{written[0]}`, not both: they state the same quantity", f"delete `{key}`")
 
 
 def together(given: Given, key: str, other: str, reason: str) -> Iterator[Conflict]:

@@ -63,7 +63,7 @@ class MachineSpec(Fragment):
     """what the machine is called, on the report"""
     description: str = ""
     """anything a reader of the file should know"""
-    gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it lies within 0.3 % of 9.81 m/s^2")] = 9.81
+    gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it is within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
     accuracy: Annotated[Accuracy | None, Setting("without it, verdicts decide how narrow bars are")] = None
     """relative error asked of the governing loads, e.g. `1 %`; without it accuracy is bought only where a

@@ -20,10 +20,12 @@ from ptmcalc.spec.shape import (
     example_like,
     inner,
     keys_at,
-    meant,
+    keys_of,
+    meant_key,
     measure_of,
     model_of,
     models_of,
+    names_at,
     unknown_key,
     value_at,
 )
@@ -144,9 +146,9 @@ def _said(error: PydanticCustomError, path: KeyPath, document: Document) -> Diag
 def _missing(path: KeyPath, model: Model, document: Document) -> Diagnostic:
     """A missing key, or the misspelt one that it is missing for."""
     parent, key = path[:-1], str(path[-1])
-    known, block = keys_at(model, parent, document.data), value_at(document.data, parent)
+    above, block = _model_above(path, model, document), value_at(document.data, parent)
     for slip in block if isinstance(block, dict) else ():
-        if slip not in known and meant(slip, tuple(known)) == key:
+        if above and slip not in keys_of(above) and meant_key(slip, above) == key:
             return _unknown((*parent, slip), model, document)
     where = f" under {quote(dotted(parent))}" if parent else ""
     hint = f"add `{key}: {_example(path, model, document)}`"
@@ -154,7 +156,7 @@ def _missing(path: KeyPath, model: Model, document: Document) -> Diagnostic:
 
 
 def _unknown(path: KeyPath, model: Model, document: Document) -> Diagnostic:
-    known = keys_at(model, path[:-1], document.data)
+    known = names_at(model, path[:-1], document.data)
     hint = unknown_key(str(path[-1]), known, model, "keys here: ") if known else "delete it"
     return Diagnostic("SPC104", f"unknown key {quote(dotted(path))}", document.key_span(path), path, hint)
 

@@ -3,6 +3,7 @@
 import difflib
 import inspect
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from types import MappingProxyType, UnionType
 from typing import Any, Union, get_args, get_origin
@@ -31,6 +32,12 @@ def keys_at(model: Model, path: KeyPath, data: object) -> Mapping[str, FieldInfo
     annotation = annotation_at(model, path, data)
     found = model_of(annotation, value_at(data, path))
     return keys_of(found) if found else {}
+
+
+def names_at(model: Model, path: KeyPath, data: object) -> tuple[str, ...]:
+    """The keys, with their other names, that the mapping at `path` may have."""
+    found = model_of(annotation_at(model, path, data), value_at(data, path))
+    return (*keys_of(found), *aliases_of(found)) if found else ()
 
 
 def annotation_at(model: Model, path: KeyPath, data: object) -> Any:
@@ -114,6 +121,30 @@ def is_whole(field: FieldInfo) -> bool:
 
 def _bare(annotation: Any) -> Any:
     return get_args(annotation)[0] if hasattr(annotation, "__metadata__") else annotation
+
+
+@dataclass(frozen=True, slots=True)
+class Also:
+    """Annotation of a field: other names under which a file may write its key, the standard terms of the field."""
+
+    names: tuple[str, ...]
+
+    def __init__(self, *names: str) -> None:
+        object.__setattr__(self, "names", names)
+
+
+@cache
+def aliases_of(model: Model) -> Mapping[str, str]:
+    """The key of a model by each of its other names."""
+    found = ((key, one) for key, field in keys_of(model).items() for one in field.metadata if isinstance(one, Also))
+    return MappingProxyType({name: key for key, also in found for name in also.names})
+
+
+def meant_key(word: str, model: Model) -> str:
+    """The key of a model that a misspelt word, or a misspelt other name of the key, is likely to mean."""
+    aliases = aliases_of(model)
+    close = meant(word, (*keys_of(model), *aliases))
+    return aliases.get(close, close)
 
 
 def _metadata(annotation: Any) -> list[Any]:
@@ -226,6 +257,17 @@ def _inside(annotation: Any) -> Iterator[Model]:
             for part in get_args(option):
                 if part is not Ellipsis:
                     yield from _inside(part)
+
+
+def models_inside(model: Model) -> Iterator[Model]:
+    """A model and all that stand behind its keys, each once."""
+    seen, left = {model}, [model]
+    while left:
+        yield (one := left.pop())
+        for about in keys_of(one).values():
+            new = set(_inside(about.annotation)) - seen
+            seen |= new
+            left += new
 
 
 def elsewhere(word: str, model: Model) -> str:

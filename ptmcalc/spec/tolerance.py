@@ -73,4 +73,6 @@ class Tolerance(Fragment):
         for key in ("normal", "uniform"):
             if key in given:
                 side = "plus" if "plus" in given else "minus"
-                yield Conflict((key,), f"give it or `{side}`, not both: they say the same thing", f"delete `{key}`")
+                yield Conflict(
+                    (key,), f"give it or `{side}`, not both: they state the same quantity", f"delete `{key}`"
+                )

@@ -18,7 +18,7 @@ from typing import Any, TypeGuard
 import yaml
 
 from ptmcalc.base.diagnostic import Diagnostic
-from ptmcalc.base.span import KeyPath, Span, dotted
+from ptmcalc.base.span import AliasedKey, KeyPath, Span, dotted
 from ptmcalc.base.units import without_commas
 from ptmcalc.base.words import quote
 
@@ -61,6 +61,17 @@ class Document:
     keys: Mapping[KeyPath, Span] = field(default_factory=dict)
     values: Mapping[KeyPath, Span] = field(default_factory=dict)
     problems: tuple[Diagnostic, ...] = ()
+    merged: frozenset[KeyPath] = frozenset()
+    """keys that `<<` brings into a mapping"""
+    aliased: Mapping[KeyPath, str] = field(default_factory=dict)
+    """names that the file writes for keys of `data` that have several"""
+
+    def as_written(self, path: KeyPath) -> KeyPath:
+        """A path whose keys are shown by the names that the file writes."""
+        if not self.aliased:
+            return path
+        steps = ((path[: length + 1], step) for length, step in enumerate(path))
+        return tuple(AliasedKey(str(step), self.aliased[one]) if one in self.aliased else step for one, step in steps)
 
     def value_span(self, path: KeyPath) -> Span:
         """Where the value of `path` stands; for one the file does not write, the key of its parent."""
@@ -102,6 +113,7 @@ class _Mapping:
     span: Span
     entries: "dict[str, _Entry]"
     levels: int
+    merged: frozenset[str] = frozenset()
 
 
 _Node = _Scalar | _Sequence | _Mapping
@@ -126,12 +138,14 @@ def parse(raw: bytes, name: str) -> Document:
         return Document(name, None, problems=(*problems, stop.problem))
     keys: dict[KeyPath, Span] = {}
     values: dict[KeyPath, Span] = {}
-    data = _flatten(node, (), keys, values)
+    merged: set[KeyPath] = set()
+    data = _flatten(node, (), keys, values, merged)
     if not isinstance(data, dict | Unread):
         form = "a list" if isinstance(data, list) else "a single value"
         reason, hint = f"the document is {form}, not a mapping", "start with `kind: conveyor`"
         problems.append(Diagnostic("TXT112", reason, node.span, hint=hint))
-    return Document(name, data if isinstance(data, dict) else None, keys, values, tuple(problems))
+    own = data if isinstance(data, dict) else None
+    return Document(name, own, keys, values, tuple(problems), frozenset(merged))
 
 
 def _decode(raw: bytes) -> str:
@@ -198,7 +212,7 @@ class _Reader:
 
     def _say(self, code: str, reason: str, span: Span, path: KeyPath, hint: str) -> None:
         if len(self.problems) >= MAX_FAULTS:
-            reason, hint = f"the file has more than {MAX_FAULTS} faults of its text", "mend those above first"
+            reason, hint = f"the file has more than {MAX_FAULTS} faults of its text", "correct those above first"
             raise _UnreadableError("TXT108", reason, span, hint)
         self.problems.append(Diagnostic(code, reason, span, path, hint))
 
@@ -267,9 +281,11 @@ class _Reader:
             where, node = entries[key]
             self._say_cut(text, node.span, (*path, key))
             entries[key] = where, _Scalar(node.span, Unread.VALUE)
+        own = len(entries)
         if not self._merge(merges, entries, path):
             return _Scalar(span, Unread.VALUE)
-        return _Mapping(span, entries, _levels(node for _, node in entries.values()))
+        merged = frozenset(list(entries)[own:]) if merges else frozenset()
+        return _Mapping(span, entries, _levels(node for _, node in entries.values()), merged)
 
     def _key(self, event: yaml.Event, events: Iterator[yaml.Event], path: KeyPath) -> tuple[str, Span]:
         """A key and its place; an empty text for one that is no word."""
@@ -336,17 +352,20 @@ def _levels(nodes: Iterable[_Node]) -> int:
     return 1 + max((node.levels for node in nodes), default=0)
 
 
-def _flatten(node: _Node, path: KeyPath, keys: dict[KeyPath, Span], values: dict[KeyPath, Span]) -> object:
+def _flatten(
+    node: _Node, path: KeyPath, keys: dict[KeyPath, Span], values: dict[KeyPath, Span], merged: set[KeyPath]
+) -> object:
     """Plain data with aliases expanded, and every place noted."""
     values[path] = node.span
     if isinstance(node, _Sequence):
-        return [_flatten(item, (*path, index), keys, values) for index, item in enumerate(node.items)]
+        return [_flatten(item, (*path, index), keys, values, merged) for index, item in enumerate(node.items)]
     if isinstance(node, _Scalar):
         return node.value
     data = {}
+    merged.update((*path, key) for key in node.merged)
     for key, (span, value) in node.entries.items():
         keys[*path, key] = span
-        data[key] = _flatten(value, (*path, key), keys, values)
+        data[key] = _flatten(value, (*path, key), keys, values, merged)
     return data
 
 

@@ -54,7 +54,7 @@ def test_the_page_is_written_beside_what_is_printed(shaft: Any, page: Path) -> N
 def test_the_table_is_what_is_printed_without_a_wish() -> None:
     done = ptmcalc("cost", ONE, "--accuracy", "2%")
     assert (done.status, done.err) == (0, "")
-    for part in ("winding_loaded", "winding_map 0", "winding_paper 0 f", "The cheapest settings", "2 %", "margins"):
+    for part in ("winding_loaded", "winding_map 0", "winding_paper 0 f", "The fastest settings", "2 %", "margins"):
         assert part in done.out
     assert "0.1 %, " not in done.out
 

@@ -262,7 +262,7 @@ MANY = "".join(
         ("  takeup.stroke: {plus: 1 m}\n", (), "the file has no value of it"),
         ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some machines have values that none can have"),
         ("  takeup.tension: {minus: 40 kN}\n", (), "it must be greater than 0 N"),
-        ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "next to nothing of the distribution"),
+        ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "the probability between"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is no number of samples"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "1000001"), "write one from 1 to 1000000"),
         (MANY, ("--samples", "1000000"), "`--samples 1000000` of 21 values are too many (write one from 1 to 952380"),

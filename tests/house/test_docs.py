@@ -45,6 +45,12 @@ def test_a_page_does_what_it_says(path: Path, tmp_path: Path) -> None:
         assert played == page
 
 
+@pytest.mark.parametrize("path", [ROOT / "README.md", *DOCS], ids=named)
+def test_no_page_shows_a_bug_of_ours(path: Path) -> None:
+    """An update writes whatever a command prints."""
+    assert "internal error" not in path.read_text("utf-8")
+
+
 def test_there_is_a_tutorial_for_every_kind_and_type() -> None:
     told = {path.stem for path in DOCS if path.parent.name == "tutorials"}
     wanted = {one.label.replace(" ", "_") for name in kind_names() for one in load_kind(name).manifests}

@@ -321,7 +321,7 @@ class TestHard:
         found = play(one, 4.0, most_work=1e6).record
         assert found.work < 3e4
         assert found.looks > 3e4 / 25
-        with pytest.raises(NumericsError, match="cannot be told apart"):
+        with pytest.raises(NumericsError, match="cannot be separated"):
             play(one, 4.0, most_work=3e4)
 
     def test_at_rest_from_the_beginning(self) -> None:

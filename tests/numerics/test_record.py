@@ -117,7 +117,7 @@ def test_looks_are_few_and_given_up_where_they_are_too_many(monkeypatch: pytest.
     asked = found.looks + 40 * rounds
     assert 0 < found.looks < 200
     assert march(system, "swing", start, 10.0, most_looks=asked).looks == found.looks
-    with pytest.raises(NumericsError, match="cannot be told apart"):
+    with pytest.raises(NumericsError, match="cannot be separated"):
         march(system, "swing", start, 10.0, most_looks=asked - 1)
 
 

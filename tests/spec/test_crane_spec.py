@@ -89,7 +89,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "torque and pressure": (
         {"wind": {"steady": "1 kN*m", "steady_pressure": "50 Pa", "area": "3 m^2", "arm": "4 m"}},
         "SPC113",
-        "they say the same thing",
+        "they state the same quantity",
     ),
     "largest wind below the steady one": ({"wind__maximum": "1 kN*m"}, "SPC113", "below the steady one"),
     "not a number": ({"friction": "nan N*m"}, "SPC109", "not a finite number"),
@@ -115,7 +115,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "efficiency above 1": ({"gear__efficiency": 1.2}, "SPC110", "at most 1"),
     "open stage above the whole": ({"gear__open__ratio": 1000}, "SPC113", "the whole ratio is 900 only"),
     "open stage with more loss than all": ({"gear__open__efficiency": 0.5}, "SPC113", "the whole efficiency is 0.72"),
-    "nothing that starts": ({"motor__mean_starting_torque": None}, "SPC113", "nothing says how it starts"),
+    "nothing that starts": ({"motor__mean_starting_torque": None}, "SPC113", "the start is not defined"),
     "two starting torques": (
         {"motor__largest_starting_torque": "9 N*m", "motor__smallest_starting_torque": "8 N*m"},
         "SPC113",
@@ -219,7 +219,7 @@ def test_a_start_that_fits_its_torque_is_not_warned_of() -> None:
 
 def test_a_motor_of_another_speed_is_told() -> None:
     (warning,) = loaded(changed(YARD, speed="2 rpm")).diagnostics
-    assert "motor and gear turn the crane at 1 rpm, the file says 2 rpm" in warning.message
+    assert "motor and gear turn the crane at 1 rpm, the file states 2 rpm" in warning.message
 
 
 def test_a_coupling_that_is_not_given_is_assumed() -> None:

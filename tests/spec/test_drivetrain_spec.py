@@ -362,7 +362,7 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         one_edit("duration: 2 s}", "duration: 2 s}\n- {type: stop, name: other, duration: 2 s, of: crane}"),
         "scenes[2].of",
         "of: crane",
-        "the ways of stops are compared",
+        "stopping distances are compared",
         "a file of its own",
     ),
 }
@@ -497,7 +497,7 @@ def test_the_clearance_of_a_gear_is_no_play_of_masses() -> None:
     )
     problem = problem_in(text)
     assert (problem.code, dotted(problem.path)) == ("SPC113", "links.tail.clearance")
-    assert "write the play as `gap`" in problem.hint
+    assert "write the clearance as `gap`" in problem.hint
 
 
 # --- what one part needs ---------------------------------------------------------------------------------------------

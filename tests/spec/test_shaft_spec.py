@@ -329,7 +329,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "efficiency: 0.9, reverse_efficiency: 0.8, braking: multiplies}",
         "drive.gear.reverse_efficiency",
         "reverse_efficiency",
-        "`braking: multiplies` takes `efficiency` both ways",
+        "`braking: multiplies` takes `efficiency` in both directions",
         "`braking: divides`",
     ),
     "a brake that is not there": (
@@ -347,7 +347,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         ALWAYS,
         "scenes[0]",
         "{type: run_up}",
-        "nothing says where the run-up ends",
+        "the final speed of the run-up is not defined",
         "`to: 60 rpm`",
     ),
     "a run-up without an end that nobody wrote": (
@@ -356,7 +356,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         ALWAYS,
         "",
         "kind",
-        "nothing says where the run-up ends",
+        "the final speed of the run-up is not defined",
         "`scenes: [{type: run_up, to: 60 rpm}, {type: steady}, {type: run_out}]`",
     ),
     "a curve of the motor that never falls to 0": (
@@ -365,7 +365,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "{type: table, points: [{speed: 0 rad/s, torque: 9 N*m}, {speed: 9 rad/s, torque: 8 N*m}]}",
         "scenes[0]",
         "{type: run_up}",
-        "nothing says where the run-up ends",
+        "the final speed of the run-up is not defined",
         "`to: 60 rpm`",
     ),
     "two scenes of one name": (
@@ -441,14 +441,14 @@ DISAGREEING = [
         file("speed: 11 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "11 rad/s",
-        "motor and gear give 95.49 rpm without load, the main shaft is said to run at 105",
+        "motor and gear give 95.49 rpm without load, the file states 105",
         ("speed: 11 rad/s", "speed: 10 rad/s"),
     ),
     (
         file("speed: 8 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "8 rad/s",
-        "motor and gear give 95.49 rpm without load, the main shaft is said to run at 76",
+        "motor and gear give 95.49 rpm without load, the file states 76",
         ("ratio: 10", "ratio: 12"),
     ),
     (

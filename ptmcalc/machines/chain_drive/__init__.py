@@ -34,15 +34,15 @@ def inspect(spec: ChainDrive) -> Iterator[Finding]:
         if abs(chain / spec.speed - 1) > _SPEED_TOLERANCE:
             yield Finding(
                 "SPC201",
-                f"motor speed, gear ratio and sprocket move the chain at {units.show(chain, units.SPEED)}, it is said"
-                f" to run at {units.show(spec.speed, units.SPEED)}",
+                f"motor speed, gear ratio and sprocket move the chain at {units.show(chain, units.SPEED)}, the"
+                f" file states {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio or the teeth",
             )
     if spec.operating is not None and not spec.operating.lowest <= spec.speed <= spec.operating.highest:
         yield Finding(
             "SPC201",
-            "the speed lies outside the range the drive is said to be run at",
+            "the speed is outside the speed range of the file",
             ("operating",),
             "correct the range or the speed",
         )

@@ -33,7 +33,8 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
         units.STRESS,
         _needs_modulus,
         lambda spec: Interval(0.5 * _STEEL, 0.8 * _STEEL),
-        "play of joints and bushes leaves 0.5 to 0.8 of steel's modulus on the section of the plates; measure it",
+        "clearance of pins and bushes reduces the modulus to 0.5 to 0.8 of that of steel"
+        " on the section of the plates; measure it",
     ),
     Assumption(
         ("chain", "damping", "ratio"),

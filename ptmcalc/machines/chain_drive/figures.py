@@ -51,7 +51,7 @@ FIGURES = (
         "Tension of the chain over time",
         ("start", "stop", "emergency_stop", "coast"),
         (
-            Course("tension_start", title="tension at the drive's run-on"),
+            Course("tension_start", title="entering tension at the drive"),
             Course("tension_min", title="tension where it is least"),
         ),
         "tension",

@@ -39,6 +39,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
+from ptmcalc.spec.shape import Also
 
 
 class Drive(Fragment):
@@ -229,7 +230,7 @@ class ChainDrive(MachineSpec):
     """where the chain runs and what it pulls: `type: conveyor` or `type: drive`"""
     chain: ChainData
     """the chain"""
-    sprocket: Sprocket
+    sprocket: Annotated[Sprocket, Also("drive_sprocket")]
     """the driving sprocket"""
     speed: PositiveSpeed
     """mean speed of the chain"""
@@ -241,7 +242,7 @@ class ChainDrive(MachineSpec):
     """an equalising drive"""
     brake: Brake | None = None
     """the brake"""
-    backstop: Backstop | None = None
+    backstop: Annotated[Backstop | None, Also("holdback")] = None
     """what keeps an inclined conveyor from running back"""
     wear: Wear | None = None
     """wear of the joints; needed for the life"""

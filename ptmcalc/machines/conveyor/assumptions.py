@@ -56,7 +56,7 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
         units.RATIO,
         _secondary,
         _secondary_interval,
-        "length factor C(L) of DIN 22101 and ISO 5048; a quarter of C - 1 either way",
+        "length factor C(L) of DIN 22101 and ISO 5048; a quarter of C - 1 to either side",
     ),
     Assumption(
         ("resistance", "start_factor"),
@@ -153,7 +153,7 @@ _OF_THE_TAIL: tuple[Assumption[Conveyor], ...] = (
             * (spec.tail_drum.diameter or spec.main_drive.drum.diameter) ** 2
             / 4,
         ),
-        "left out; seldom above 1 % of belt and load at the rim",
+        "not given; seldom above 1 % of belt and load at the pulley surface",
     ),
 )
 
@@ -164,7 +164,7 @@ _OF_THE_LOAD: tuple[Assumption[Conveyor], ...] = (
         units.RATIO,
         lambda spec: 0.03 if spec.resistance.cema is not None else None,
         lambda spec: Interval(0.016, 0.035),
-        "CEMA: K_y of its table lies between 0.016 and 0.035; 0.03 for a first estimate",
+        "CEMA: K_y of its table is between 0.016 and 0.035; 0.03 for a first estimate",
     ),
     Assumption(
         ("load", "surcharge_angle"),

@@ -355,7 +355,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     else:
         value = rough_utilisation(spec, scene)
     limit = 1 / spec.checks.slip.reserve
-    return Criterion("U_b", value, limit, "most of a drum's grip the scene can use", "laws.capstan")
+    return Criterion("U_b", value, limit, "maximum traction utilisation of a pulley in the scene", "laws.capstan")
 
 
 def slip_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
@@ -486,7 +486,7 @@ def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Source** running resistance grows with the speed; the threshold of 5 % is an engineering choice.
     """
     share = spec.resistance.speed_share
-    meaning = "part of the idlers' resistance that goes with the speed"
+    meaning = "part of the idler resistance proportional to speed"
     return Criterion("s", share, SPEED_SHARE_THRESHOLD, meaning, "an input")
 
 

@@ -12,7 +12,7 @@ def _all_of_it(spec: Conveyor, scene: SceneReport) -> Marks:
     """At 1 the drum slips; and when the reserve is least."""
     least = next((load for load in scene.loads if load.info.name == "slip_reserve_min" and "time" in load.at), None)
     moments = (Moment(least.at["time"], f"least reserve, {digits(least.estimate.value)}"),) if least else ()
-    return Marks(thresholds=(Threshold(1.0, "all grip in use: the belt slips"),), moments=moments)
+    return Marks(thresholds=(Threshold(1.0, "traction fully used: the belt slips"),), moments=moments)
 
 
 def _tail(spec: Conveyor, scene: SceneReport) -> Marks:
@@ -26,17 +26,17 @@ FIGURES = (
         "Belt tension at the drive over time",
         _IN_MOTION,
         (
-            Course("tension_run_on_max", title="tension at the run-on"),
-            Course("tension_run_off_min", title="tension at the run-off"),
+            Course("tension_run_on_max", title="entering tension"),
+            Course("tension_run_off_min", title="leaving tension"),
         ),
         "belt tension",
     ),
     Figure(
         "slip_over_time",
-        "Grip in use over time",
+        "Traction utilisation over time",
         _IN_MOTION,
-        (Course("slip_utilisation_max", title="grip in use"),),
-        "grip in use",
+        (Course("slip_utilisation_max", title="traction utilisation"),),
+        "traction utilisation",
         moments=(("stop_time", "the belt stands"), ("start_time_rigid", "full speed of the rigid belt")),
         marks=_all_of_it,
     ),
@@ -50,7 +50,7 @@ FIGURES = (
         ),
         "belt tension",
         over=SPAN,
-        across="way from the head's run-off",
+        across="distance from the leaving point at the head",
         marks=_tail,
     ),
 )

@@ -24,8 +24,8 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
             whose = f" of `{name}`" if len(spec.all_drives) > 1 else ""
             yield Finding(
                 "SPC201",
-                f"motor speed, gear ratio and drum{whose} give {units.show(rim, units.SPEED)} at the rim, the belt runs"
-                f" at {units.show(spec.speed, units.SPEED)}",
+                f"motor speed, gear ratio and drum{whose} give {units.show(rim, units.SPEED)} at the pulley surface,"
+                f" the belt runs at {units.show(spec.speed, units.SPEED)}",
                 ("speed",),
                 "correct the speed, the ratio or the diameter",
             )

@@ -352,7 +352,7 @@ def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
     if line.grip_exponent is not None and spec.effects.get("slip") != "off":
         tight, slack = max(line.run_on, line.run_off), min(line.run_on, line.run_off)
         used = float(capstan.slip_utilisation(tight, slack, 0.0, line.grip_exponent))
-    meaning = "grip used at rest: at 1 the belt slides on its drum before it starts"
+    meaning = "traction utilisation at standstill: at 1 the belt slips on its pulley before it starts"
     return Criterion("U_0", used, 1.0, meaning, "laws.capstan")
 
 

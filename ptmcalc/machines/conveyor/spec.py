@@ -34,6 +34,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one, names_
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
+from ptmcalc.spec.shape import Also
 
 
 class DriveDrum(Fragment):
@@ -58,7 +59,7 @@ class Drive(Fragment):
     """coupling and brake disc of one motor, on the motor shaft; 15 % of the rotor is assumed when left out"""
     gear: Gear
     """the gear"""
-    drum: DriveDrum
+    drum: Annotated[DriveDrum, Also("pulley")]
     """the drive drum"""
 
 
@@ -103,9 +104,9 @@ class TakeUp(Fragment):
     """`gravity`: a weight beside the drive keeps the run-off tension; `rigid`: a screw or locked winch"""
     tension: PositiveForce
     """belt tension: at the run-off (gravity), or the mean round the loop when it was set (rigid)"""
-    mass: Annotated[PositiveMass | None, Assumed()] = None
+    mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
-    stroke: Annotated[PositiveLength | None, Checked()] = None
+    stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
     """way the take-up can go; needed to check it"""
     permanent_elongation: Annotated[Fraction | None, Assumed()] = None
     """of the belt over its life, as a share of its length; adds to the way the take-up needs"""
@@ -295,11 +296,11 @@ class Conveyor(MachineSpec):
     """several drives by name, instead of `drive`"""
     brakes: dict[str, Brake] = Field(default_factory=dict, max_length=50)
     """brakes by name"""
-    backstop: Backstop | None = None
+    backstop: Annotated[Backstop | None, Also("holdback")] = None
     """what keeps it from running back"""
     takeup: TakeUp
     """the take-up"""
-    tail_drum: TailDrum = TailDrum()
+    tail_drum: Annotated[TailDrum, Also("tail_pulley")] = TailDrum()
     """the tail drum"""
     checks: ConveyorChecks = ConveyorChecks()
     """limits, and checks switched off by code"""

@@ -29,7 +29,7 @@ def inspect(spec: Drivetrain) -> Iterator[Finding]:
 
 KIND = MachineKind(
     name="drivetrain",
-    title="drive train: link torques, start, stop, play, resonance",
+    title="drive train: link torques, start, stop, backlash, resonance",
     spec=Drivetrain,
     loads=LOADS,
     effects=EFFECTS,

@@ -67,7 +67,7 @@ def backlash_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
     """
     value = bounds.largest_backlash(spec, scene)
     return Criterion(
-        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the play, over that of the link", "laws.backlash"
+        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the backlash, relative to that of the link", "laws.backlash"
     )
 
 

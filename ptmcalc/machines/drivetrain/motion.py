@@ -341,8 +341,9 @@ def untrusted(spec: Drivetrain, scene: TrainScene, course: Course, tolerance: fl
         return None
     return Finding(
         "NUM101",
-        f"scene `{scene.label}`: the energy ledger leaves {course.ledger.residual:.1e} over, more than {closes:.0e};"
-        " the numbers are not trusted",
+        f"scene `{scene.label}`: the energy balance has a residual of {course.ledger.residual:.1e},"
+        f" more than {closes:.0e};"
+        " the numbers are not reliable",
     )
 
 

@@ -31,6 +31,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactl
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf, Setting
 from ptmcalc.spec.scene import Scene, TransientScene
+from ptmcalc.spec.shape import Also
 
 
 def either(rotation: Quantity, translation: Quantity, **limits: float) -> Measure:
@@ -128,7 +129,7 @@ class Link(Fragment):
     """of the whole link; a `rigid` contact has none"""
     damping: Annotated[Damping, Absent("undamped oscillations are the largest")] = 0.0
     """viscous damping of the link"""
-    gap: Annotated[Play | None, Absent("a shaft or another part without clearance")] = None
+    gap: Annotated[Play | None, Absent("a shaft or another part without clearance"), Also("backlash")] = None
     """the whole play, half of it to either side"""
     clearance: Clearance | None = None
     """the play from a gear's geometry, instead of `gap`"""
@@ -160,7 +161,7 @@ class Link(Fragment):
         law = given.word("law")
         contact = any(key in given for key in ("gap", "clearance", "slack"))
         if law is not None and not contact:
-            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no play", "add `gap: 0 deg`")
+            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no backlash", "add `gap: 0 deg`")
         if law == "rigid":
             for key in ("stiffness", "damping"):
                 if key in given:

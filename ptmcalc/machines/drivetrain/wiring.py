@@ -166,8 +166,8 @@ def _motion(part: _Part, bodies: Bodies) -> Iterator[Conflict]:
         yield Conflict(kinds[0][0], "a motor turns, and this inertia travels", hint)
     else:
         if "clearance" in part.given and not turning[0]:
-            reason = "the clearance of a gear is the play of a shaft, and these inertias travel"
-            yield Conflict((*part.path, "clearance"), reason, "write the play as `gap`")
+            reason = "the clearance of a gear is the backlash of a shaft, and these inertias travel"
+            yield Conflict((*part.path, "clearance"), reason, "write the clearance as `gap`")
         yield from _quantities(part, turning[0])
 
 
@@ -228,7 +228,10 @@ def _about(given: Given, bodies: Bodies, known: list[str]) -> Iterator[Conflict]
             if scene.word("type") == "stop":
                 if stops is not None and turns is not stops:
                     path = (*part.path, "of") if "of" in scene else part.path
-                    reason = "the ways of stops are compared: one is about an inertia that turns, one that travels"
+                    reason = (
+                        "stopping distances are compared: one scene refers to a rotating"
+                        " inertia, one to a travelling one"
+                    )
                     yield Conflict(path, reason, "make it a file of its own")
                 stops = turns if stops is None else stops
     if stops is None and isinstance(usual, str) and usual in bodies:
@@ -275,7 +278,7 @@ def _gears(gears: list[_Part], ties: _Ties) -> Iterator[Conflict]:
             fits = f"ratio {implied:.6g}" if ratio else f"radius {1 / implied:.6g} m"
             reason = f"it contradicts the other gears, which make the {fits}"
         else:
-            reason = "it closes a loop of gears: which of them carries the load cannot be told"
+            reason = "it closes a loop of gears: the load share of each is undetermined"
         yield Conflict(gear.path, reason, "delete one of the gears")
 
 
@@ -316,7 +319,7 @@ def _massless(bodies: Bodies, gears: list[_Part]) -> Iterator[Conflict]:
         if name not in heavy:
             reason = "a node without inertia has no motion of its own"
             key = "mass" if "mass" in bodies[name] else "inertia"
-            yield Conflict(("inertias", name, key), reason, "give it an inertia, or join the links it lies between")
+            yield Conflict(("inertias", name, key), reason, "give it an inertia, or join the links on both sides of it")
 
 
 def _heavy(body: Given) -> bool:

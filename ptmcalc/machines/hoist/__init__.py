@@ -36,7 +36,7 @@ def inspect(spec: Hoist) -> Iterator[Finding]:
             said = units.show(drum_speed(spec), units.ANGULAR_SPEED)
             yield Finding(
                 "SPC201",
-                f"motor and gearbox turn the drum at {units.show(drum, units.ANGULAR_SPEED)}, the file says {said}",
+                f"motor and gearbox turn the drum at {units.show(drum, units.ANGULAR_SPEED)}, the file states {said}",
                 ("speed",),
                 "correct the speed, the ratio or the reeving",
             )

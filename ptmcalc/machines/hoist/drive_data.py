@@ -50,7 +50,9 @@ class Gearbox(drive.Gear):
         """Teeth meet through their play with a blow that goes by the stiffness behind them."""
         yield from super().conflicts(given)
         if given.number("backlash"):
-            yield from together(given, "backlash", "stiffness", "the blow through the play goes by the stiffness")
+            yield from together(
+                given, "backlash", "stiffness", "the impact after the backlash depends on the stiffness"
+            )
 
 
 class Brake(Fragment):

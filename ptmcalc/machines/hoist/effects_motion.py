@@ -206,7 +206,7 @@ def backlash_criterion(spec: Hoist, scene: Moving) -> Criterion:
         torque = motor_torque(spec) * ratio(spec)
         value = backlash.backlash_number(torque, gear.backlash, gear.stiffness, motor, behind) if torque else math.inf
     return Criterion(
-        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the play, over that of the gear", "laws.backlash"
+        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the backlash, relative to that of the gear", "laws.backlash"
     )
 
 

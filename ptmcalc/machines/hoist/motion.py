@@ -343,8 +343,9 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         findings.append(
             Finding(
                 "NUM101",
-                f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over, more than {closes:.0e}; the"
-                " numbers are not trusted",
+                f"scene `{scene.label}`: the energy balance has a residual of {residual:.1e},"
+                f" more than {closes:.0e}; the"
+                " numbers are not reliable",
             )
         )
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}

@@ -219,8 +219,9 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
         findings.append(
             Finding(
                 "NUM101",
-                f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over, more than {_CLOSES:.0e}; the"
-                " numbers are not trusted",
+                f"scene `{scene.label}`: the energy balance has a residual of {residual:.1e},"
+                f" more than {_CLOSES:.0e}; the"
+                " numbers are not reliable",
             )
         )
     if findings:

@@ -29,8 +29,8 @@ def inspect(spec: Shaft) -> Iterator[Finding]:
     if spec.speed is not None and free is not None and not 0.85 <= spec.speed * ratio / free <= 1 + _SPEED_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"motor and gear give {units.show(free / ratio, units.ANGULAR_SPEED)} without load, the main shaft is said"
-            f" to run at {units.show(spec.speed, units.ANGULAR_SPEED)}",
+            f"motor and gear give {units.show(free / ratio, units.ANGULAR_SPEED)} without load, the file"
+            f" states {units.show(spec.speed, units.ANGULAR_SPEED)}",
             ("speed",),
             "correct the speed, the ratio or the motor",
         )

@@ -18,7 +18,10 @@ FIGURES = (
         "way_of_the_shaft",
         "Angle over time",
         ("run_up", "run_out"),
-        (Course("run_up_angle", title="way of the main shaft"), Course("run_out_angle", title="way of the main shaft")),
+        (
+            Course("run_up_angle", title="rotation angle of the main shaft"),
+            Course("run_out_angle", title="rotation angle of the main shaft"),
+        ),
         "angle turned",
     ),
     Figure(

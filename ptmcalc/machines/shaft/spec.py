@@ -359,7 +359,7 @@ class Gear(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A gear that takes the same factor both ways has no efficiency of its own for the way back."""
         if "reverse_efficiency" in given and given.word("braking") == "multiplies":
-            reason = "nothing uses it: `braking: multiplies` takes `efficiency` both ways"
+            reason = "nothing uses it: `braking: multiplies` takes `efficiency` in both directions"
             yield Conflict(("reverse_efficiency",), reason, "delete `reverse_efficiency`, or write `braking: divides`")
 
 

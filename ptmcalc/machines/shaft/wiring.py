@@ -114,7 +114,7 @@ def scenes_that_lack(given: Given) -> Iterator[Conflict]:
     motor = drive.block("motor") if drive else None
     endless = motor is not None and "drive" in given and _gives_torque_always(motor)
     scenes = given.blocks("scenes")
-    reason = "the motor gives torque at every speed: nothing says where the run-up ends"
+    reason = "the motor gives torque at every speed: the final speed of the run-up is not defined"
     for index, scene in enumerate(scenes):
         if endless and _type_of(scene) == "run_up" and scene and "to" not in scene:
             yield Conflict(("scenes", index), reason, "add `to: 60 rpm`, a speed of the main shaft")

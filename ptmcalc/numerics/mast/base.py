@@ -97,7 +97,7 @@ class Base:
             raise NumericsError("NUM102", "a base has a mass above 0")
         speeds = [grip.speed for grip in self.grips]
         if len(set(speeds)) < len(speeds) or speeds != sorted(speeds):
-            raise NumericsError("NUM102", "grips go by rising speed, each with its own")
+            raise NumericsError("NUM102", "friction values must be in the order of rising speed, one for each speed")
 
     @property
     def signals(self) -> tuple[Signal, ...]:

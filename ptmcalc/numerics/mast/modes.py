@@ -24,7 +24,9 @@ FEWEST = 2
 _COARSE = 2
 """Times as many elements as those a bar is found with."""
 _ROUNDING = 4 * float(np.finfo(float).eps)
-_NO_STIFFNESS = "the column buckles under its weights, or two places on it are too near each other to tell it"
+_NO_STIFFNESS = (
+    "the column buckles under its weights, or two points on it are too close to each other to compute the stiffness"
+)
 _BAR = 1.0
 """Share of the difference to half as many elements that a frequency may be wrong by; the fourth power says 1/15."""
 

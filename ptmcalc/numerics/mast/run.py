@@ -169,10 +169,10 @@ def settled(course: Course, place: float, window: float, lean: float = 0.0, doub
     **Source** `numerics.mast.settling`.
 
     Raises:
-        NumericsError: where the base is not yet held for good.
+        NumericsError: where the base is not yet held permanently.
     """
     if not course.stays:
-        raise NumericsError("NUM103", f"by {course.record.time:.4g} s the base is not yet held for good")
+        raise NumericsError("NUM103", f"by {course.record.time:.4g} s the base is not yet held permanently")
     system, mast = course.system, course.case.mast
     since = course.held_since
     z = _just_held(course) if since else system.start()[1]

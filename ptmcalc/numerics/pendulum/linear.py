@@ -179,7 +179,7 @@ class LinearSwing:
             count = max(math.ceil((high - low) * omega / _PANEL), 1)
             panel_count += count
             if panel_count > _MOST_PANELS:
-                raise NumericsError("NUM103", f"more than {_MOST_PANELS} panels are needed to look at all swings")
+                raise NumericsError("NUM103", f"more than {_MOST_PANELS} panels are needed to resolve all oscillations")
             step = (high - low) / count
             for first in range(0, count, _AT_ONCE):
                 starts = np.asarray(low + step * np.arange(first, min(first + _AT_ONCE, count)), float)

@@ -133,7 +133,7 @@ def test_the_wear_of_the_guide_is_assumed_at_a_tenth_of_the_rail() -> None:
 def test_a_play_below_the_least_of_the_standard_is_told() -> None:
     report = report_of(file("silent_least_play"))
     told = next(one for one in report.diagnostics if one.path == ("guide", "clearance"))
-    assert "0 mm of play is below the least" in told.message
+    assert "0 mm of clearance is below the minimum" in told.message
     assert "10 mm" in told.message
 
 

@@ -100,7 +100,7 @@ def _without_damping(spec: ChainDrive, scene: Run) -> tuple[Finding, ...]:
 def _without_bound(bound: float, count: int) -> tuple[Finding, ...]:
     if math.isfinite(bound):
         return ()
-    message = f"the polygon tension has no bound: what lies behind harmonic {count} of the teeth cannot be told here"
+    message = f"the polygon tension has no bound: the part beyond harmonic {count} of the teeth is unknown"
     return (Finding("NUM102", message, ("chain", "damping")),)
 
 

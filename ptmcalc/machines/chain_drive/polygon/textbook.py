@@ -46,7 +46,7 @@ def valid(spec: ChainDrive, scene: Run) -> Criterion:
         "conveyor",
         0.0 if plain else 1.0,
         0.5,
-        "0 for a conveyor with one drive that turns evenly, else 1",
+        "0 for a conveyor with one drive of uniform speed, else 1",
         "lecture notes 2007",
     )
 

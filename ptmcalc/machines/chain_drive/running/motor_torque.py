@@ -30,7 +30,7 @@ def run(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: int
     **Source** derived: equilibrium on the torque curve (`components.steady_drive`).
     """
     motors = motors_of(spec)
-    assert motors is not None, "a curve is asked for by `has_curve`"
+    assert motors is not None, "`has_curve` is true"
     resistance = chain_line(spec, Run(load=scene.load)).static_resistance
     loads = {"steady_reserve": steady_reserve([motors], resistance, spec.speed)}
     if motors.curve.rated is not None:

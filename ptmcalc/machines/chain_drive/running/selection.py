@@ -114,7 +114,7 @@ def _life(spec: ChainDrive, line: ChainLine) -> Iterator[tuple[str, Found]]:
         time = np.full(2, chain_wear.contact_time(spec.chain.pitch, spec.speed))
         rate = np.full(2, filled(wear.coefficient))
         grows = chain_wear.wear_per_revolution(run_in, run_out, path, time, rate, wear.tensions)
-        note = f"the tensions at run-on and run-off count by their {wear.tensions}"
+        note = f"entering and leaving tensions count by their {wear.tensions}"
     allowed = chain_wear.allowed_growth(spec.chain.pitch, filled(wear.elongation))
     life = float(chain_wear.chain_life(allowed, grows, chain_length(spec), spec.speed))
     yield "wear_per_revolution", Found(Estimate.exact(grows), note=note)

@@ -42,7 +42,7 @@ _CURVE = 2000
 
 def drive_of(spec: ChainDrive) -> Drive:
     """The motors and the gear, without which the file has no start."""
-    assert spec.drive is not None, "a start asks for the drive when the file is read"
+    assert spec.drive is not None, "a start without a drive is rejected when the file is read"
     return spec.drive
 
 

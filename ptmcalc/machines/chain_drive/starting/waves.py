@@ -197,8 +197,9 @@ def beyond_slack(spec: ChainDrive, result: Result, check: str) -> Result:
         return replace(result, loads=loads)
     where = tension_key(spec)
     message = (
-        f"the chain goes slack: its tension is lowest at {low.at['time']:.3g} s, {low.at['position']:.4g} m behind the"
-        " run-off"
+        f"the chain goes slack: its tension is lowest at {low.at['time']:.3g} s,"
+        f" {low.at['position']:.4g} m behind the drive"
+        " sprocket"
     )
     hint = f"a {'higher' if where[-1] == 'tension' else 'smaller'} `{where[-1]}` keeps it taut"
     if not check:

@@ -24,6 +24,7 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, exactly_one, together
 from ptmcalc.spec.optional import Absent, Assumed, Checked, Limit, OneOf
+from ptmcalc.spec.shape import Also
 
 TroughAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(75))]
 SurchargeAngle = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=math.radians(45))]
@@ -48,7 +49,7 @@ class Belt(Fragment):
     """what carries the tension; chooses the default safety factors"""
     damping: Damping | None = None
     """internal damping; an elastic belt when left out, which swings longest"""
-    minimum_drum_diameter: Annotated[PositiveLength | None, Limit()] = None
+    minimum_drum_diameter: Annotated[PositiveLength | None, Limit(), Also("minimum_pulley_diameter")] = None
     """smallest drive drum the maker of the belt allows; or give `carcass_thickness` and `warp`"""
     carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the plies without the covers, or of the cords of a steel-cord belt"""
@@ -64,7 +65,9 @@ class Belt(Fragment):
         if per_width and "width" not in given:
             yield given.missing("width", f"{per_width} per width: `width` is missing")
         yield from at_most_one(given, "minimum_drum_diameter", "carcass_thickness")
-        yield from together(given, "carcass_thickness", "warp", "how small a drum may be goes by the material too")
+        yield from together(
+            given, "carcass_thickness", "warp", "the minimum pulley diameter depends on the material too"
+        )
         carcass, warp = given.word("carcass"), given.word("warp")
         if carcass is not None and warp is not None and (carcass == "steel_cord") != (warp == "steel_cord"):
             reason = f"a `{carcass}` carcass has no warp of `{warp}`"

@@ -88,7 +88,7 @@ class Route(Fragment):
         """The route is one slope or several; the belt cannot rise further than it is long."""
         yield from exactly_one(given, "length", "sections")
         if "lift" in given and "sections" in given:
-            yield Conflict(("lift",), "the `sections` say how high the belt climbs", "delete `lift`")
+            yield Conflict(("lift",), "the `sections` define the lift of the belt", "delete `lift`")
         yield from _too_steep(given)
         first = next(iter(given.blocks("sections")), None)
         if first is not None and "curve_radius" in first:

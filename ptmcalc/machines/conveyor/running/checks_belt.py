@@ -169,7 +169,7 @@ def _least_checks(spec: Conveyor, scene: Run) -> Checks:
 
 _FIBRES = (
     "k = S/W + (EA/W) eps,   eps = z/R in a vertical curve, z the height of edge or middle over the mean of the\n"
-    "trough; eps of a transition from the way of each fibre from the drum to the trough"
+    "trough; eps of a transition from the path of each fibre from the pulley to the trough"
 )
 
 FIBRE: Check[Conveyor, Run] = Check(

@@ -435,8 +435,8 @@ def _findings(case: StartCase, motion: loop.Motion, sagging: bool) -> list[Findi
             found.append(
                 Finding(
                     "NUM102",
-                    f"the belt goes slack at {low.time + case.held:.3g} s, {low.position:.4g} m behind the drive's"
-                    " run-off; what the simulation says of the time after that is not trusted",
+                    f"the belt goes slack at {low.time + case.held:.3g} s, {low.position:.4g} m behind the drive"
+                    " pulley; the results of the time after that are not reliable",
                     ("takeup", "tension"),
                     "a higher `tension` keeps the belt taut",
                 )

@@ -92,7 +92,7 @@ def finding(case: Moving, drawn: Drawn, window: float) -> Finding:
     """Where and when it sags too deep, and what is known nevertheless."""
     low = min(_sagging(case, drawn), key=lambda one: one.value)
     does = "goes slack" if low.value < 0 else "sags by more than a tenth of the idler pitch"
-    return taut(f"{does}, most of all at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off", window)
+    return taut(f"{does}, most at {low.time:.3g} s, {low.place:.4g} m behind the drive pulley", window)
 
 
 def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
@@ -109,7 +109,7 @@ def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
     for strand, (limit, kept) in enumerate(zip(doubtless, bounds.slack_limits(case.line), strict=True)):
         if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
             low = lows[-1][strand]
-            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive's run-off"
+            does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive pulley"
             cure = "a higher `tension` keeps the belt taut"
             yield Failure("CNV105", f"the belt goes slack: {does}", ("takeup", "tension"), cure)
             return

@@ -420,8 +420,8 @@ def _findings(case: Moving, drawn: Drawn) -> Iterator[Finding]:
         if low.value < 0 and not (sags and strand.span_weight):
             yield Finding(
                 "NUM102",
-                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive's run-off; what the"
-                " simulation says of the time after that is not trusted",
+                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive pulley; the results of"
+                " the time after that are not reliable",
                 ("takeup", "tension"),
                 "a higher `tension` keeps the belt taut",
             )
@@ -526,7 +526,7 @@ def _simulable(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     line = case.line
     lift = line.centrifugal_at_speed / line.run_off if line.run_off > 0 else math.inf
     if lift >= 1:
-        return Criterion("rho v^2/S", lift, 1.0, "centrifugal tension over that at the run-off", "laws.capstan")
+        return Criterion("rho v^2/S", lift, 1.0, "centrifugal tension relative to the leaving tension", "laws.capstan")
     count = case.window / line.contour_time
     if count >= MOST_ROUNDS:
         return Criterion("n", count, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")

@@ -29,7 +29,7 @@ def assumptions(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
         units.RATIO,
         lambda spec: back if back > 0 else None,  # whether a gear locks itself is not left to an interval
         lambda spec: Interval(back, forward),
-        "2 - 1/efficiency with equal losses both ways; as large as the efficiency at most",
+        "2 - 1/efficiency with equal losses in both directions; as large as the efficiency at most",
     )
 
 
@@ -43,7 +43,7 @@ def _of_the_parts(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
             units.MASS,
             lambda spec: 0.0,
             lambda spec: Interval(0.0, 0.03 * load.mass),
-            "in the load, or 1 to 3 % of it beside it",
+            "included in the load, or additionally 1 to 3 % of it",
         )
     for key in ("slewing_part", "counterweight"):
         part = getattr(spec, key)
@@ -94,7 +94,7 @@ def _of_the_wind(spec: SlewingCrane) -> Iterator[Assumption[SlewingCrane]]:
             units.TIME,
             lambda spec: 2.0,
             lambda spec: Interval(0.5, 3.0),
-            "gusts come up in 0.5 to 3 s",
+            "gusts rise in 0.5 to 3 s",
         )
         yield Assumption(
             ("wind", "gust_time"),

@@ -28,7 +28,7 @@ def inspect(spec: SlewingCrane) -> Iterator[Finding]:
             said = units.show(spec.speed, units.ANGULAR_SPEED)
             yield Finding(
                 "SPC201",
-                f"motor and gear turn the crane at {units.show(turns, units.ANGULAR_SPEED)}, the file says {said}",
+                f"motor and gear turn the crane at {units.show(turns, units.ANGULAR_SPEED)}, the file states {said}",
                 ("speed",),
                 "correct the speed, or the ratio from motor to crane with its open stage",
             )

@@ -23,8 +23,8 @@ def _steady(spec: SlewingCrane, scene: SlewingScene, loads: Numbers) -> float:
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("sway_max", "sway_radial_max", _SLEWS, "the angle of the rope is at least that outwards"),
-    ordered("sway_max", "sway_tangential_max", _SLEWS, "the angle of the rope is at least that along the way"),
+    ordered("sway_max", "sway_radial_max", _SLEWS, "the angle of the rope is at least the radial one"),
+    ordered("sway_max", "sway_tangential_max", _SLEWS, "the angle of the rope is at least the tangential one"),
     ordered("sway_max", "sway_residual", _SLEWS, "the swing that stays is within the largest angle of the rope"),
     computed(
         "cycle_time", ("start_time", "steady_time", "brake_time"), _whole, _SLEWS,

@@ -33,6 +33,7 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one, togeth
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 from ptmcalc.spec.scene import TransientScene
+from ptmcalc.spec.shape import Also
 
 Slope = Annotated[float, Measure(units.SLOPE, at_least=0, at_most=0.5)]
 SwayAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=1.2)]
@@ -109,7 +110,7 @@ class Wind(Fragment):
             if pressure in given and "area" not in given:
                 yield from together(given, pressure, "area", "a pressure acts on an area")
         for key, other in (("area", "arm"), ("arm", "area")):
-            yield from together(given, key, other, "the torque of an area goes by its arm")
+            yield from together(given, key, other, "the torque of an area depends on its arm")
         if "area" in given and not any(f"{t}_pressure" in given for t in ("steady", "maximum", "gust")):
             yield given.missing("steady_pressure", "the wind on the area has no pressure")
         steady, most = given.number("steady"), given.number("maximum")
@@ -142,9 +143,9 @@ class Wind(Fragment):
 class Cycle(Fragment):
     """What the crane does again and again."""
 
-    rotation: Annotated[PositiveAngle, Absent("half a turn is the longest way of a crane that slews both ways")] = (
-        3.141592653589793
-    )
+    rotation: Annotated[
+        PositiveAngle, Absent("half a turn is the largest rotation of a crane that slews in both directions")
+    ] = 3.141592653589793
     """from pick-up to put-down; 180 deg when left out"""
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
     """largest allowed angle of a stop: 15 deg in light duty"""
@@ -329,7 +330,7 @@ class SlewingCrane(MachineSpec):
     """what the crane does again and again"""
     handbook: Handbook = Handbook()
     """inputs of the handbook's formulas alone"""
-    ring: Ring = Ring()
+    ring: Annotated[Ring, Also("slewing_ring")] = Ring()
     """the slewing ring"""
     classes: Classes = Field(default=Classes(), alias="class")
     """what the crane is classed as"""
@@ -345,7 +346,7 @@ class SlewingCrane(MachineSpec):
         parts = [key for key in ("slewing_part", "counterweight", "jib") if key in given]
         if "inertia" in given:
             for key in parts:
-                reason = "give `inertia` or the parts, not both: they say the same thing"
+                reason = "give `inertia` or the parts, not both: they state the same quantity"
                 yield Conflict((key,), reason, f"delete `{key}`")
             if given.number("slope"):
                 reason = "the weights that turn on a slope are not known from an inertia"
@@ -408,5 +409,5 @@ def _nothing_starts(given: Given) -> Iterator[Conflict]:
         return
     by_torque = any(key in motor for key in ("mean_starting_torque", "largest_starting_torque", "curve"))
     if not by_torque and "start_time" not in cycle and "start_angle" not in cycle:
-        reason = "nothing says how it starts: the motor has no starting torque, and `cycle` no `start_time`"
+        reason = "the start is not defined: the motor has no starting torque, and `cycle` no `start_time`"
         yield Conflict(("motor",), reason, "add `mean_starting_torque: 37 N*m`, or `start_time: 8 s` to `cycle`")

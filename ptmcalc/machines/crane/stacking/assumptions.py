@@ -184,7 +184,7 @@ def _of_a_drive(key: str, drive: TravelDrive) -> Iterator[Assumption[Stacker]]:
         units.RATIO,
         lambda spec: _drive_of(spec, key).reverse_range[0],
         lambda spec: Interval(*_drive_of(spec, key).reverse_range),
-        "2 - 1/efficiency with equal losses both ways; as large as the efficiency at most",
+        "2 - 1/efficiency with equal losses in both directions; as large as the efficiency at most",
     )
     yield Assumption(
         (key, "drive", "motor", "coupling_inertia"),

@@ -122,7 +122,9 @@ def _offsets(spec: Stacker, scene: DrivenScene, *, gravity: bool) -> dict[str, I
         sums.append(_strays(exact, length, moves.base.mass, moves.rise, moves.jump))
         paces = _last_pace(plain), _last_pace(right)
         if min(paces) < _GRAZES * moves.jump / plain.system.total:
-            raise NumericsError("NUM103", "the base comes to rest too softly to tell when")
+            raise NumericsError(
+                "NUM103", "the instant of standstill of the base is not determined: the final impact is too small"
+            )
         sums.append(_kicked(exact, own, length, moves, max(paces)))
     shift, turn = (sum(one[k] for one in sums) for k in (0, 1))
     reached = plain.largest("deflection")[0] / evenly[0]

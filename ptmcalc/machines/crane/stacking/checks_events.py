@@ -273,7 +273,7 @@ RACK: OneCheck = only(
         what="The uplift force of the snagged fork on the rack beam is at most the rating of the beam.",
         why="Beams are hooked in from above. A lifted beam brings down the shelf and the pallets on it.",
         formula="R = K_r y",
-        source="motion of drive, rope and carriage; EN 15512 for what a beam bears",
+        source="motion of drive, rope and carriage; EN 15512 for the resistance of a beam",
     ),
 )
 

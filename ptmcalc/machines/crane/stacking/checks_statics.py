@@ -47,7 +47,7 @@ def _jamming_limit(spec: Stacker, scene: HoistScene) -> Estimate:
     """A resistance as large as the weight holds the carriage up.
 
     **Range** any guide.
-    **Error** none: a balance; a file may ask for more than 1.
+    **Error** none: a balance; a file may require more than 1.
     **Source** balance of the carriage.
     """
     return Estimate.exact(spec.checks.self_jamming)
@@ -67,7 +67,7 @@ JAMMING: OneCheck = only(lambda spec, scene: scene.direction == "down")(
         needs=no_needs,
         blame=blames("carriage", "rollers", "distance"),
         repair=at("carriage", "rollers", "distance"),
-        what="The ratio of the guide resistance to the weight that overcomes it on the way down is at most the limit.",
+        what="The ratio of the guide resistance to the weight that overcomes it while lowering is at most the limit.",
         why="A carriage that jams on its guides stays up while its ropes go slack. It falls when it comes free.",
         formula="2 w |Q e + G b|/(h (Q + G)) <= 1,   w = (mu d + 2 f)/D",
         source="balance of the carriage",

@@ -69,7 +69,7 @@ class Travel(Fragment):
     """to travel, at the rims"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
-    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the rims")] = None
+    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the wheel treads")] = None
     """of the driven wheels; with a `drive`"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the mechanism does all day; needed to check its starts"""
@@ -86,15 +86,15 @@ class Travel(Fragment):
         if "drive" in given:
             for key in ("acceleration", "driving_force", "deceleration", "braking_force"):
                 if key in given:
-                    yield Conflict((key,), "the `drive` says what starts and stops it", f"delete `{key}`, or the drive")
-            yield from together(given, "drive", "wheel_diameter", "its torques act at the rims of the wheels")
+                    yield Conflict((key,), "the `drive` defines start and stop", f"delete `{key}`, or the drive")
+            yield from together(given, "drive", "wheel_diameter", "its torques act at the wheel treads")
         elif not any(key in given for key in ("deceleration", "braking_force")):
             yield given.missing("braking_force", "nothing stops it: give `deceleration`, `braking_force` or a `drive`")
         for key, force in (("driving_rise", "driving_force"), ("braking_rise", "braking_force")):
             if given.number(key) and force not in given:
-                yield Conflict((key,), f"there is no `{force}` that comes up", f"delete `{key}`")
+                yield Conflict((key,), f"there is no `{force}` that rises", f"delete `{key}`")
         if given.number("ramp_rise") and not ({"acceleration", "deceleration"} & set(given.raw)):
-            yield Conflict(("ramp_rise",), "there is no ramp whose acceleration comes up", "delete `ramp_rise`")
+            yield Conflict(("ramp_rise",), "there is no ramp whose acceleration rises", "delete `ramp_rise`")
 
     @property
     def starts(self) -> bool:
@@ -157,8 +157,8 @@ class HoistRope(Fragment):
         yield from at_most_one(given, "sheave_efficiency", "efficiency")
         for key in ("area", "length"):
             yield from at_most_one(given, "stiffness", key)
-        yield from together(given, "area", "length", "the stiffness of the rope goes by both")
-        yield from together(given, "length", "area", "the stiffness of the rope goes by both")
+        yield from together(given, "area", "length", "the stiffness of the rope depends on both")
+        yield from together(given, "length", "area", "the stiffness of the rope depends on both")
         falls, ropes = given.raw.get("falls"), given.raw.get("ropes", 1)
         if isinstance(falls, int) and ropes == 2 and falls % 2:
             reason = f"{falls} falls do not share out on two ropes"
@@ -211,7 +211,7 @@ class HoistDrive(Fragment):
         for key in parts:
             for other in parts:
                 if key in given and other not in given:
-                    yield given.missing(other, f"the mass at the carriage goes by it: `{other}` is missing")
+                    yield given.missing(other, f"the mass at the carriage depends on it: `{other}` is missing")
                     return
 
 

@@ -56,7 +56,9 @@ def catching_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
     """
     case = catch_of(spec, scene)
     value = fork.catching_number(case.force, case.weight, case.rope, case.drive_mass, case.speed)
-    return Criterion("Π_c", value, CATCHING_THRESHOLD, "what a caught fork adds to the weight", "laws.fork")
+    return Criterion(
+        "Π_c", value, CATCHING_THRESHOLD, "additional force of a snagged fork, relative to the weight", "laws.fork"
+    )
 
 
 def catching_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:

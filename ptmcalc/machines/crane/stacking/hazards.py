@@ -22,13 +22,14 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, together
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
+from ptmcalc.spec.shape import Also
 
 TripRatio = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
 _TRIP_RATIO = Assumed(
     1.4, 1.2, 1.5, "overspeed governors trip at 1.2 to 1.5 times the hoisting speed (EN 528, EN 81-20)"
 )
-_REACTION = Assumed(0.05, 0.02, 0.15, "linkages of safety gears grip within 20 to 150 ms of tripping")
-_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "gears grip a guide within 0.2 m of the axis of the column")
+_REACTION = Assumed(0.05, 0.02, 0.15, "linkages of safety gears engage within 20 to 150 ms of tripping")
+_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "gears engage a guide within 0.2 m of the axis of the column")
 
 
 class Obstacle(Fragment):
@@ -38,7 +39,7 @@ class Obstacle(Fragment):
     """whether the far end springs back, or stays where it hits"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("`contact: plastic`")] = None
     """of the place that is hit; of an `elastic` contact"""
-    restitution: Annotated[Fraction, Absent("a blow that loses nothing bends the column farthest")] = 1.0
+    restitution: Annotated[Fraction, Absent("an impact without losses bends the mast farthest")] = 1.0
     """speed after an `elastic` contact over that before"""
 
     @classmethod
@@ -155,7 +156,7 @@ class SafetyGear(Fragment):
 class Settling(Fragment):
     """How still the column must be before the fork may go out."""
 
-    window: Annotated[PositiveLength | None, Limit()] = None
+    window: Annotated[PositiveLength | None, Limit(), Also("positioning_tolerance")] = None
     """distance to each side of the place of a column without lean within which its far end has to stay; no default"""
     wait: Annotated[Annotated[float, Measure(units.TIME, above=0)] | None, Limit()] = None
     """longest time from the standstill until then; needed to check it"""

@@ -154,8 +154,9 @@ def compared(label: str, stages: Stages) -> Course:
     residual = max(one.ledger.residual for one in plays)
     if residual > _CLOSES:
         said = (
-            f"scene `{label}`: the energy ledger leaves {residual:.1e} over, more than {_CLOSES:.0e}; the numbers are"
-            " not trusted"
+            f"scene `{label}`: the energy balance has a residual of {residual:.1e}, more"
+            f" than {_CLOSES:.0e}; the numbers are"
+            " not reliable"
         )
         findings = (Finding("NUM101", said),)
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}

@@ -32,12 +32,12 @@ _STEEL = Absent("structural steel, whose modulus EN 1993-1-1 fixes at 210 GPa fo
 _BASE_HEIGHT = Assumed(
     0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"
 )
-_GUIDE_PLAY = Assumed(0.0, 0.0, 0.002, "guide rollers are set with a play of up to 2 mm to each side")
+_GUIDE_PLAY = Assumed(0.0, 0.0, 0.002, "guide rollers are set with a clearance of up to 2 mm to each side")
 _PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain ones 0.08 to 0.1")
 _LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm of steel rollers on steel")
-_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "a load lies beside the middle of its pallet by up to a tenth of its length")
+_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "the load is off the centre of its pallet by up to a tenth of its length")
 _OWN_ARM = Assumed(0.0, -0.05, 0.05, "carriages hang level within some centimetres of their ropes")
-_CAB_ARM = Assumed(0.0, -1.0, 1.0, "a cab hangs beside the column: up to 1 m from the ropes")
+_CAB_ARM = Assumed(0.0, -1.0, 1.0, "the cab is mounted at the side of the mast: up to 1 m from the ropes")
 
 
 class Bridge(Fragment):
@@ -56,11 +56,11 @@ class Bridge(Fragment):
     elasticity: Annotated[PositiveStress, _STEEL] = STEEL
     """modulus of elasticity; 210 GPa when left out"""
     section_modulus_vertical: Annotated[
-        SectionModulus | None, Absent("without it the check of the girders' stress is told as not made")
+        SectionModulus | None, Absent("without it the check of the girder stress is reported as not made")
     ] = None
     """of ONE girder, for bending in the vertical plane; needed for its stress"""
     section_modulus_horizontal: Annotated[
-        SectionModulus | None, Absent("without it the check of the girders' stress is told as not made")
+        SectionModulus | None, Absent("without it the check of the girder stress is reported as not made")
     ] = None
     """of ONE girder, for bending in the horizontal plane; needed for its stress"""
 
@@ -119,7 +119,7 @@ class Column(Fragment):
     """of its lower end, above the floor"""
     mass: PositiveMass
     """of all masts, with the head"""
-    count: Annotated[Annotated[int, Field(ge=1, le=2, strict=True)], Absent("one mast bears all by itself")] = 1
+    count: Annotated[Annotated[int, Field(ge=1, le=2, strict=True)], Absent("a single mast carries the whole load")] = 1
     """masts"""
     elasticity: Annotated[PositiveStress, _STEEL] = STEEL
     """modulus of elasticity; 210 GPa when left out"""
@@ -141,7 +141,7 @@ class Column(Fragment):
     top_guide: TopGuide | None = None
     """at the head of a rack stacker"""
     section_modulus: Annotated[
-        SectionModulus | None, Absent("without it the check of the column's stress is told as not made")
+        SectionModulus | None, Absent("without it the check of the mast stress is reported as not made")
     ] = None
     """for bending along the travel of bridge or base; needed for the stress of the column"""
     section_modulus_across: Annotated[SectionModulus | None, Assumed()] = None
@@ -175,7 +175,7 @@ class Rollers(Fragment):
     lever_arm: Annotated[Length, _LEVER_ARM] = 0.0005
     """of rolling, a length; 0.3 to 0.6 mm on steel"""
     per_set: Annotated[
-        Annotated[int, Field(ge=1, le=8, strict=True)], Absent("one roller bears the whole reaction of its set")
+        Annotated[int, Field(ge=1, le=8, strict=True)], Absent("a single roller carries the whole reaction of its set")
     ] = 1
     """rollers that share the reaction of a set"""
     planes: Literal["separate", "joint"] | None = None
@@ -197,9 +197,13 @@ class Carriage(Fragment):
     """of the load, from the line of the ropes across it: with the fork out"""
     own_arm_across: Annotated[SignedSpan, _OWN_ARM] = 0.0
     """of the carriage's own centre of mass"""
-    lowest: Annotated[Span | None, Absent("its way is the whole column, with the worst place of any way")] = None
+    lowest: Annotated[
+        Span | None, Absent("the carriage path is the whole mast, which includes the worst position of any path")
+    ] = None
     """place of the carriage above the floor, at least; at the lower end of the column when left out"""
-    highest: Annotated[Span | None, Absent("its way is the whole column, with the worst place of any way")] = None
+    highest: Annotated[
+        Span | None, Absent("the carriage path is the whole mast, which includes the worst position of any path")
+    ] = None
     """place of the carriage above the floor, at most; at the upper end of the column when left out"""
     rollers: Rollers
     """its guide rollers"""

@@ -98,7 +98,7 @@ def _marks(combination: str, load: str, scene: type[Scene]) -> Relation:
 
 
 RELATIONS: tuple[Relation, ...] = (
-    ordered("roller_reaction", "roller_load", _HOISTS, "a roller bears no more than the reaction of its set"),
+    ordered("roller_reaction", "roller_load", _HOISTS, "a roller carries at most the reaction of its set"),
     computed("rope_safety", ("rope_force",), _rope_safety, _HOISTS, "rope safety is breaking force over pull"),
     computed("period", (_FIRST,), _period, _SWINGS, "the period is that of the first natural frequency"),
     computed(

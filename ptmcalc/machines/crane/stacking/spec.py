@@ -1,7 +1,7 @@
 """What every stacker crane is described by, and what must hold between its parts."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from ptmcalc.base import units
 from ptmcalc.machines.crane.stacking.drives import Hoisting
@@ -11,6 +11,7 @@ from ptmcalc.machines.crane.stacking.parts import Cab, Carriage, Column
 from ptmcalc.spec.fields import PositiveMass
 from ptmcalc.spec.fragment import Conflict, Given
 from ptmcalc.spec.machine import MachineSpec
+from ptmcalc.spec.shape import Also
 
 
 class Stacker(MachineSpec):
@@ -20,7 +21,7 @@ class Stacker(MachineSpec):
     type: str
     load: PositiveMass
     """rated load with its pallet"""
-    column: Column
+    column: Annotated[Column, Also("mast")]
     """along which the carriage climbs"""
     carriage: Carriage
     """with the fork"""
@@ -89,7 +90,7 @@ def carriage_off_the_column(given: Given) -> Iterator[Conflict]:
         wrong = list(_off(path, height, foot, head))
         yield from wrong
         if height is not None and not wrong and least < most and not least <= height <= most:
-            reason = f"the carriage does not come there: its way is from {_m(least)} to {_m(most)}"
+            reason = f"the carriage does not come there: its path is from {_m(least)} to {_m(most)}"
             yield Conflict(path, reason, f"write `height: {_m(most if height > most else least)}`")
 
 

@@ -38,7 +38,7 @@ def _of_the_masses(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.MASS,
         lambda spec: 0.0,
         lambda spec: Interval(0.0, 0.03 * load),
-        "in the load, or 1 to 3 % of it beside it",
+        "included in the load, or additionally 1 to 3 % of it",
     )
     if spec.bridge is not None:
         span, legs = spec.bridge.span, spec.travels == "gantry"
@@ -151,7 +151,7 @@ def _of_the_drive(spec: Travelling) -> Iterator[Assumption[Travelling]]:
         units.RATIO,
         lambda spec: spec.drive.reverse_range[0],
         lambda spec: Interval(*spec.drive.reverse_range),
-        "2 - 1/efficiency with equal losses both ways; as large as the efficiency at most",
+        "2 - 1/efficiency with equal losses in both directions; as large as the efficiency at most",
     )
     rotor = spec.drive.motor.inertia
     yield Assumption(

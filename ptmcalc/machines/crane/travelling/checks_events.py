@@ -313,7 +313,7 @@ FACTORS: tuple[OneCheck, ...] = (
         "phi5",
         "phi5, the factor on changes of the drive forces, is at most the declared value. It depends on the control and"
         " the backlash of the drive.",
-        "phi_5 = 1 to 1.5 smooth, 1.5 to 2 sudden, 3 with considerable play",
+        "phi_5 = 1 to 1.5 smooth, 1.5 to 2 sudden, 3 with considerable backlash",
     ),
     _factor(
         "CRN185",

@@ -131,7 +131,9 @@ def reaction_criterion(spec: Travelling, scene: Moving) -> Criterion:
     motion = motion_of(spec, scene)
     rotor = motion.rotor if motion.starts else motion.rotor_braked
     value = 0.0 if motion.ramp is not None else motion.load / (motion.body + rotor)
-    return Criterion("M/m_t", value, REACTION_THRESHOLD, "load over what the drive moves besides it", "two masses")
+    return Criterion(
+        "M/m_t", value, REACTION_THRESHOLD, "load mass relative to the other mass moved by the drive", "two masses"
+    )
 
 
 def hoisting_criterion(spec: Travelling, scene: Moving) -> Criterion:

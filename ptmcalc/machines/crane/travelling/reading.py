@@ -43,7 +43,7 @@ def failures_of(spec: Travelling, scene: Moving, loads: Mapping[str, Found]) -> 
     if math.isinf(time) or not grip.high < 1:
         return ()
     what = "start" if model.starts(scene) else "stop"
-    message = f"driven wheels slide in the {what}: their adhesion is {grip.high:.3g} of what is asked of them"
+    message = f"driven wheels slide in the {what}: their adhesion is {grip.high:.3g} times the required one"
     return (Failure("CRN155", message, rate_key(spec, scene), GRIP),)
 
 

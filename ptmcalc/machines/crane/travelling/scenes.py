@@ -82,7 +82,8 @@ class Collision(TravelScene):
     other_mass: Annotated[PositiveMass | None, Absent("it runs onto a stop that does not give")] = None
     """of a crane on the same rails, with the same buffers, that it runs into instead of a stop"""
     other_speed: Annotated[
-        Annotated[float, Measure(units.SPEED, at_least=0)], Absent("the other crane stands, as told by this scene")
+        Annotated[float, Measure(units.SPEED, at_least=0)],
+        Absent("the other crane is at standstill, as this scene states"),
     ] = 0.0
     """of that crane, towards this one"""
 

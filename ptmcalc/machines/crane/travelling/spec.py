@@ -264,7 +264,7 @@ class Duty(Fragment):
     """duty type of IEC 60034-1; S4 and S5 count the starts"""
     factor: Annotated[PositiveShare | None, Assumed()] = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 count no starts; S4 and S5 ask for them")] = None
+    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 count no starts; S4 and S5 require them")] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""

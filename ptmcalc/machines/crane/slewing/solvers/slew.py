@@ -89,7 +89,7 @@ def _doubts(moved: Rotation) -> list[Finding]:
     """Pieces whose two computations met other events."""
     if all(piece.motion.settled for piece in moved.pieces):
         return []
-    return [Finding("NUM101", "two computations of the rotation met other events: their order cannot be told")]
+    return [Finding("NUM101", "two computations of the rotation have different events: their order is unknown")]
 
 
 def _histories(moved: Rotation) -> dict[str, History]:

@@ -101,7 +101,8 @@ def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int)
     if residual > _CLOSES:
         findings.append(
             Finding(
-                "NUM101", f"scene `{scene.label}`: the energy ledger leaves {residual:.1e} over: nothing is trusted"
+                "NUM101",
+                f"scene `{scene.label}`: the energy balance has a residual of {residual:.1e}: no number is reliable",
             )
         )
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at, one.note) for name, one in found.items()}
@@ -267,7 +268,7 @@ def _standstill(fine: Played, coarse: Played) -> Found:
     if all(one.stays and _at_once(one) for one in runs):
         return Found(begun)
     if math.isinf(lasts[0]):
-        note = f"by {fine.course.record.time:.3g} s the base does not stand for good"
+        note = f"by {fine.course.record.time:.3g} s the base has no permanent standstill"
         return Found(Estimate(math.inf, begun.low, math.inf, model=math.inf), note=note)
     apart = _MARGIN * abs(lasts[0] - lasts[1])
     low = max(begun.low, min(*lasts, lasts[0] - apart))
@@ -375,7 +376,7 @@ def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
     assert obstacle is not None
     value, time = fine.course.top("contact")
     if math.isinf(obstacle.stiffness):
-        note = "a point that stops dead is stopped by a blow: only its impulse is finite"
+        note = "the impact on a rigid obstacle has a finite impulse only, no finite force"
         found["contact_force"] = Found(Estimate.unknown(math.inf), {"time": 0.0}, note)
     elif obstacle.damping:
         note = "a dashpot pushes at the first touch as hard as it is fast: the largest force is one of this model"
@@ -391,7 +392,7 @@ def _settling(spec: Stacker, scene: StackerScene, fine: Played, coarse: Played) 
     if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
         return {}
     if not fine.course.stays:
-        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held for good")}
+        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held permanently")}
     apart = abs(fine.course.largest("deflection")[0] - coarse.course.largest("deflection")[0])
     found = at_rest(spec, scene, fine.course, window, min(_MARGIN * apart, window))
     late = _drift(fine, coarse, window, found.time)
@@ -418,17 +419,19 @@ def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
     """What happened on the way that a reader must know."""
     course, said = fine.course, []
     if isinstance(scene, Start | Brake) and not fine.moves.follows and math.isinf(course.held_since):
-        what = "come to its speed" if isinstance(scene, Start) else "come to rest"
+        what = "reached its speed" if isinstance(scene, Start) else "come to rest"
         said.append(
-            Finding("NUM103", f"scene `{scene.label}`: by {course.record.time:.3g} s the base does not {what} for good")
+            Finding(
+                "NUM103", f"scene `{scene.label}`: by {course.record.time:.3g} s the base has not {what} permanently"
+            )
         )
     first = course.first("base", "at rest") if isinstance(scene, Brake) and not fine.moves.follows else math.inf
     if math.isfinite(first) and math.isfinite(course.held_since) and not _at_once(course):
         text = (
             f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at {first:.3g} s,"
-            f" for good at {course.held_since:.3g} s"
+            f" permanently at {course.held_since:.3g} s"
         )
-        damps = "" if course.stays else "damping of the column, `column.log_decrement`, tells when it ends"
+        damps = "" if course.stays else "the damping of the mast, `column.log_decrement`, determines when it ends"
         said.append(Finding("NUM110", text, hint=damps))
     return said
 

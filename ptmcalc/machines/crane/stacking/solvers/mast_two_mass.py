@@ -51,7 +51,9 @@ def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) 
     }
     findings = []
     if course.residual > _CLOSES:
-        text = f"scene `{scene.label}`: the energy ledger leaves {course.residual:.1e} over: nothing is trusted"
+        text = (
+            f"scene `{scene.label}`: the energy balance has a residual of {course.residual:.1e}: no number is reliable"
+        )
         findings.append(Finding("NUM101", text))
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at, one.note) for name, one in found.items()}
     return Result(
@@ -75,7 +77,7 @@ def _settling(spec: Stacker, scene: DrivenScene, course: Course) -> dict[str, Fo
     if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
         return {}
     if not course.stays:
-        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held for good")}
+        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held permanently")}
     found = at_rest(spec, scene, course, window)
     if math.isinf(found.time):
         return {"settling_time": Found(Estimate.exact(math.inf), note=found.reason)}
