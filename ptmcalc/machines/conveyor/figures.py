@@ -50,7 +50,7 @@ FIGURES = (
         ),
         "belt tension",
         over=SPAN,
-        across="distance from the leaving point at the head",
+        across="distance behind the head pulley",
         marks=_tail,
     ),
 )

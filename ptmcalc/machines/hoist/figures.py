@@ -32,6 +32,6 @@ FIGURES = (
         "Stress that the rope adds as it climbs to the next layer",
         ("winding",),
         (Course("winding_stress_max"), Course("winding_stress_paper")),
-        "stress relative to the mean stress",
+        "additional stress",
     ),
 )
