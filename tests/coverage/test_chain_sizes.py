@@ -14,7 +14,7 @@ from support.machines import loaded
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.chain_drive.running.selection import CHAIN_SELECTION
+from ptmcalc.machines.chain_drive.selection.solver import CHAIN_SELECTION
 
 WITHOUT_BARS = {"chain_drive": ("chain_selection",)}
 KIND = load_kind("chain_drive")

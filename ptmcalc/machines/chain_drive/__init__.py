@@ -6,21 +6,20 @@ from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import chain_selection
 from ptmcalc.machines.chain_drive.assumptions import assumptions
-from ptmcalc.machines.chain_drive.checks import CHECKS
 from ptmcalc.machines.chain_drive.figures import FIGURES
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
-from ptmcalc.machines.chain_drive.loads import LOADS, parts
 from ptmcalc.machines.chain_drive.model import mean_arm
-from ptmcalc.machines.chain_drive.polygon.effects import EFFECTS
+from ptmcalc.machines.chain_drive.polygon.topic import POLYGON
 from ptmcalc.machines.chain_drive.relations import RELATIONS
-from ptmcalc.machines.chain_drive.running.checks_motor import CHECKS_OF_THE_DRIVE
-from ptmcalc.machines.chain_drive.solvers import SOLVERS
+from ptmcalc.machines.chain_drive.running.topic import RUNNING
+from ptmcalc.machines.chain_drive.selection.topic import SELECTION
 from ptmcalc.machines.chain_drive.spec import ChainDrive
-from ptmcalc.machines.chain_drive.speed_change.effects import EFFECTS_OF_MOTION
-from ptmcalc.machines.chain_drive.starting.checks import CHECKS_OF_STARTS
-from ptmcalc.machines.chain_drive.stopping.checks import CHECKS_OF_STOPS
+from ptmcalc.machines.chain_drive.speed_change.topic import SPEED_CHANGE
+from ptmcalc.machines.chain_drive.starting.topic import STARTING
+from ptmcalc.machines.chain_drive.stopping.topic import STOPPING
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05
@@ -80,21 +79,19 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
         )
 
 
+TOPICS = (RUNNING, SELECTION, POLYGON, STARTING, SPEED_CHANGE, STOPPING)
+
 KIND = MachineKind(
     name="chain_drive",
     title="chain conveyor or chain drive: polygon effect, resonance, safety, life, start",
     spec=ChainDrive,
-    loads=LOADS,
-    effects=(*EFFECTS, *EFFECTS_OF_MOTION),
     figures=FIGURES,
-    solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_THE_DRIVE, *CHECKS_OF_STARTS, *CHECKS_OF_STOPS),
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
     assumed=assumptions,
-    parts=parts,
     relations=RELATIONS,
     inspect=inspect,
     seconding=witnesses_in(__package__),
+    **of_topics(TOPICS),
 )

@@ -7,7 +7,6 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import chain_resonance
-from ptmcalc.machines.chain_drive.loads import FREQUENCIES, ORDERS, WINDOWS
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK, tooth_frequency
 from ptmcalc.machines.chain_drive.polygon.resonances import Resonances, operating_range, resonances, safe_speeds
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
@@ -36,6 +35,9 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
 
 TEXTBOOK_K = 3500.0
+
+FREQUENCIES, ORDERS, WINDOWS = 3, 6, 8
+"""Numbers of natural frequencies, tooth harmonics and safe speed ranges that are reported."""
 
 
 def loads_of(spec: ChainDrive, found: Resonances) -> dict[str, float]:

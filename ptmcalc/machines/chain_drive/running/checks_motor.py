@@ -99,5 +99,3 @@ RATING: Check[ChainDrive, ChainScene] = Check(
     formula="|M| <= M_n = P_n/w_n",
     source="IEC 60034-1, duty type S1",
 )
-
-CHECKS_OF_THE_DRIVE: tuple[AnyCheck, ...] = (RESERVE, RATING)

@@ -186,5 +186,3 @@ SLACK: Check[ChainDrive, Start] = Check(
     formula="min over sections and time of S >= 0",
     source="a chain never pushes",
 )
-
-CHECKS_OF_STARTS: tuple[AnyCheck, ...] = (WEAK, SLOW, STRENGTH, SLACK)

@@ -1,0 +1,219 @@
+"""Checks of the polygon effect: resonance, and what the largest and smallest tension of steady running do."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.machines.chain_drive.model import tension_key
+from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK
+from ptmcalc.machines.chain_drive.polygon.resonances import resonances
+from ptmcalc.machines.chain_drive.selection.checks import SAFETY
+from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+
+Loads = Mapping[str, Estimate]
+RUNNING = frozenset({Run})
+
+_SPEED = ("speed",)
+_BREAKING = ("chain", "breaking_load")
+
+
+def _near_resonance(spec: ChainDrive, loads: Loads) -> bool:
+    distance = loads.get("resonance_distance")
+    return distance is not None and distance.value < spec.checks.resonance.band
+
+
+def _unless_resonant(path: Callable[[ChainDrive, Run], KeyPath]) -> Callable[[ChainDrive, Run], KeyPath]:
+    """A stronger chain is no way out of a resonance: nothing is offered there."""
+
+    def repair(spec: ChainDrive, scene: Run) -> KeyPath:
+        carried = frozenset({WEAK}) if spec.drive is not None and spec.effects.get(WEAK) != "off" else frozenset[str]()
+        nearest = resonances(spec, scene, carried).nearest(spec.speed)
+        return () if nearest is not None and nearest[0] < 1 else path(spec, scene)
+
+    return repair
+
+
+# -- resonance ------------------------------------------------------------------------------------------------------
+
+
+def _resonance_limit(spec: ChainDrive, scene: Run) -> Estimate:
+    """The speed lies outside the band of every resonance that matters.
+
+    **Range** bands of 15 % of the resonance speed by default, twice the damping ratio where that is more.
+    **Error** none: a chosen limit.
+    **Source** engineering rule; what matters by the weight 0.5 m a_max.
+    """
+    return Estimate.exact(spec.checks.resonance.band)
+
+
+RESONANCE: Check[ChainDrive, Run] = only(lambda spec, scene: spec.effects.get(POLYGON) != "off")(
+    Check(
+        code="CHN101",
+        title="polygon resonance separation",
+        question="Is the chain speed far enough from every relevant polygon-effect resonance?",
+        failure="chain speed is in the band of a polygon resonance",
+        scenes=RUNNING,
+        loads=("resonance_distance",),
+        sense=Sense.AT_LEAST,
+        limit=_resonance_limit,
+        needs=no_needs,
+        blame=blames(*_SPEED),
+        repair=at(*_SPEED),
+        forbids_band=True,
+        what="The relative distance of the chain speed from every relevant resonance speed is at least the band. At a"
+        " resonance speed, a harmonic of the tooth frequency equals a natural frequency of the chain. A resonance"
+        " is relevant if its force reaches at least half of m a_max. The loads `safe_speed_below` and"
+        " `safe_speed_above` state the nearest speeds that meet the criterion.",
+        why="In resonance, the polygon effect loads the chain ten times as much as away from it. This load acts"
+        " continuously, once per tooth.",
+        formula="|V/V_nk - 1| >= max(15 %, 2 zeta_k),   V_nk = p f_k/n,   for (2/(pi n)) |D(w_k)|/(m w_k^2) >= 0.5",
+        source="tooth frequency V/p and the frequency equations of the strands; the band is an engineering rule",
+    )
+)
+
+# -- safety ---------------------------------------------------------------------------------------------------------
+
+
+def _dynamic_limit(spec: ChainDrive, scene: Run) -> Estimate:
+    """Safety asked of the chain against the largest tension of steady running.
+
+    **Range** 7 for conveyors, 5 for drives between shafts, or what the file says.
+    **Error** none: a chosen limit.
+    **Source** handbooks: 7 to 10 for traction chains; DIN 8195:1977: 5 under dynamic load for roller chains.
+    """
+    asked = spec.checks.safety_dynamic
+    return Estimate.exact(asked if asked is not None else SAFETY[type(spec.layout)][1])
+
+
+def _blame_strength(spec: ChainDrive, scene: Run, loads: Loads) -> KeyPath:
+    """The speed where it meets a resonance, else the chain."""
+    return _SPEED if _near_resonance(spec, loads) else _BREAKING
+
+
+DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
+    code="CHN102",
+    title="chain safety factor, steady running",
+    question="Is the breaking load high enough for the largest tension of steady running, polygon effect included?",
+    failure="chain is overloaded in steady running",
+    scenes=RUNNING,
+    loads=("safety_dynamic",),
+    sense=Sense.AT_LEAST,
+    limit=_dynamic_limit,
+    needs=no_needs,
+    blame=_blame_strength,
+    repair=_unless_resonant(at(*_BREAKING)),
+    what="The breaking load is at least the safety factor times the maximum tension of steady running. This tension"
+    " includes the polygon effect and the centrifugal force.",
+    why="The polygon effect loads the chain once per tooth and fatigues plates and pins. A broken chain runs away.",
+    formula="F_B/(c (S_static + S_polygon + m V^2)) >= n",
+    source="chain makers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
+)
+
+# -- joints ---------------------------------------------------------------------------------------------------------
+
+
+def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
+    """Largest pressure in the joints of the file.
+
+    **Range** 20 to 30 MPa is usual, less for fast chains and poor lubrication.
+    **Error** none: a chosen limit.
+    **Source** chain makers' handbooks.
+    """
+    asked = spec.checks.joint_pressure
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
+    Check(
+        code="CHN104",
+        title="pin/bush bearing pressure",
+        question="Is the bearing pressure between pin and bush within the permissible value?",
+        failure="pin/bush bearing pressure is too high",
+        scenes=RUNNING,
+        loads=("joint_pressure",),
+        sense=Sense.AT_MOST,
+        limit=_pressure_limit,
+        needs=lambda spec, scene: (("chain", "pin_diameter"), ("chain", "bush_length")),
+        blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "pin_diameter"),
+        repair=_unless_resonant(at("chain", "pin_diameter")),
+        what="The bearing pressure between pin and bush at the maximum tension of a chain is at most the limit of the"
+        " file.",
+        why="Above the limit the oil film breaks, and the link joints wear many times as fast.",
+        formula="c S/(d b) <= p",
+        source="ISO 606:2015, bearing area; chain makers' handbooks",
+    )
+)
+
+# -- slack ----------------------------------------------------------------------------------------------------------
+
+
+def _slack_limit(spec: ChainDrive, scene: Run) -> Estimate:
+    """Smallest tension of the file, 0 N by default.
+
+    **Range** steady running; the ends of the strands, at drive and tail.
+    **Error** none: a chosen limit.
+    **Source** a chain does not push: where the tension is gone, it piles up and jumps teeth.
+    """
+    return Estimate.exact(spec.checks.least_tension)
+
+
+def _tension_key(spec: ChainDrive, scene: Run) -> KeyPath:
+    return tension_key(spec)
+
+
+SLACK: Check[ChainDrive, Run] = Check(
+    code="CHN105",
+    title="minimum chain tension, steady running",
+    question="Does every strand stay taut in steady running?",
+    failure="chain tension falls below its minimum",
+    limit_state=LimitState("chain goes slack", 0),
+    scenes=RUNNING,
+    loads=("tension_min",),
+    sense=Sense.AT_LEAST,
+    limit=_slack_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else _tension_key(spec, scene),
+    repair=_unless_resonant(_tension_key),
+    what="In steady running, the minimum tension of every strand is at least the limit, 0 N by default. This tension"
+    " includes the oscillations of the polygon effect.",
+    why="A slack chain piles up before the sprocket and jumps teeth. An impact loads it when it becomes taut again.",
+    formula="min(S_static + S_polygon) >= S_least",
+    source="equilibrium strand by strand",
+)
+
+# -- fatigue -------------------------------------------------------------------------------------------------------
+
+
+def _fatigue_limit(spec: ChainDrive, scene: Run) -> Estimate:
+    """Largest use of the permissible stress amplitude.
+
+    **Range** 1 uses all of it.
+    **Error** none: a chosen limit.
+    **Source** Goodman's line.
+    """
+    return Estimate.exact(spec.checks.fatigue)
+
+
+FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
+    Check(
+        code="CHN107",
+        title="link plate fatigue utilisation",
+        question="Is the alternating stress of the link plates within the fatigue limit?",
+        failure="link plates exceed the fatigue limit",
+        scenes=RUNNING,
+        loads=("fatigue_utilisation",),
+        sense=Sense.AT_MOST,
+        limit=_fatigue_limit,
+        needs=lambda spec, scene: (("chain", "section"),),
+        blame=lambda spec, scene, loads: _SPEED if _near_resonance(spec, loads) else ("chain", "section"),
+        repair=no_repair,
+        what="The fatigue utilisation of the link plates is at most the limit. It compares the stress amplitude of the"
+        " polygon effect with the amplitude of the file. The amplitude of the file applies to the tooth passes of"
+        " the required life. The mean stress counts by Goodman's line if the strength of the plates is given.",
+        why="A chain passes millions of teeth. Overstressed plates crack at their holes.",
+        formula="s_a/s_lim + s_m/R_m <= 1,   s_a = c (S_max - S_min)/(2 A)",
+        source="J. Goodman 1899; limits by chain makers",
+    )
+)

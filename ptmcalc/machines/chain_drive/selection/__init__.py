@@ -1,0 +1,1 @@
+"""Choice of the chain: static safety, wear life, geometry, rated power."""
