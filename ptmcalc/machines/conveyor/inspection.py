@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.conveyor.effects import jumps
 from ptmcalc.machines.conveyor.plausible import implausible
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
+from ptmcalc.machines.conveyor.waves.effects import jumps
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05

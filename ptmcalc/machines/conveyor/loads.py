@@ -1,62 +1,10 @@
-"""The loads a conveyor can report."""
+"""Names of loads by what they depend on, and the families of a machine with several drives."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene
-
-LOADS = (
-    LoadInfo("tension_run_on_max", "T1 entering drive pulley, maximum", units.FORCE, governing=True),
-    LoadInfo("tension_dynamic_run_on_max", "T1 dynamic component, maximum", units.FORCE, governing=True),
-    LoadInfo("tension_run_off_min", "T2 leaving drive pulley, minimum", units.FORCE),
-    LoadInfo("tension_max", "belt tension, maximum", units.FORCE, governing=True),
-    LoadInfo("tension_min", "belt tension, minimum", units.FORCE, governing=True),
-    LoadInfo("slack_margin_min", "tension above slack limit, minimum", units.FORCE, governing=True),
-    LoadInfo("slip_utilisation_max", "traction used (T1/T2)/e^(mu*alpha)", units.SHARE, governing=True),
-    LoadInfo("slip_reserve_min", "traction reserve, minimum", units.RATIO, governing=True),
-    LoadInfo("belt_safety_min", "belt safety factor, minimum", units.RATIO, governing=True),
-    LoadInfo("sag_relative_max", "belt sag ratio h/a, maximum", units.SHARE, governing=True),
-    LoadInfo("slip_distance", "slip distance at drive pulley", units.SPAN),
-    LoadInfo("slip_heat", "slip heat at drive pulley", units.ENERGY),
-    LoadInfo("stop_time", "stopping time", units.TIME, governing=True),
-    LoadInfo("stop_distance", "stopping distance", units.SPAN, governing=True),
-    LoadInfo("stop_distance_max", "stopping distance, maximum of all points", units.SPAN, governing=True),
-    LoadInfo("coast_distance", "coasting distance, no brakes", units.SPAN, governing=True),
-    LoadInfo("brake_torque_required", "required brake torque, pulley shaft", units.TORQUE, governing=True),
-    LoadInfo("tension_overload_braking", "belt tension added by braking", units.FORCE),
-    LoadInfo("resistance_coefficient_identified", "friction factor f from coasting test", units.RATIO, governing=True),
-    LoadInfo("backstop_torque", "rollback torque, drive pulley shaft", units.TORQUE, governing=True),
-    LoadInfo("effective_tension", "effective tension T_e (F_U)", units.FORCE, governing=True),
-    LoadInfo("effective_tension_worst", "T_e, worst partial loading", units.FORCE, headline=False),
-    LoadInfo("power_drive_running", "power at drive pulley shafts", units.POWER, governing=True),
-    LoadInfo("power_drive_empty", "power at drive pulley shafts, empty belt", units.POWER, headline=False),
-    LoadInfo("power_motor_running", "power at motor shafts", units.POWER, headline=False),
-    LoadInfo("steady_reserve", "motor torque reserve, steady running", units.RATIO),
-    LoadInfo("motor_utilisation", "motor torque / rated torque, steady running", units.SHARE, headline=False),
-    LoadInfo("sag_tension_required", "tension required by sag limit", units.FORCE, headline=False),
-    LoadInfo("slack_side_tension_required", "slack-side tension required for traction", units.FORCE, headline=False),
-    LoadInfo("takeup_travel", "required take-up travel", units.LENGTH, headline=False),
-    LoadInfo("takeup_movement", "take-up movement range in the scene", units.LENGTH, headline=False),
-    LoadInfo("takeup_mass", "gravity take-up mass, two belt strands", units.MASS, headline=False),
-    LoadInfo("belt_cycle_time", "belt circuit time", units.TIME, headline=False),
-    LoadInfo("natural_frequency", "longitudinal natural frequency of belt", units.ANGULAR_FREQUENCY, headline=False),
-    LoadInfo("static_resistance", "static resistance at pulley", units.FORCE),
-    LoadInfo("starting_force", "mean starting force at pulley", units.FORCE),
-    LoadInfo("starting_force_needed", "required starting force at pulley", units.FORCE),
-    LoadInfo("starting_reserve", "starting force reserve", units.RATIO, governing=True),
-    LoadInfo("rim_force_excess", "accelerating force at pulley", units.FORCE),
-    LoadInfo("acceleration_rigid", "acceleration, rigid-belt model", units.ACCELERATION),
-    LoadInfo("start_time", "starting time", units.TIME, headline=False),
-    LoadInfo("start_time_rigid", "starting time, rigid-belt model", units.TIME, governing=True),
-    LoadInfo("first_wave_time_max", "time of first-wave peak, textbook", units.TIME, headline=False),
-    LoadInfo("reduced_drive_mass", "equivalent drive mass at pulley", units.MASS),
-    LoadInfo("wave_speed_carry", "wave speed, carrying strand", units.SPEED, headline=False),
-    LoadInfo("wave_speed_return", "wave speed, return strand", units.SPEED, headline=False),
-    LoadInfo("impedance_carry", "wave impedance, carrying strand", units.IMPEDANCE, headline=False),
-    LoadInfo("impedance_return", "wave impedance, return strand", units.IMPEDANCE, headline=False),
-)
 
 TENSIONS = (
     "tension_run_on_max",
@@ -139,10 +87,10 @@ FREQUENCIES = 3
 """How many natural frequencies are reported."""
 
 
-def parts(spec: Conveyor) -> Iterator[LoadInfo]:
-    """The loads of one conveyor: those of the belt, and of each drive; in the table a single drive is not named."""
+def parts_of(loads: Iterable[LoadInfo], spec: Conveyor) -> Iterator[LoadInfo]:
+    """Some loads of one conveyor: those of the belt, and of each drive; in the table a single drive is not named."""
     several = len(spec.all_drives) > 1
-    for info in LOADS:
+    for info in loads:
         if info.name == "natural_frequency":
             yield from (info.of(str(number)) for number in range(1, FREQUENCIES + 1))
             continue

@@ -266,6 +266,9 @@ class Hold(ConveyorScene):
 IN_MOTION: frozenset[type[Scene]] = frozenset({Start, Stop, EmergencyStop, Coast, Jam})
 """Scenes in which the belt does not run evenly."""
 
+ANY_MOTION = IN_MOTION | {Run}
+"""Scenes in which the belt moves."""
+
 AnyScene = Annotated[
     Run | Start | Stop | EmergencyStop | Coast | Jam | Hold,
     Field(discriminator="type"),

@@ -260,5 +260,3 @@ LIFT: Check[Conveyor, ConveyorScene] = Check(
     formula="S_max in the curve <= rho_belt g R cos(delta)",
     source="DIN 22101 and CEMA, concave vertical curves; derived from the equilibrium of an element",
 )
-
-CHECKS_OF_THE_BELT: tuple[AnyCheck, ...] = (FILL, DRUM, FIBRE, PRESSED, LIFT)

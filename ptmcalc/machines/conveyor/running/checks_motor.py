@@ -108,5 +108,3 @@ RATING: Check[Conveyor, ConveyorScene] = Check(
     formula="|M| <= M_n = P_n/w_n",
     source="IEC 60034-1, duty type S1",
 )
-
-CHECKS_OF_THE_DRIVE: tuple[AnyCheck, ...] = (RESERVE, RATING)

@@ -207,4 +207,32 @@ RESONANCE: Check[Conveyor, Start] = Check(
     source="frequencies of `laws.belt_modes`; the band is an engineering choice",
 )
 
-CHECKS_OF_THE_START: tuple[AnyCheck, ...] = (MOTOR_HEAT, SHARP, RESIDUAL, RESONANCE)
+
+def _start_limit(spec: Conveyor, scene: Start) -> Estimate:
+    """The starting force must reach the force needed.
+
+    **Range** any start.
+    **Error** none.
+    **Source** Newton's law.
+    """
+    return Estimate.exact(1.0)
+
+
+START: Check[Conveyor, Start] = Check(
+    code="CNV104",
+    title="starting force reserve",
+    question="Can the drives start the loaded belt?",
+    failure="starting force is below the required force",
+    scenes=frozenset({Start}),
+    loads=("starting_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_start_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: starting_torque_key(spec),
+    repair=lambda spec, scene: () if (key := starting_torque_key(spec))[-1] == "curve" else key,
+    what="With a torque profile, the mean starting force at the pulley surface exceeds the static resistance. With an"
+    " imposed speed, it exceeds the force that the profile requires.",
+    why="A drive that cannot move the belt stalls, and its motors overheat.",
+    formula="n M i eta/R > W   (torque)      n M i eta/R >= max(m a + S_on - S_off)   (imposed speed)",
+    source="lecture notes Kramatorsk 2007",
+)

@@ -8,11 +8,10 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
-from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves import bounds, effects
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:

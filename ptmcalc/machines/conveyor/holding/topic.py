@@ -1,0 +1,16 @@
+"""Holding the stopped belt: rollback torque."""
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo
+from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.conveyor.holding.checks import BACKSTOP
+from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.stopping.formulas import HOLDING
+
+LOADS = (LoadInfo("backstop_torque", "rollback torque, drive pulley shaft", units.TORQUE, governing=True),)
+
+ROLLBACK: Topic[Conveyor] = Topic(
+    loads=LOADS,
+    solvers=(HOLDING,),
+    checks=(BACKSTOP,),
+)

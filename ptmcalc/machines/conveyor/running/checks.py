@@ -1,0 +1,134 @@
+"""Checks of the belt: strength, sag, slack, take-up travel."""
+
+import math
+from collections.abc import Iterable, Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
+from ptmcalc.machines.conveyor.keys.takeup import blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
+from ptmcalc.machines.conveyor.spec import (
+    ANY_MOTION,
+    Conveyor,
+    ConveyorScene,
+    Run,
+)
+
+Loads = Mapping[str, Estimate]
+Checks = Iterable[AnyCheck]
+
+STRENGTH: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV102",
+    title="belt safety factor",
+    question="Is the belt breaking force high enough for the largest belt tension?",
+    failure="belt is overloaded",
+    limit_state=LimitState("belt breaks", 1),
+    scenes=ANY_MOTION,
+    loads=("belt_safety_min",),
+    sense=Sense.AT_LEAST,
+    limit=safety_limit,
+    needs=safety_needs,
+    blame=lambda spec, scene, loads: strength_key(spec, scene),
+    repair=strength_key,
+    what="The breaking force of the belt is at least the safety factor times the maximum tension of any section.",
+    why="A broken belt runs off the conveyor. Splices fail first, by fatigue.",
+    formula="breaking force / S_max >= safety",
+    source="DIN 22101:1982-02 as quoted by belt makers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
+)
+
+
+def _sag_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Largest sag over idler pitch of the file, 1 % by default.
+
+    **Range** steady running; more is allowed for a moment.
+    **Error** none: a chosen limit.
+    **Source** DIN 22101: at most 1 % in steady running.
+    """
+    return Estimate.exact(spec.checks.sag)
+
+
+def _idler_pitches(spec: Conveyor, scene: ConveyorScene) -> tuple[KeyPath, ...]:
+    return (("idlers", "carry", "pitch"), ("idlers", "return", "pitch"))
+
+
+SAG: Check[Conveyor, Run] = Check(
+    code="CNV103",
+    title="belt sag between idlers, steady running",
+    question="Is the belt sag ratio within its limit in steady running?",
+    failure="belt sags too much between the idlers",
+    scenes=frozenset({Run}),
+    loads=("sag_relative_max",),
+    sense=Sense.AT_MOST,
+    limit=_sag_limit,
+    needs=_idler_pitches,
+    blame=blame_tension,
+    repair=takeup_tension,
+    what="In steady running, the sag ratio of the belt between any two idlers is at most the limit.",
+    why="Excessive sag spills the load, flexes the load at every idler and increases the power demand.",
+    formula="w l/(8 S_min) <= limit",
+    source="DIN 22101: at most 1 % in steady running",
+)
+
+
+def _slack_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
+    """Nothing may be missing to the tension at which the belt counts as slack.
+
+    **Range** with idler pitches given: 10 % sag by default, where the parabola ends; else no tension at all.
+    **Error** none: a chosen limit.
+    **Source** validity of the shallow parabola (`laws.sag.sag_ratio`), an engineering choice.
+    """
+    return Estimate.exact(0.0)
+
+
+SLACK: Check[Conveyor, ConveyorScene] = Check(
+    code="CNV105",
+    title="belt tension above slack limit",
+    question="Does every belt section stay above the slack limit (10 % sag by default)?",
+    failure="belt tension falls below the slack limit",
+    scenes=ANY_MOTION,
+    loads=("slack_margin_min",),
+    sense=Sense.AT_LEAST,
+    limit=_slack_limit,
+    needs=no_needs,
+    blame=blame_tension,
+    repair=takeup_tension,
+    what="At every moment, the tension of every belt section is at least the slack limit.",
+    why="A slack belt lifts off its idlers, folds and runs off. An impact loads it when it becomes taut again.",
+    formula="S_min - w l/(8 h_slack) >= 0 on either strand   (h_slack 10 %; without idler pitches S_min >= 0)",
+    source="shallow parabola; slack as the end of the linear belt, lecture notes Kramatorsk 2007",
+)
+
+
+def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
+    """Way the take-up can go, from the file.
+
+    **Range** any take-up with its stroke given.
+    **Error** none.
+    **Source** the maker's data.
+    """
+    return Estimate.exact(spec.takeup.stroke or math.inf)
+
+
+STROKE: Check[Conveyor, Run] = only(lambda spec, scene: spec.takeup.stroke is not None)(
+    Check(
+        code="CNV110",
+        title="required take-up travel",
+        question="Is the take-up travel enough for elastic and permanent belt elongation?",
+        failure="take-up travel is too short",
+        scenes=frozenset({Run}),
+        loads=("takeup_travel",),
+        sense=Sense.AT_MOST,
+        limit=_stroke_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: ("takeup", "stroke"),
+        repair=lambda spec, scene: ("takeup", "stroke"),
+        what="The required take-up travel is at most the stroke. It starts from the new belt at standstill, closed with"
+        " the take-up tension S_0 all round. It ends at the old belt in steady running. A take-up weight follows the"
+        " elastic and the permanent elongation. A take-up screw moves for the permanent elongation only, because its"
+        " belt runs with the set mean tension S_0.",
+        why="A take-up at the end of its stroke lets the tension fall, and the belt slips.",
+        formula="L_loop ((S_mean - S_0)/EA + permanent)/2 <= stroke",
+        source="DIN 22101, elongation of the belt",
+    )
+)

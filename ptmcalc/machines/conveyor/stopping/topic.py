@@ -1,0 +1,25 @@
+"""Stopping: brakes, stopping distance and time."""
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import LoadInfo
+from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.stopping.checks import BRAKE, STOP, STOP_TIME
+from ptmcalc.machines.conveyor.stopping.formulas import BRAKING, BRAKING_NOTES, IDENTIFY, RIGID_STOP
+from ptmcalc.machines.conveyor.stopping.stiff import STIFF_STOP
+
+LOADS = (
+    LoadInfo("stop_time", "stopping time", units.TIME, governing=True),
+    LoadInfo("stop_distance", "stopping distance", units.SPAN, governing=True),
+    LoadInfo("stop_distance_max", "stopping distance, maximum of all points", units.SPAN, governing=True),
+    LoadInfo("coast_distance", "coasting distance, no brakes", units.SPAN, governing=True),
+    LoadInfo("brake_torque_required", "required brake torque, pulley shaft", units.TORQUE, governing=True),
+    LoadInfo("tension_overload_braking", "belt tension added by braking", units.FORCE),
+    LoadInfo("resistance_coefficient_identified", "friction factor f from coasting test", units.RATIO, governing=True),
+)
+
+STOPPING: Topic[Conveyor] = Topic(
+    loads=LOADS,
+    solvers=(BRAKING, BRAKING_NOTES, IDENTIFY, RIGID_STOP, STIFF_STOP),
+    checks=(STOP, STOP_TIME, BRAKE),
+)
