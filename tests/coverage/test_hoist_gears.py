@@ -13,8 +13,8 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.hoist.effects_motion import ALWAYS
-from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
+from ptmcalc.machines.hoist.motion.effects import ALWAYS
+from ptmcalc.machines.hoist.motion.hoist_train import TRAIN
 
 WITHOUT_BARS = {"hoist": ("gear_backlash", "gear_elasticity")}
 KIND = load_kind("hoist")

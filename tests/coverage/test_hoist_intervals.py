@@ -33,13 +33,13 @@ from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.hoist import motion
-from ptmcalc.machines.hoist.effects_motion import ALWAYS, ROPE_MASS, ROPE_SHORTENING
-from ptmcalc.machines.hoist.moving import case_of
-from ptmcalc.machines.hoist.solvers.hoist_train import TRAIN
-from ptmcalc.machines.hoist.solvers.rope_hauled import ROPE_HAULED
-from ptmcalc.machines.hoist.solvers.rope_waves import ROPE_WAVES
-from ptmcalc.machines.hoist.solvers.two_mass import TWO_MASS
+from ptmcalc.machines.hoist.motion import scene as motion
+from ptmcalc.machines.hoist.motion.effects import ALWAYS, ROPE_MASS, ROPE_SHORTENING
+from ptmcalc.machines.hoist.motion.hoist_train import TRAIN
+from ptmcalc.machines.hoist.motion.rope_hauled import ROPE_HAULED
+from ptmcalc.machines.hoist.motion.rope_waves import ROPE_WAVES
+from ptmcalc.machines.hoist.motion.train import case_of
+from ptmcalc.machines.hoist.motion.two_mass import TWO_MASS
 from ptmcalc.machines.hoist.spec import Hoist
 
 ON_TRIAL = {

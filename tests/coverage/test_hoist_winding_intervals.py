@@ -28,8 +28,8 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.hoist.solvers.winding_corrected import WINDING_CORRECTED
-from ptmcalc.machines.hoist.solvers.winding_map import WINDING_MAP
+from ptmcalc.machines.hoist.winding.corrected import WINDING_CORRECTED
+from ptmcalc.machines.hoist.winding.map import WINDING_MAP
 
 ON_TRIAL = {"hoist": ("layer_map", "winding_corrected", "winding_map")}
 KIND, SEED = load_kind("hoist"), 6_140

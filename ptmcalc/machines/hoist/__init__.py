@@ -9,19 +9,19 @@ from ptmcalc.contract.result import Finding
 from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
-from ptmcalc.machines.hoist.checks import CHECKS
-from ptmcalc.machines.hoist.checks_drive import CHECKS_OF_DRIVE
-from ptmcalc.machines.hoist.checks_drum import CHECKS_OF_DRUM
-from ptmcalc.machines.hoist.checks_motion import CHECKS_OF_MOTION
-from ptmcalc.machines.hoist.checks_winding import CHECKS_OF_WINDING
-from ptmcalc.machines.hoist.effects_motion import EFFECTS_OF_MOTION
-from ptmcalc.machines.hoist.effects_winding import LAYER_MAP
+from ptmcalc.machines.hoist.drive.checks import CHECKS_OF_DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
 from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
+from ptmcalc.machines.hoist.motion.checks import CHECKS_OF_MOTION
+from ptmcalc.machines.hoist.motion.effects import EFFECTS_OF_MOTION
 from ptmcalc.machines.hoist.relations import RELATIONS
 from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import CREEPING, Hoist
+from ptmcalc.machines.hoist.statics.checks_drum import CHECKS_OF_DRUM
+from ptmcalc.machines.hoist.statics.checks_rope import CHECKS
+from ptmcalc.machines.hoist.winding.checks import CHECKS_OF_WINDING
+from ptmcalc.machines.hoist.winding.effects import LAYER_MAP
 
 _SPEED_TOLERANCE = 0.05
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire

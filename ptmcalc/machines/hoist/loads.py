@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.hoist.loads_motion import MOTION
+from ptmcalc.machines.hoist.motion.loads import MOTION
 from ptmcalc.machines.hoist.spec import Hoist
 
 OF_THE_ROPE = (

@@ -9,8 +9,8 @@ from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.start import Profile
-from ptmcalc.machines.hoist.drive_data import Brake, Classes, Duty, Gearbox
-from ptmcalc.machines.hoist.tackle import (
+from ptmcalc.machines.hoist.keys.drive import Brake, Classes, Duty, Gearbox
+from ptmcalc.machines.hoist.keys.tackle import (
     Drum,
     Limiter,
     Reeving,

@@ -13,9 +13,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
-from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import (
+from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
+from ptmcalc.machines.hoist.motion.loads import MOVING
+from ptmcalc.machines.hoist.motion.reduced import rope_mass
+from ptmcalc.machines.hoist.motion.train import (
     BRAKE,
     FLANK,
     GEARBOX,
@@ -30,7 +31,6 @@ from ptmcalc.machines.hoist.moving import (
     Moving,
     case_of,
 )
-from ptmcalc.machines.hoist.reduced import rope_mass
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import LINEAR, Body, Train
 from ptmcalc.witness import lumped

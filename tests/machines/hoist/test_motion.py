@@ -11,7 +11,8 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.hoist import motion, moving
+from ptmcalc.machines.hoist.motion import scene as motion
+from ptmcalc.machines.hoist.motion import train
 
 G = 9.81
 PRINTED = 1e-5
@@ -197,7 +198,7 @@ def test_lift_off_under_a_bridge_with_mass() -> None:
     structure = {"stiffness": "8e6 N/m", "mass": "7 t"}
     data = reduced(5000.0, 18000.0, 1.2e6, 5.0, 1.3 * 5000 * G, {"type": "lift", "rope": "taut"}, structure=structure)
     spec = hoist_of(data)
-    case = moving.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     rope, bridge = bridge_by_steps(1.3, case.window)
     scene = played(data)
     assert value(scene, "lift_off_factor") == pytest.approx(rope, rel=1e-6)
@@ -277,7 +278,7 @@ def test_a_start_along_a_curve_follows_it_from_its_first_moment(shape: str) -> N
     """Its first acceleration is small beside all stiffness there is; who leaves it out ends slower, with a residual."""
     data = changed(CRANE, scenes=[{"type": "start", "profile": {"shape": shape, "time": "2 s"}}])
     spec = hoist_of(data)
-    course = motion.play(moving.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
+    course = motion.play(train.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
     assert course.ledger.residual < 1e-12
     mains = course.case.named("body", "set speed")
     assert mains is not None
@@ -306,7 +307,7 @@ def stiff(rope: float, gear: float) -> motion.Course:
         gearbox__stiffness=f"{gear * arm**2} N*m/rad",
     )
     spec = hoist_of(data)
-    case = moving.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     assert case.stiffness == pytest.approx(rope, rel=1e-9)
     return motion.play(case, 1e-6)
 

@@ -12,8 +12,9 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.laws import rope_rod
-from ptmcalc.machines.hoist import motion, rope_case, rope_motion
-from ptmcalc.machines.hoist.moving import case_of
+from ptmcalc.machines.hoist.motion import rope_case, rope_scene
+from ptmcalc.machines.hoist.motion import scene as motion
+from ptmcalc.machines.hoist.motion.train import case_of
 
 TALL: dict[str, Any] = yaml.safe_load("""
 kind: hoist
@@ -59,7 +60,7 @@ def test_a_rope_whose_length_hardly_changes_is_that_of_the_train(
         wound_strain=rope.wound_strain / LONGER,
     )
     theirs = motion.result(one, case_of(spec, one, frozenset({"structure"})), 0).loads
-    ours = rope_motion.result(spec, one, long, 0).loads
+    ours = rope_scene.result(spec, one, long, 0).loads
     compared = [name for name in theirs if name not in ("energy_residual", "natural_frequency")]
     assert set(compared) <= set(ours)
     for name in compared:
@@ -96,7 +97,7 @@ def test_a_slack_rope_with_mass_is_said_and_decides_only_that_nothing_pulls() ->
     data = changed(TALL, speed={"main": "2.5 m/s"}, brake=brake, scenes=[{"type": "stop", "direction": "up"}])
     spec = hoist_of(data)
     one: Any = spec.all_scenes[0]
-    found = rope_motion.result(spec, one, rope_case.rod(spec, one), 0)
+    found = rope_scene.result(spec, one, rope_case.rod(spec, one), 0)
     assert any("goes slack" in finding.message for finding in found.findings)
     sure = {name for name, load in found.loads.items() if load.estimate.bounded}
     assert sure == {"natural_frequency", "energy_residual", "rope_force_min", "rope_force_share"}
@@ -169,7 +170,7 @@ def test_a_limiter_cuts_every_drive(profile: str) -> None:
     strain = rope.wound_strain / LONGER
     long = replace(rope, extensional=rope.extensional * LONGER, length=rope.length * LONGER, wound_strain=strain)
     theirs = motion.result(one, case_of(spec, one, frozenset({"structure"})), 0)
-    ours = rope_motion.result(spec, one, long, 0)
+    ours = rope_scene.result(spec, one, long, 0)
     assert any("limiter trips" in finding.message for finding in theirs.findings)
     assert any("limiter trips" in finding.message for finding in ours.findings)
     for name in ("rope_force_max", "lift_off_time", "lift_off_speed"):

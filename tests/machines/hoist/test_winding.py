@@ -14,9 +14,9 @@ from support.winding import DIAMETERS, PAPER, PRINTED, general, hoist, paper_for
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import FileReport, LoadReport
-from ptmcalc.machines.hoist.solvers.winding_corrected import WINDING_CORRECTED
-from ptmcalc.machines.hoist.solvers.winding_map import WINDING_MAP
-from ptmcalc.machines.hoist.solvers.winding_paper import WINDING_PAPER
+from ptmcalc.machines.hoist.winding.corrected import WINDING_CORRECTED
+from ptmcalc.machines.hoist.winding.map import WINDING_MAP
+from ptmcalc.machines.hoist.winding.paper import WINDING_PAPER
 
 SPEED, MASS, G = 0.4 * math.pi, 5000.0, 9.81
 STEP = 0.0175 * math.sqrt(3) / 2

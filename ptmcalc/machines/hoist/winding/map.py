@@ -4,7 +4,10 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.climb import (
+from ptmcalc.machines.hoist.loads import OF_THE_WINDING
+from ptmcalc.machines.hoist.model import filled
+from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.winding.climb import (
     FloatArray,
     climb,
     crossover_ratios,
@@ -14,9 +17,6 @@ from ptmcalc.machines.hoist.climb import (
     rope,
     turns,
 )
-from ptmcalc.machines.hoist.loads import OF_THE_WINDING
-from ptmcalc.machines.hoist.model import filled
-from ptmcalc.machines.hoist.spec import Hoist, WindUp
 from ptmcalc.numerics.hauling import haul
 
 

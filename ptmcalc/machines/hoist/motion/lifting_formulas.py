@@ -6,7 +6,7 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import lift_off, lift_off_standard, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.reduced import (
+from ptmcalc.machines.hoist.motion.reduced import (
     braked_way,
     hook_brake_force,
     moving_inertia,

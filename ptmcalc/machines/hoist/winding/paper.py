@@ -7,8 +7,8 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import winding
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.climb import climb, histories
 from ptmcalc.machines.hoist.spec import Hoist, WindUp
+from ptmcalc.machines.hoist.winding.climb import climb, histories
 from ptmcalc.numerics.decay_pulse import DecayPulse
 
 WIRE = 2.1e11

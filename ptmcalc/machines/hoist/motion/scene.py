@@ -9,8 +9,8 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
-from ptmcalc.machines.hoist.after_window import over, ringing_on
-from ptmcalc.machines.hoist.moving import (
+from ptmcalc.machines.hoist.motion.after_window import over, ringing_on
+from ptmcalc.machines.hoist.motion.train import (
     BRAKE,
     DRIVE,
     FLANK,

@@ -7,16 +7,17 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.laws import rope_rod
-from ptmcalc.machines.hoist import model, moving, tackle
-from ptmcalc.machines.hoist.moving import BRAKE, DRIVE, MAINS, Case, Moving, case_of
-from ptmcalc.machines.hoist.reduced import hauling_efficiency, lowering_efficiency, ratio, rope_mass, travel
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.keys import tackle
+from ptmcalc.machines.hoist.motion.reduced import hauling_efficiency, lowering_efficiency, ratio, rope_mass, travel
+from ptmcalc.machines.hoist.motion.train import BRAKE, DRIVE, DRUM, MAINS, MOTOR, STRUCTURE, Case, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift
 from ptmcalc.numerics.rope.march import Hauled, Rod
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train import parts
 from ptmcalc.numerics.train.signals import ONE, Signal
 
-CARRIED = frozenset({moving.STRUCTURE})
+CARRIED = frozenset({STRUCTURE})
 
 
 def case(spec: Hoist, scene: Moving) -> Case:
@@ -43,8 +44,8 @@ def haul(spec: Hoist, scene: Moving) -> Haul:
     """Drive, structure and load of a scene."""
     one, train = case(spec, scene), case(spec, scene).train
     arm, turns = travel(spec, scene), ratio(spec) / travel(spec, scene)
-    motor = train.bodies[_index(one, "body", moving.MOTOR)]
-    drum = train.bodies[_index(one, "body", moving.DRUM)]
+    motor = train.bodies[_index(one, "body", MOTOR)]
+    drum = train.bodies[_index(one, "body", DRUM)]
     given = spec.structure
     brake = one.named("grip", BRAKE)
     on_motor = spec.brake is not None and spec.brake.shaft == "motor"

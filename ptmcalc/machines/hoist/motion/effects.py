@@ -7,9 +7,8 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import backlash, lift_off, rope_rod, two_mass
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.loads_motion import FORCES, MOVING
-from ptmcalc.machines.hoist.moving import Case, Moving, case_of
-from ptmcalc.machines.hoist.reduced import (
+from ptmcalc.machines.hoist.motion.loads import FORCES, MOVING
+from ptmcalc.machines.hoist.motion.reduced import (
     hook_brake_force,
     hook_speed,
     motor_torque,
@@ -20,6 +19,7 @@ from ptmcalc.machines.hoist.reduced import (
     start_hook_speed,
     travel,
 )
+from ptmcalc.machines.hoist.motion.train import Case, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 

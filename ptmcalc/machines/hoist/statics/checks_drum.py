@@ -7,8 +7,8 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
 from ptmcalc.laws import hoist_class
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.checks import RUNNING, OneCheck, loaded
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
+from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck, loaded
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
 

@@ -9,7 +9,7 @@ from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.components.motor import overhauling_reserve
 from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
 from ptmcalc.machines.hoist import model
-from ptmcalc.machines.hoist.drive_data import Gearbox
+from ptmcalc.machines.hoist.keys.drive import Gearbox
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, Start
 

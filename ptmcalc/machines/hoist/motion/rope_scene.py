@@ -10,9 +10,10 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
-from ptmcalc.machines.hoist import motion, rope_case
-from ptmcalc.machines.hoist.moving import Case, Moving
-from ptmcalc.machines.hoist.reduced import travel
+from ptmcalc.machines.hoist.motion import rope_case
+from ptmcalc.machines.hoist.motion import scene as motion
+from ptmcalc.machines.hoist.motion.reduced import travel
+from ptmcalc.machines.hoist.motion.train import Case, Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, Release
 from ptmcalc.numerics.rope import rule
 from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy

@@ -9,8 +9,9 @@ from ptmcalc.components.duty_motor import DutyMotor
 from ptmcalc.contract.result import Finding, Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, hoisting, reeving, rope_drum, wire_rope
-from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.drive_data import Duty
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.keys.drive import Duty
 from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
@@ -126,11 +127,11 @@ def _of_the_drive(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     mass, height = model.hook_mass(spec, scene), scene.hook_height
     loads: Numbers = {}
     if spec.gearbox is not None:
-        up, speed = drive.torque_up(spec, mass, height), drive.motor_speed(spec)
+        up, speed = torques.torque_up(spec, mass, height), torques.motor_speed(spec)
         loads |= {
             "motor_speed": speed,
             "torque_motor_static_up": up,
-            "torque_motor_static_down": drive.torque_down(spec, mass, height),
+            "torque_motor_static_down": torques.torque_down(spec, mass, height),
             "power_hoisting": up * speed,
         }
         if spec.motor is not None:
@@ -144,16 +145,16 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     if spec.gearbox is None or spec.motor is None:
         return {}
     mass, height = model.hook_mass(spec, scene), scene.hook_height
-    reserve = drive.starting_reserve(spec, spec.motor, mass, height)
-    time = drive.start_time(spec, spec.motor, mass, height, up=True) if reserve > 1 else math.inf
+    reserve = torques.starting_reserve(spec, spec.motor, mass, height)
+    time = torques.start_time(spec, spec.motor, mass, height, up=True) if reserve > 1 else math.inf
     if isinstance(scene, Start):
-        time = drive.profiled(spec, spec.motor, scene, mass, time)
+        time = torques.profiled(spec, spec.motor, scene, mass, time)
     note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
     found = {
         "starting_reserve": Found(Estimate.exact(reserve), note=note),
         "start_time": Found(Estimate.exact(time)),
     }
-    braking = drive.braking_reserve(spec, spec.motor, mass, height)
+    braking = torques.braking_reserve(spec, spec.motor, mass, height)
     return found if braking is None else found | {"overhauling_reserve": Found(Estimate.exact(braking))}
 
 
@@ -162,7 +163,7 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     speed = 0.0
     if isinstance(scene, LowerBrake) or (isinstance(scene, Stop) and scene.direction == "down"):
         speed = filled(spec.speed.creep) if scene.speed == "creep" else model.hook_speed(spec)
-    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height, speed)
+    held = torques.held(spec, model.hook_mass(spec, scene), scene.hook_height, speed)
     if held is None:
         return {}
     note = ""
@@ -179,12 +180,12 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
 
 def _of_the_motor(spec: Hoist, motor: DutyMotor, mass: float, height: float | None) -> Numbers:
     loads: Numbers = {}
-    field = drive.field_speed(motor)
+    field = torques.field_speed(motor)
     if field is not None:
-        loads["start_heat"] = drive.start_heat(spec, motor, field, mass, height)
+        loads["start_heat"] = torques.start_heat(spec, motor, field, mass, height)
     if spec.duty is not None:
-        loads["torque_motor_rms"] = drive.rms_torque(spec, motor)
-        allowed = drive.permissible_torque(spec, motor)
+        loads["torque_motor_rms"] = torques.rms_torque(spec, motor)
+        allowed = torques.permissible_torque(spec, motor)
         if allowed is not None:
             loads["heating_utilisation"] = loads["torque_motor_rms"] / allowed
     return loads
@@ -192,7 +193,7 @@ def _of_the_motor(spec: Hoist, motor: DutyMotor, mass: float, height: float | No
 
 def _of_the_use(spec: Hoist) -> dict[str, Found]:
     """What the duty of the file asks of the class."""
-    return {name: Found(Estimate.exact(value)) for name, value in _use(spec.duty, drive.spectrum(spec)).items()}
+    return {name: Found(Estimate.exact(value)) for name, value in _use(spec.duty, torques.spectrum(spec)).items()}
 
 
 def _use(duty: Duty | None, spectrum: list[tuple[float, float]]) -> Numbers:
@@ -244,7 +245,7 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
         return
     mass = model.hook_mass(spec, scene)
     for layer, height in enumerate(model.layer_heights(spec), 1):
-        held = drive.held(spec, mass, height * _ONTO)
+        held = torques.held(spec, mass, height * _ONTO)
         if held is None or held.reserve >= 1:
             continue
         if layer > 1:

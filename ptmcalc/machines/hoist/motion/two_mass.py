@@ -2,9 +2,9 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
-from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import TOLERANCES, Moving, case_of
+from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
+from ptmcalc.machines.hoist.motion.loads import MOVING
+from ptmcalc.machines.hoist.motion.train import TOLERANCES, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist
 
 
@@ -21,16 +21,18 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     its tolerance. The numbers are trusted only if the energy ledger closes to 1e-9.
     **Source** derived in `numerics.piecewise` and `numerics.train`; worked cases of lift-off and braking.
     """
-    from ptmcalc.machines.hoist import motion  # with the numerics of trains, for the scenes that call for them
+    from ptmcalc.machines.hoist.motion import (
+        scene as played,
+    )  # with the numerics of trains, for the scenes that call for them
 
-    return motion.result(scene, case_of(spec, scene, carried & ALWAYS), level)
+    return played.result(scene, case_of(spec, scene, carried & ALWAYS), level)
 
 
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the run there will be."""
-    from ptmcalc.machines.hoist import motion
+    from ptmcalc.machines.hoist.motion import scene as played
 
-    return motion.cost(case_of(spec, scene, carried & ALWAYS), level)
+    return played.cost(case_of(spec, scene, carried & ALWAYS), level)
 
 
 TWO_MASS: Solver[Hoist, Moving] = Solver(

@@ -3,9 +3,9 @@
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.effects_motion import ALWAYS
-from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import Moving
+from ptmcalc.machines.hoist.motion.effects import ALWAYS
+from ptmcalc.machines.hoist.motion.loads import MOVING
+from ptmcalc.machines.hoist.motion.train import Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Start, Stop
 
 
@@ -23,16 +23,16 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     trusted only if the energy ledger, with the strain wound onto the drum, closes to 1e-9.
     **Source** derived in `numerics.rope.march`; its adiabatic limit is `laws.rope_rod.hauling_gain`.
     """
-    from ptmcalc.machines.hoist import rope_case, rope_motion  # for the scenes that call for them
+    from ptmcalc.machines.hoist.motion import rope_case, rope_scene  # for the scenes that call for them
 
-    return rope_motion.result(spec, scene, rope_case.hauled(spec, scene), level)
+    return rope_scene.result(spec, scene, rope_case.hauled(spec, scene), level)
 
 
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the run there will be."""
-    from ptmcalc.machines.hoist import rope_case, rope_motion
+    from ptmcalc.machines.hoist.motion import rope_case, rope_scene
 
-    return rope_motion.cost(spec, scene, rope_case.hauled(spec, scene), level)
+    return rope_scene.cost(spec, scene, rope_case.hauled(spec, scene), level)
 
 
 def valid(spec: Hoist, scene: Moving) -> Criterion | None:
@@ -42,7 +42,7 @@ def valid(spec: Hoist, scene: Moving) -> Criterion | None:
     **Error** as there.
     **Source** as there.
     """
-    from ptmcalc.machines.hoist import rope_case
+    from ptmcalc.machines.hoist.motion import rope_case
 
     return rope_case.has_rigid_gear(spec, scene)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found
-from ptmcalc.machines.hoist.moving import FLANK, GEARBOX, LEAST_LEFT, LOAD, ROPE, SHAFT, STRUCTURE, Case
+from ptmcalc.machines.hoist.motion.train import FLANK, GEARBOX, LEAST_LEFT, LOAD, ROPE, SHAFT, STRUCTURE, Case
 from ptmcalc.numerics.components import components
 from ptmcalc.numerics.record import Record
 from ptmcalc.numerics.train.modes import frequencies

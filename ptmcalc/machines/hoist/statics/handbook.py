@@ -4,7 +4,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import brake, hoisting, reeving, wire_rope
-from ptmcalc.machines.hoist import drive, model
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 
@@ -34,7 +35,7 @@ def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> 
         down = hoisting.lowering_torque(on_drum * tackle**2, ratio, efficiency)
         loads["torque_motor_static_up"] = hoisting.hoisting_torque(on_drum, ratio, efficiency)
         loads["torque_motor_static_down"] = down
-        if spec.brake is not None and spec.brake.shaft == drive.MOTOR_SHAFT:
+        if spec.brake is not None and spec.brake.shaft == torques.MOTOR_SHAFT:
             loads["brake_reserve_static"] = brake.brake_reserve(spec.brake.torque, down)
     return Result({name: Found(Estimate.unknown(value)) for name, value in loads.items()}, work=1)
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair
-from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.checks_drive import curve_number
-from ptmcalc.machines.hoist.moving import Moving, case_of
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.drive.checks import curve_number
+from ptmcalc.machines.hoist.motion.train import Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.spec.scene import Scene
 
@@ -146,7 +147,7 @@ def _way_limit(spec: Hoist, scene: Stop) -> Estimate:
 
 def _way_repair(spec: Hoist, scene: Moving) -> KeyPath:
     """A brake that does not hold is told so, and what it lacks, by HST118: near that limit a stop takes for ever."""
-    held = drive.held(spec, model.hook_mass(spec, scene), scene.hook_height)
+    held = torques.held(spec, model.hook_mass(spec, scene), scene.hook_height)
     return () if held is None or held.reserve < 1 else ("brake", "torque")
 
 

@@ -7,9 +7,9 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import braking_number_at, number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, only
 from ptmcalc.laws import hoist_class
-from ptmcalc.machines.hoist import drive
-from ptmcalc.machines.hoist.checks import RUNNING, Loads, OneCheck, loaded
+from ptmcalc.machines.hoist.drive import torques
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
+from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, Loads, OneCheck, loaded
 
 
 def _driven(spec: Hoist, scene: HoistScene) -> bool:
@@ -205,7 +205,7 @@ def _brake_wanted(spec: Hoist, scene: HoistScene) -> bool:
 def _brake_needs(spec: Hoist, scene: Run) -> tuple[KeyPath, ...]:
     if spec.brake is None:
         return (("brake",),)
-    return _gearbox(spec, scene) if spec.brake.shaft == drive.MOTOR_SHAFT else ()
+    return _gearbox(spec, scene) if spec.brake.shaft == torques.MOTOR_SHAFT else ()
 
 
 def _brake_key(spec: Hoist, scene: Run, loads: Loads) -> KeyPath:

@@ -2,9 +2,9 @@
 
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.effects_motion import ALWAYS, SCENES
-from ptmcalc.machines.hoist.loads_motion import MOVING
-from ptmcalc.machines.hoist.moving import TOLERANCES, Moving, case_of
+from ptmcalc.machines.hoist.motion.effects import ALWAYS, SCENES
+from ptmcalc.machines.hoist.motion.loads import MOVING
+from ptmcalc.machines.hoist.motion.train import TOLERANCES, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist
 
 
@@ -18,16 +18,18 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     **Error** as `two_mass`.
     **Source** as `two_mass`; the bridge with mass against an independent integration.
     """
-    from ptmcalc.machines.hoist import motion  # with the numerics of trains, for the scenes that call for them
+    from ptmcalc.machines.hoist.motion import (
+        scene as played,
+    )  # with the numerics of trains, for the scenes that call for them
 
-    return motion.result(scene, case_of(spec, scene, carried), level)
+    return played.result(scene, case_of(spec, scene, carried), level)
 
 
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the run there will be."""
-    from ptmcalc.machines.hoist import motion
+    from ptmcalc.machines.hoist.motion import scene as played
 
-    return 1e-3 + motion.cost(case_of(spec, scene, carried), level)
+    return 1e-3 + played.cost(case_of(spec, scene, carried), level)
 
 
 TRAIN: Solver[Hoist, Moving] = Solver(

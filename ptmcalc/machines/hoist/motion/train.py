@@ -17,8 +17,9 @@ from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import bodies, start_profile, two_mass
 from ptmcalc.laws import brake as braking
-from ptmcalc.machines.hoist import drive, model
-from ptmcalc.machines.hoist.reduced import (
+from ptmcalc.machines.hoist import model
+from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.motion.reduced import (
     braked_way,
     hauling_efficiency,
     hook_force,
@@ -218,7 +219,7 @@ class _Builder:
         stiffness = self._hook_stiffness
         scene, lowers = self.scene, self.way < 0
         drop = scene.hook_height or self.spec.height
-        held = drive.held(self.spec, model.hook_mass(self.spec, scene), scene.hook_height)
+        held = torques.held(self.spec, model.hook_mass(self.spec, scene), scene.hook_height)
         holds = isinstance(scene, Stop | LowerBrake) and held is not None and held.reserve > 1
         weak = self.lifts and self._most_force < self.weight
         return Case(

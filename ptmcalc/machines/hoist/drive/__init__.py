@@ -1,0 +1,1 @@
+"""The drive in steady motion: motor, gearbox, brake, duty."""

@@ -1,0 +1,1 @@
+"""Keys of a hoist that its parts share: tackle and drive."""

@@ -1,0 +1,1 @@
+"""Lifting, lowering, stopping, release: oscillation of load, rope, drive and structure."""

@@ -1,0 +1,1 @@
+"""Steady hoisting and lowering: rope, sheaves, drum, classification."""

@@ -1,0 +1,1 @@
+"""Multilayer winding: the rope climbs to its next layer."""
