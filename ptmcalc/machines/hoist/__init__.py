@@ -6,22 +6,18 @@ from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import lift_off_standard
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.assumptions import assumptions
-from ptmcalc.machines.hoist.drive.checks import CHECKS_OF_DRIVE
+from ptmcalc.machines.hoist.drive.topic import DRIVE
 from ptmcalc.machines.hoist.figures import FIGURES
-from ptmcalc.machines.hoist.loads import LOADS, parts
 from ptmcalc.machines.hoist.model import drum_speed
-from ptmcalc.machines.hoist.motion.checks import CHECKS_OF_MOTION
-from ptmcalc.machines.hoist.motion.effects import EFFECTS_OF_MOTION
+from ptmcalc.machines.hoist.motion.topic import MOTION
 from ptmcalc.machines.hoist.relations import RELATIONS
-from ptmcalc.machines.hoist.solvers import SOLVERS
 from ptmcalc.machines.hoist.spec import CREEPING, Hoist
-from ptmcalc.machines.hoist.statics.checks_drum import CHECKS_OF_DRUM
-from ptmcalc.machines.hoist.statics.checks_rope import CHECKS
-from ptmcalc.machines.hoist.winding.checks import CHECKS_OF_WINDING
-from ptmcalc.machines.hoist.winding.effects import LAYER_MAP
+from ptmcalc.machines.hoist.statics.topic import STATICS
+from ptmcalc.machines.hoist.winding.topic import WINDING
 
 _SPEED_TOLERANCE = 0.05
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
@@ -83,21 +79,19 @@ def _editions_that_differ(spec: Hoist) -> Iterator[Finding]:
         )
 
 
+TOPICS = (STATICS, DRIVE, MOTION, WINDING)
+
 KIND = MachineKind(
     name="hoist",
     title="hoist: rope, drum, motor, brake",
     spec=Hoist,
-    loads=LOADS,
-    effects=(*EFFECTS_OF_MOTION, LAYER_MAP),
     figures=FIGURES,
-    solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_DRUM, *CHECKS_OF_DRIVE, *CHECKS_OF_MOTION, *CHECKS_OF_WINDING),
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
     assumed=assumptions,
     inspect=inspect,
-    parts=parts,
     relations=RELATIONS,
     seconding=witnesses_in(__package__),
+    **of_topics(TOPICS),
 )

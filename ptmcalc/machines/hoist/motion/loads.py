@@ -3,7 +3,7 @@
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 
-MOTION = (
+LOADS_OF_MOTION = (
     LoadInfo("lift_off_factor", "lift-off factor F_max/Q", units.RATIO, governing=True),
     LoadInfo("lowering_brake_factor", "dynamic factor, lowering stop", units.RATIO, governing=True),
     LoadInfo("start_factor", "dynamic factor, start", units.RATIO, governing=True),
@@ -26,7 +26,7 @@ MOTION = (
     LoadInfo("natural_frequency", "lowest natural frequency", units.ANGULAR_FREQUENCY),
     LoadInfo("energy_residual", "energy balance error", units.RATIO, headline=False),
 )
-MOVING = frozenset(info.name for info in MOTION)
+MOVING = frozenset(info.name for info in LOADS_OF_MOTION)
 FORCES = frozenset(
     {
         "lift_off_factor",

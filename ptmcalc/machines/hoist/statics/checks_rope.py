@@ -259,7 +259,7 @@ USE: OneCheck = only(_use_wanted)(
     )
 )
 
-CHECKS: tuple[AnyCheck, ...] = (
+CHECKS_OF_ROPE: tuple[AnyCheck, ...] = (
     ROPE,
     DRUM_BEND,
     SHEAVE_BEND,
@@ -267,4 +267,3 @@ CHECKS: tuple[AnyCheck, ...] = (
     SLACK,
     USE,
 )
-"""The drum is judged in `checks_drum`, the drive in `checks_drive`; what moves and what winds have their own."""

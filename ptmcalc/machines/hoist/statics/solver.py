@@ -11,10 +11,11 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, hoisting, reeving, rope_drum, wire_rope
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.drive import torques
+from ptmcalc.machines.hoist.drive.loads import OF_THE_CLASS, OF_THE_DRIVE
 from ptmcalc.machines.hoist.keys.drive import Duty
-from ptmcalc.machines.hoist.loads import STATIC
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, LowerBrake, Run, Start, Stop
+from ptmcalc.machines.hoist.statics.loads import OF_THE_DRUM, OF_THE_ROPE
 
 Numbers = dict[str, float]
 
@@ -217,7 +218,8 @@ HOIST_STATICS: Solver[Hoist, HoistScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run}),
     represents=frozenset(),
-    gives=frozenset(info.name for info in STATIC) | {"natural_frequency"},
+    gives=frozenset(info.name for info in (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS))
+    | {"natural_frequency"},
     run=run,
     cost=lambda spec, scene, carried, level: 1e-3,
     source="balance of every sheave; geometry of the drum; power balance of the gearbox; IEC 60034-1; ISO 4301-1",

@@ -4,7 +4,6 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.hoist.loads import OF_THE_WINDING
 from ptmcalc.machines.hoist.model import filled
 from ptmcalc.machines.hoist.spec import Hoist, WindUp
 from ptmcalc.machines.hoist.winding.climb import (
@@ -17,6 +16,7 @@ from ptmcalc.machines.hoist.winding.climb import (
     rope,
     turns,
 )
+from ptmcalc.machines.hoist.winding.loads import OF_THE_WINDING
 from ptmcalc.numerics.hauling import haul
 
 

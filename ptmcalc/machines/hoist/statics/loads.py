@@ -1,10 +1,9 @@
-"""The loads a hoist can report."""
+"""Loads of steady hoisting and lowering: rope and drum."""
 
 from collections.abc import Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
-from ptmcalc.machines.hoist.motion.loads import MOTION
 from ptmcalc.machines.hoist.spec import Hoist
 
 OF_THE_ROPE = (
@@ -41,51 +40,13 @@ OF_THE_DRUM = (
     LoadInfo("layer_pull", "rope pull on layer at first-layer torque", units.FORCE, headline=False),
     LoadInfo("torque_drum", "drum torque, hoisting", units.TORQUE, governing=True),
 )
-OF_THE_DRIVE = (
-    LoadInfo("motor_speed", "motor speed", units.ANGULAR_SPEED),
-    LoadInfo("torque_motor_static_up", "motor torque, steady hoisting", units.TORQUE, governing=True),
-    LoadInfo("torque_motor_static_down", "motor torque, steady lowering", units.TORQUE),
-    LoadInfo("power_hoisting", "motor power, steady hoisting", units.POWER, governing=True),
-    LoadInfo("starting_reserve", "starting torque reserve", units.RATIO, governing=True),
-    LoadInfo("overhauling_reserve", "motor braking torque reserve", units.RATIO),
-    LoadInfo("start_time", "hoisting start time, rigid model", units.TIME),
-    LoadInfo("torque_motor_rms", "motor torque, rms", units.TORQUE, governing=True),
-    LoadInfo("heating_utilisation", "thermal utilisation (rms torque)", units.SHARE, governing=True),
-    LoadInfo("start_heat", "rotor heat per start, one motor", units.ENERGY),
-    LoadInfo("starts_per_hour", "starts per hour", units.RATIO, headline=False),
-    LoadInfo("brake_torque_static", "load torque at brake shaft, lowering", units.TORQUE),
-    LoadInfo("brake_reserve_static", "brake holding torque reserve", units.RATIO, governing=True),
-    LoadInfo("drop_distance", "load drop with brake applied", units.SPAN, governing=True),
-    LoadInfo("drop_speed", "load speed at end of drop", units.SPEED),
-)
-OF_THE_CLASS = (
-    LoadInfo("equivalent_load_share", "equivalent / rated load", units.RATIO, headline=False),
-    LoadInfo("spectrum_factor", "load spectrum factor", units.RATIO, headline=False),
-    LoadInfo("mechanism_group", "required mechanism group, M", units.RATIO, headline=False),
-    LoadInfo("crane_group", "required crane group, A", units.RATIO, headline=False),
-)
-OF_THE_WINDING = (
-    LoadInfo("winding_frequency", "natural frequency of load on rope", units.ANGULAR_FREQUENCY, governing=True),
-    LoadInfo("winding_displacement_max", "dynamic rope elongation, maximum", units.LENGTH),
-    LoadInfo("winding_stress_max", "dynamic rope stress, maximum", units.STRESS, governing=True),
-    LoadInfo("winding_stress_ratio", "dynamic / mean rope stress", units.RATIO, governing=True),
-    LoadInfo("winding_crossover_ratio", "crossover / natural frequency", units.RATIO),
-    LoadInfo("winding_detuning", "crossover separation, minimum", units.RATIO),
-)
-OF_THE_PAPER = (
-    LoadInfo("winding_displacement_paper", "rope elongation, published formula", units.LENGTH, headline=False),
-    LoadInfo("winding_stress_paper", "rope stress, published formula", units.STRESS, headline=False),
-)
-STATIC = (*OF_THE_ROPE, *OF_THE_DRUM, *OF_THE_DRIVE, *OF_THE_CLASS)
-
-LOADS = (*STATIC, *MOTION, *OF_THE_WINDING, *OF_THE_PAPER)
 
 LAYERED = frozenset({"layer_speed", "layer_torque", "layer_pull"})
 
 
 def parts(spec: Hoist) -> Iterator[LoadInfo]:
-    """The loads of one hoist: fall by fall of a rope, the drum's first; layer by layer of the drum."""
-    for info in LOADS:
+    """Those of one hoist: fall by fall of a rope, the drum's first; layer by layer of the drum."""
+    for info in (*OF_THE_ROPE, *OF_THE_DRUM):
         if info.name == "rope_pull_fall":
             yield from (info.of(str(fall)) for fall in range(1, spec.reeving.falls // spec.reeving.ropes + 1))
         elif info.name in LAYERED:
