@@ -7,7 +7,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
 from ptmcalc.machines.conveyor.plausible import implausible
 from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
-from ptmcalc.machines.conveyor.waves.effects import jumps
+from ptmcalc.machines.conveyor.waves.effects.damping import jumps
 
 _SPEED_TOLERANCE = 0.05
 _WEIGHT_TOLERANCE = 0.05

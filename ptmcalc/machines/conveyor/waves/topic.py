@@ -3,12 +3,32 @@
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
-from ptmcalc.machines.conveyor.waves.effects import EFFECTS
+from ptmcalc.machines.conveyor.waves.effects.damping import BELT_DAMPING
+from ptmcalc.machines.conveyor.waves.effects.gear import GEAR_LOSSES
+from ptmcalc.machines.conveyor.waves.effects.idlers import COULOMB_IDLERS, VISCOUS_IDLERS
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import MOVING_BELT
+from ptmcalc.machines.conveyor.waves.effects.sag import SAG
+from ptmcalc.machines.conveyor.waves.effects.slip import SLIP
+from ptmcalc.machines.conveyor.waves.effects.tail import TAIL_JUMP, TAIL_MASS
+from ptmcalc.machines.conveyor.waves.effects.takeup import TAKEUP_MASS
+from ptmcalc.machines.conveyor.waves.effects.wave import BELT_WAVE
 from ptmcalc.machines.conveyor.waves.first_wave import FIRST_WAVE
 from ptmcalc.machines.conveyor.waves.network import NETWORK, RUNNING_NETWORK
 from ptmcalc.machines.conveyor.waves.two_interval import TWO_INTERVAL
 
 WAVES: Topic[Conveyor] = Topic(
-    effects=EFFECTS,
+    effects=(
+        BELT_WAVE,
+        TAIL_JUMP,
+        TAIL_MASS,
+        SAG,
+        COULOMB_IDLERS,
+        TAKEUP_MASS,
+        VISCOUS_IDLERS,
+        BELT_DAMPING,
+        MOVING_BELT,
+        SLIP,
+        GEAR_LOSSES,
+    ),
     solvers=(FIRST_WAVE, TWO_INTERVAL, CHARACTERISTICS, NETWORK, RUNNING_NETWORK),
 )

@@ -11,7 +11,8 @@ from ptmcalc.laws.loop_bounds import CARRY
 from ptmcalc.machines.conveyor.loads import AT_DRUM
 from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.waves import bounds, effects
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.effects import tail
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -82,8 +83,8 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
     if case.shape == "step" and not case.line.fixed_length and case.moves:
         ratio = case.window / (2 * _contour(case))
         for name, criterion in (
-            ("tail_jump", effects.jump_criterion),
-            ("tail_mass", effects.tail_mass_criterion),
+            ("tail_jump", tail.jump_criterion),
+            ("tail_mass", tail.tail_mass_criterion),
         ):
             if spec.effects.get(name) != "off":
                 number = criterion(spec, scene)

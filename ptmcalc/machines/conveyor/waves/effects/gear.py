@@ -1,0 +1,80 @@
+"""Side of the gear losses during a stop."""
+
+import math
+
+from ptmcalc.base.estimate import Interval
+from ptmcalc.base.memory import kept_for
+from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.contract.result import family
+from ptmcalc.machines.conveyor.drives import running
+from ptmcalc.machines.conveyor.loads import OF_STOP
+from ptmcalc.machines.conveyor.spec import (
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    EmergencyStop,
+    Stop,
+)
+from ptmcalc.machines.conveyor.stopping.rigid import GearChange, changing_sides
+from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, moved_by
+
+GEAR_THRESHOLD = 0.001
+"""Change of the stopping time from which on the side of the gear losses is reported; an engineering choice."""
+_GEAR_WAVES, _GEAR_MARGIN = 2.0, 1.2
+"""A force that appears at once raises a wave of at most twice its size; the belt at the head changes its speed earlier
+or later than the rigid body by less than a fifth of the change."""
+
+
+def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Relative change of the stopping time when the losses of each gear are on the side that is driven.
+
+        |t_changing - t_fixed|/t_fixed   of the rigid conveyor
+
+    **Range** any stop; 0 where the belt does not stop.
+    **Error** that of the integration, below 1e-4.
+    **Source** power through a gear: losses are on the driven side (`stopping.rigid.changing_sides`).
+    """
+    meaning = "change of the stopping time by the side of the gear losses"
+    return Criterion("dt/t", _gear_change(spec, scene).relative, GEAR_THRESHOLD, meaning, "gear losses")
+
+
+@kept_for(64)
+def _gear_change(spec: Conveyor, scene: ConveyorScene) -> GearChange:
+    return changing_sides(spec, scene, running(spec, scene))
+
+
+def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of the loads of a stop when the losses of its gears change their side during it.
+
+        dS = 2 dF,   dF the largest difference of the gear's force;   dt, ds: 1.2 times those of the rigid conveyor
+
+    A pulley that slips already keeps its grip.
+
+    **Range** any stop.
+    **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
+    **Source** `stopping.rigid.changing_sides`.
+    """
+    change = _gear_change(spec, scene)
+    if not change.force:
+        return {}
+    line = running(spec, scene)
+    found = dict(moved_by(spec, scene, line, loads, _GEAR_WAVES * change.force))
+    for name, load in loads.items():
+        kind = family(name)
+        used = loads.get(name.replace(kind, "slip_utilisation_max", 1))
+        if kind in bounds.OF_GRIP and used is not None and used.low >= 1:
+            found.pop(name, None)
+        if kind in OF_STOP and math.isfinite(load.value):
+            by = _GEAR_MARGIN * (change.time if kind == "stop_time" else change.way)
+            found[name] = Interval(min(by, 0.0), max(by, 0.0))
+    return found
+
+
+GEAR_LOSSES = Effect(
+    "gear_losses",
+    "side of the gear losses during a stop",
+    frozenset({Stop, EmergencyStop, Coast}),
+    gear_criterion,
+    gear_bound,
+)

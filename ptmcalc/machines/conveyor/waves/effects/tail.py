@@ -1,0 +1,99 @@
+"""The tail pulley: reflection of waves, and its mass."""
+
+from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.laws import wave
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor.model import (
+    belt_line,
+)
+from ptmcalc.machines.conveyor.spec import (
+    IN_MOTION,
+    Conveyor,
+    ConveyorScene,
+)
+from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, belt_mass, small_change
+
+JUMP_THRESHOLD = 0.02
+TAIL_MASS_THRESHOLD = 0.01
+_JUMP_FACTOR = 2.5
+_TAIL_MASS_FACTOR = 5.0
+
+
+def jump_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Part of a wave that the tail sends back because carry and return strand differ.
+
+        r = |Z1 - Z2|/(Z1 + Z2)
+
+    **Range** any belt.
+    **Error** exact.
+    **Source** `laws.wave.reflection`; the threshold of 2 % is an engineering choice.
+    """
+    line = belt_line(spec, scene)
+    value = abs(wave.reflection(line.impedance(CARRY), line.impedance(RETURN)))
+    return Criterion("r", value, JUMP_THRESHOLD, "part of a wave the tail reflects", "laws.wave.reflection")
+
+
+def jump_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of any tension when the return strand is given the impedance of the carry strand.
+
+        d = r a M_belt + min(2.5 r sqrt(1 + n), 2) a b_max g
+
+    The first term is the change of the return strand's mass (2 r of it); the second grows with the number n of
+    contour times in the window and is capped by the stray of both motions.
+
+    **Range** r below 0.02; unbounded above.
+    **Error** calibrated: the largest value of the sample was 1.6 in place of 2.5.
+    **Source** perturbation of the reflected waves; coverage sample.
+    """
+    r = jump_criterion(spec, scene).value
+    return small_change(spec, scene, loads, r, r < JUMP_THRESHOLD, _JUMP_FACTOR)
+
+
+def tail_mass_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
+    """Mass of the tail drum over that of belt and load.
+
+        m_t/m_belt
+
+    **Range** any belt.
+    **Error** exact.
+    **Source** the threshold of 1 % is an engineering choice.
+    """
+    line = belt_line(spec, scene)
+    value = line.tail_mass / belt_mass(line)
+    return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail drum over belt and load", "Newton's law")
+
+
+def tail_mass_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
+    """Change of any tension when the tail drum is taken without mass.
+
+        d = e a M_belt + min(5 e sqrt(1 + n), 2) a b_max g,   e = m_t/m_belt
+
+    The first term is the pull of the drum itself; the second as in `jump_bound`.
+
+    **Range** m_t/m_belt below 0.01; unbounded above.
+    **Error** calibrated: the largest value of the sample was 3.4 in place of 5.
+    **Source** perturbation of the tail's equation of motion; coverage sample.
+    """
+    share = tail_mass_criterion(spec, scene).value
+    return small_change(spec, scene, loads, share, share < TAIL_MASS_THRESHOLD, _TAIL_MASS_FACTOR)
+
+
+TAIL_JUMP = Effect(
+    "tail_jump",
+    "wave reflection at the tail pulley",
+    IN_MOTION,
+    jump_criterion,
+    jump_bound,
+    part_of="belt_wave",
+    calibrated=True,
+)
+
+TAIL_MASS = Effect(
+    "tail_mass",
+    "mass of the tail pulley",
+    IN_MOTION,
+    tail_mass_criterion,
+    tail_mass_bound,
+    part_of="belt_wave",
+    calibrated=True,
+)
