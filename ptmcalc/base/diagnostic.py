@@ -99,7 +99,7 @@ CODES: Mapping[str, CodeText] = MappingProxyType(
             "Delete one of the two keys.",
         ),
         "TXT107": CodeText(
-            "YAML tag",
+            "tag in the YAML text",
             "A design file contains data only. A tag requests the construction of an object and is rejected.",
             "Delete the tag (the word that starts with an exclamation mark).",
         ),

@@ -41,7 +41,7 @@ class Buffer(Fragment):
 
     type: Literal["linear", "progressive", "constant", "hydraulic"] = "linear"
     """`linear`: springs, rubber; `progressive`: cellular plastic, its force grows as a power of the stroke; `constant`:
-    friction, hydraulic with a tapered pin; `hydraulic`: one orifice, its force goes with the square of the speed"""
+    friction, hydraulic with a tapered pin; `hydraulic`: one orifice, force proportional to the square of the speed"""
     count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one on each rail, as cranes have them")] = 2
     """buffers that are hit at once, one on each rail"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("force, end_force, orifice")] = None
@@ -58,7 +58,7 @@ class Buffer(Fragment):
     orifice: Annotated[PositiveLineMass | None, OneOf("stiffness, force, end_force")] = None
     """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
     stroke: PositiveLength
-    """way it can be pressed in"""
+    """maximum compression"""
     rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of one buffer, or of what it stands on; needed to check it"""
     largest_speed: Annotated[PositiveSpeed | None, Limit()] = None

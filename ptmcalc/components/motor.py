@@ -113,7 +113,7 @@ class RatedMotor(Motor):
     """A motor whose rated torque is given as such."""
 
     rated_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """the torque the motor bears in its rated duty; needed to check its heating"""
+    """the permissible torque of the motor in its rated duty; needed to check its heating"""
 
     @property
     def rated(self) -> float | None:
@@ -325,11 +325,11 @@ class ConverterMotor(RatedMotor):
     power: Annotated[PositivePower | None, OneOf("rated_torque")] = None
     """rated power on the shaft, or give `rated_torque`"""
     speed: PositiveAngularSpeed
-    """speed asked for"""
+    """required speed"""
     rated_speed: Annotated[PositiveAngularSpeed | None, OneOf("speed")] = None
     """speed at which the motor has its rated `power` and `slip`; `speed` when left out"""
     ramp_time: Time
-    """time in which the reference rises from 0 to `speed`; 0 s asks for it at once"""
+    """time in which the reference rises from 0 to `speed`; 0 s is a step"""
     torque_limit: PositiveTorque
     """the most the converter lets the motor give, driving and braking"""
     slip: Annotated[RatedSlip | None, OneOf("stiffness")] = None

@@ -140,7 +140,7 @@ class SlewGear(Fragment):
     rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """of the gearbox on its fast shaft, in its group of the mechanism; needed to check it"""
     pinion_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """that the open pinion bears for its life; needed to check it"""
+    """permissible for the life of the open pinion; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

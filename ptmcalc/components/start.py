@@ -27,7 +27,7 @@ class ProfilePoint(Fragment):
 
 
 class Profile(Fragment):
-    """How the drive comes up."""
+    """How the drive starts."""
 
     shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
     """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
@@ -38,7 +38,7 @@ class Profile(Fragment):
     points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
     """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
     control: Literal["torque", "speed"] | None = None
-    """what follows the profile; a step is of torque, anything else of speed unless this says `torque`"""
+    """what follows the profile; a step is of torque, any other shape is of speed unless this is `torque`"""
     ripple: Annotated[PositiveFrequency | None, Absent("a control that does not pulsate")] = None
     """frequency at which the control of the drive pulsates; it is kept away from those of the machine"""
 

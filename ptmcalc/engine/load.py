@@ -62,7 +62,7 @@ def load_text(raw: bytes, name: str, effects: Mapping[str, str] | None = None, a
     document = parse(raw, name)
     asked = _asked(document, effects or {}, accuracy)
     document, kind, spec, problems = _read(document, asked)
-    problems = _in_file_order(said_as_written(one, document) for one in (*document.problems, *problems))
+    problems = _in_file_order([*document.problems, *(said_as_written(one, document) for one in problems)])
     if kind is None or spec is None or problems:
         return Loaded(document, kind, diagnostics=tuple(problems))
     spec, assumed = fill(kind, spec)

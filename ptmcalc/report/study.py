@@ -57,7 +57,7 @@ def sweep_table(
         ends = " to ".join(show(float(end), key.quantity) for end in (column.min(), column.max()))
         now = f", now {show(key.present, key.quantity)}" if key.present is not None else ""
         text += f"  {name}:{key.span.line}  {key.name}: {ends}{now}\n"
-    columns = ("check", "scene", "is there ...?", "pass", "fail", "open", "least margin", "there")
+    columns = ("check", "scene", "title", "pass", "fail", "open", "least margin", "there")
     rows = [
         (
             part_of(track),
@@ -239,7 +239,7 @@ def risk_table(name: str, points: Points, found: Sequence[Risk], confidence: flo
         column = points.values[:, number]
         low, middle, high = (show(float(np.quantile(column, q)), key.quantity) for q in (0.025, 0.5, 0.975))
         text += f"  {name}:{key.span.line}  {key.name}: {middle} in the middle, 95 % from {low} to {high}\n"
-    columns = ("check", "scene", "is there ...?", "fails", "open", f"margin of {sure}", "driven by")
+    columns = ("check", "scene", "title", "fails", "open", f"margin of {sure}", "driven by")
     rows = [
         (
             part_of(one.track),

@@ -180,6 +180,14 @@ def test_both_names_at_once_are_one_error(case: Case) -> None:
     assert text.splitlines()[problem.span.line - 1].strip().startswith(f"{name}:")
 
 
+def test_the_second_name_is_at_fault_whichever_it_is() -> None:
+    data = template()
+    torque = data.pop("backstop")
+    (problem,) = read(data | {"holdback": torque} | {"backstop": torque}).diagnostics
+    assert problem.message == "`backstop`: give it or `holdback`, not both: they are one key"
+    assert problem.hint == "delete `backstop`"
+
+
 def test_an_unknown_key_below_it_is_named_as_the_file_does(case: Case) -> None:
     data, path, name = case
     block: Any = data

@@ -93,7 +93,7 @@ class ChainData(Fragment):
     strength: Annotated[PositiveStress | None, Limit()] = None
     """tensile strength of the plates; counts the mean stress in the check of fatigue"""
     fatigue_limit: Annotated[PositiveStress | None, Limit()] = None
-    """stress amplitude the plates bear for the passes of the wanted life; needed to check fatigue"""
+    """stress amplitude the plates bear for the passes of the required life; needed to check fatigue"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -170,7 +170,7 @@ class TailSprocket(Fragment):
     inertia: Annotated[Inertia | None, Assumed()] = None
     """on its own shaft, shaft and all; 0 when left out"""
     driven: Literal["on", "off"] = "off"
-    """`on`: a drive of its own turns it evenly"""
+    """`on`: a drive of its own turns it at constant speed"""
     phase: Annotated[Fraction | None, Setting("the worst phase when left out")] = None
     """place in the pitch of the joints of a driven one, from those of the drive; the worst of all when left out"""
 
@@ -210,7 +210,7 @@ class Wear(Fragment):
     archard: Archard | None = None
     """another model, by pressure and sliding path"""
     tensions: Literal["sum", "mean"] = "sum"
-    """textbook: the tensions at run-on and run-off of a sprocket count by their `sum` or their `mean` (twice the
+    """textbook: entering and leaving tensions of a sprocket count by their `sum` or their `mean` (twice the
     life)"""
     elongation: Annotated[PositiveRatio | None, Assumed()] = None
     """share of its length by which the chain may grow; 4 % is assumed when left out, 3 to 6 % is usual"""

@@ -50,9 +50,9 @@ class TakeUp(Fragment):
     """What keeps the chain of a conveyor taut."""
 
     type: Literal["gravity", "screw"]
-    """`gravity`: a weight beside the drive keeps the run-off tension; `screw`: a fixed length of loop"""
+    """`gravity`: a weight next to the drive keeps the leaving tension; `screw`: a fixed length of loop"""
     tension: PositiveForce
-    """of the strand: at the run-off (gravity), or the mean round the loop when it was set (screw)"""
+    """of the strand: leaving tension (gravity), or the mean of the loop when it was set (screw)"""
     mass: Annotated[PositiveMass | None, Absent("the take-up keeps its tension; its inertia is only bounded")] = None
     """of the weight with its carriage (gravity, on two falls); without it the tension stays constant"""
 
@@ -105,7 +105,7 @@ class TwoShafts(Fragment):
     pitches: Annotated[Annotated[int, Field(ge=6, le=100_000, strict=True)] | None, OneOf("centre_distance")] = None
     """length of the chain in pitches, even; follows from `centre_distance`, rounded up to even, when left out"""
     cranked_link: Literal["yes", "no"] = "no"
-    """an odd number of pitches, closed by a cranked link, which bears 80 % of the breaking load"""
+    """an odd number of pitches, closed by a cranked link, which has 80 % of the breaking load"""
     power: Annotated[PositivePower | None, OneOf("torque")] = None
     """on the driven shaft, or give `torque`"""
     torque: Annotated[PositiveTorque | None, OneOf("power")] = None

@@ -76,7 +76,7 @@ class Backstop(Fragment):
 
 
 class Equalising(Fragment):
-    """A drive whose sprocket turns so unevenly that the chain runs evenly."""
+    """A drive that varies the sprocket speed to keep the chain speed constant."""
 
     residual: Annotated[Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to a tenth is left")] = 0.0
     """what is left of the polygon effect, as a share of it: how imperfectly the law is followed"""
@@ -133,15 +133,15 @@ class ChainChecks(CheckSettings):
     least_tension: Annotated[Force, Limit()] = 0.0
     """smallest tension of a strand in steady running"""
     life: Annotated[RunningTime | None, Limit()] = None
-    """wanted life; needed to check wear and fatigue"""
+    """required life; needed to check wear and fatigue"""
     fatigue: Annotated[PositiveRatio, Limit()] = 1.0
     """largest use of the permissible stress amplitude"""
     start_time: Annotated[PositiveTime | None, Limit()] = None
     """longest start"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way of the chain in a `stop`"""
+    """maximum stopping distance of the chain in a `stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way of the chain in an `emergency_stop`; `stop_distance` where it is left out"""
+    """maximum stopping distance of the chain in an `emergency_stop`; `stop_distance` where it is left out"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest time of any stop"""
 
@@ -167,9 +167,9 @@ class Start(ChainScene, TransientScene):
 
     type: Literal["start"] = "start"
     profile: Profile = Profile()
-    """how the drive comes up; a torque step when left out"""
+    """how the drive starts; a torque step when left out"""
     chain: Literal["frozen", "relaxed"] = "frozen"
-    """how the chain lies: with the tensions of its running in it, or without any but the take-up's after a long rest"""
+    """initial state of the chain: with the tensions of running, or only that of the take-up after a long rest"""
 
 
 class Stopping(ChainScene, TransientScene):
@@ -191,11 +191,11 @@ class EmergencyStop(Stopping):
 
 
 class Coast(Stopping):
-    """The drive is switched off and no brake acts; a measured way tells the resistance."""
+    """The drive is switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
     measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
-    """way of a real run-out from the speed of the file"""
+    """distance of a real run-out from the speed of the file"""
 
 
 class Hold(ChainScene):
@@ -205,7 +205,7 @@ class Hold(ChainScene):
 
 
 class SpeedRange(ChainScene):
-    """The speed rises (or falls) evenly through a range, and through the resonances in it."""
+    """The speed rises (or falls) at a constant rate through a range, and through the resonances in it."""
 
     type: Literal["speed_range"] = "speed_range"
     start: PositiveSpeed = Field(alias="from")
@@ -235,7 +235,7 @@ class ChainDrive(MachineSpec):
     speed: PositiveSpeed
     """mean speed of the chain"""
     operating: Operating | None = None
-    """range of speeds of a drive with variable speed; half to one and a half of `speed` is looked at when left out"""
+    """range of speeds of a drive with variable speed; half to one and a half of `speed` when left out"""
     drive: Drive | None = None
     """motors and gear; needed for starts and stops"""
     equalising: Equalising | None = None

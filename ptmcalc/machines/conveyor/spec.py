@@ -101,15 +101,15 @@ class TakeUp(Fragment):
     """What keeps the belt taut."""
 
     type: Literal["gravity", "rigid"]
-    """`gravity`: a weight beside the drive keeps the run-off tension; `rigid`: a screw or locked winch"""
+    """`gravity`: a weight next to the drive keeps the leaving tension; `rigid`: a screw or locked winch"""
     tension: PositiveForce
-    """belt tension: at the run-off (gravity), or the mean round the loop when it was set (rigid)"""
+    """belt tension: leaving tension (gravity), or the mean of the loop when it was set (rigid)"""
     mass: Annotated[PositiveMass | None, Assumed(), Also("counterweight_mass")] = None
     """of the take-up weight with its carriage (gravity, on two falls); 2 T/g is assumed when it is left out"""
     stroke: Annotated[PositiveLength | None, Checked(), Also("travel")] = None
-    """way the take-up can go; needed to check it"""
+    """available take-up travel; needed to check it"""
     permanent_elongation: Annotated[Fraction | None, Assumed()] = None
-    """of the belt over its life, as a share of its length; adds to the way the take-up needs"""
+    """of the belt over its life, as a share of its length; adds to the required take-up travel"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -128,7 +128,7 @@ class TailDrum(Fragment):
 
 
 class SlipLimit(Fragment):
-    """How much grip must be left at the drum."""
+    """Required traction reserve at the pulley."""
 
     reserve: Annotated[FactorFromOne, Limit()] = 1.2
     """reserve of friction force k_T; 1.1 to 1.5 in practice"""
@@ -140,7 +140,7 @@ class ConveyorChecks(CheckSettings):
     """Limits of the checks of a conveyor."""
 
     slip: SlipLimit = SlipLimit()
-    """grip at the drive drum"""
+    """traction at the drive pulley"""
     belt_safety_running: Annotated[PositiveRatio | None, Limit()] = None
     """breaking force over largest tension in steady running"""
     belt_safety_starting: Annotated[PositiveRatio | None, Limit()] = None
@@ -150,9 +150,9 @@ class ConveyorChecks(CheckSettings):
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
     """sag over idler pitch at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way of the belt in a `stop`"""
+    """maximum stopping distance of the belt in a `stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way of the belt in an `emergency_stop`; `stop_distance` where it is left out"""
+    """maximum stopping distance of the belt in an `emergency_stop`; `stop_distance` where it is left out"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest time of any stop"""
     section_fill: Annotated[PositiveRatio, Limit()] = 1.0
@@ -163,7 +163,7 @@ class ConveyorChecks(CheckSettings):
     start_acceleration: Annotated[PositiveAcceleration | None, Limit()] = None
     """largest acceleration of the belt in a start; 0.1 to 0.3 m/s^2 is usual"""
     start_margins: Literal["on", "off"] = "off"
-    """whether a start may not be sharper than grip and slack surely bear; careful, CNV101 and CNV105 look closer"""
+    """whether the start acceleration is checked against traction and slack limits; CNV101 and CNV105 are more exact"""
     start_residual: Annotated[PositiveRatio | None, Limit()] = None
     """largest swing that a start's profile may leave in the lowest mode of the belt, over that of a step"""
     resonance_band: Annotated[Fraction, Limit()] = 0.15
@@ -202,9 +202,9 @@ class Start(ConveyorScene, TransientScene):
 
     type: Literal["start"] = "start"
     profile: Profile = Profile()
-    """how the drive comes up; a torque step when left out"""
+    """how the drive starts; a torque step when left out"""
     belt: Literal["frozen", "relaxed"] = "frozen"
-    """how the belt lies: with the friction of the running belt frozen in it, or without any after a long rest"""
+    """initial state of the belt: with the friction of running frozen in it, or without any after a long rest"""
     aborted: Aborted | None = None
     """a first try that is broken off"""
 
@@ -238,11 +238,11 @@ class EmergencyStop(Stopping):
 
 
 class Coast(Stopping):
-    """The drives are switched off and no brake acts; a measured way tells the resistance."""
+    """The drives are switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
     measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
-    """way of a real run-out from rated speed, from which the resistance coefficient is computed"""
+    """distance of a real run-out from rated speed, from which the resistance coefficient is computed"""
 
 
 class Jam(ConveyorScene, TransientScene):
@@ -252,9 +252,9 @@ class Jam(ConveyorScene, TransientScene):
     at: Literal["head", "tail"] = "head"
     """the drum that jams; the drives at the other end go on"""
     time: Annotated[Time, Setting("part of the scene: at once is the worst case")] = 0.0
-    """in which the drum comes to rest, evenly; 0 from one moment to the next"""
+    """in which the pulley comes to rest at a constant rate; 0 for an instantaneous stop"""
     duration: Annotated[PositiveTime | None, Setting("the window is printed with the loads")] = None
-    """how long the belt is looked at; twice round the belt for a wave when left out"""
+    """simulated time; twice round the belt for a wave when left out"""
 
 
 class Hold(ConveyorScene):

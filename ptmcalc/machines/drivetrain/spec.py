@@ -87,7 +87,7 @@ class Body(Fragment):
 
 
 class Clearance(Fragment):
-    """The play of a gear or toothed coupling from its geometry."""
+    """The backlash of a gear or toothed coupling from its geometry."""
 
     centre_distance: Annotated[PositiveLength | None, OneOf("value")] = None
     """with `accuracy_class`: least clearance of new spur gears, a*cbrt(A) (a reading of a lost table)"""
@@ -130,9 +130,9 @@ class Link(Fragment):
     damping: Annotated[Damping, Absent("undamped oscillations are the largest")] = 0.0
     """viscous damping of the link"""
     gap: Annotated[Play | None, Absent("a shaft or another part without clearance"), Also("backlash")] = None
-    """the whole play, half of it to either side"""
+    """total backlash, half of it to either side"""
     clearance: Clearance | None = None
-    """the play from a gear's geometry, instead of `gap`"""
+    """the backlash from the gear geometry, instead of `gap`"""
     slack: Annotated[Play | None, Absent("no rope or chain")] = None
     """a rope or chain: it pulls only, and only after so much travel"""
     law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
@@ -146,7 +146,7 @@ class Link(Fragment):
     restitution: Annotated[Fraction | None, Assumed()] = None
     """of a `rigid` contact; 0 to 0.5 is assumed when it is left out"""
     start: Literal["centred", "driving", "braking"] = "centred"
-    """where in its play the link stands at the start: `driving` touches on the side of a positive torque"""
+    """initial position of the link in its backlash: `driving` touches on the side of a positive torque"""
     preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
     """torque in the link at the start; with `slack` and `driving` the rope is taut"""
     limit: Annotated[PositiveTorque | None, Limit()] = None
@@ -247,7 +247,7 @@ class Brake(Fragment):
     ] = 0.0
     """from then until it acts fully; the time constant of an exponential rise"""
     rise: Literal["linear", "exponential"] = "linear"
-    """how it comes up"""
+    """how it rises"""
     applied: Literal["when_stopping", "always", "never"] = "when_stopping"
     """in which scenes the command is given, at their start"""
     below: Annotated[AnySpeed | None, Absent("the brake acts at any speed")] = None
@@ -459,7 +459,7 @@ class Motion(Fragment):
 
 
 class Impulse(Fragment):
-    """A blow: a sudden change of momentum."""
+    """An impact: a sudden change of momentum."""
 
     at: str
     """the inertia it acts on"""
@@ -477,7 +477,7 @@ class DrivetrainChecks(CheckSettings):
     stop_time: Annotated[PositiveTime | None, Limit()] = None
     """longest stop"""
     stop_angle: Annotated[Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Limit()] = None
-    """longest way of a stop"""
+    """maximum stopping distance"""
     resonance_margin: Annotated[Fraction, Limit()] = 0.2
     """least distance of an exciting frequency from a natural one, as a share of the natural one"""
     cycle_time: Annotated[
@@ -506,7 +506,7 @@ class Run(TrainScene):
 
     type: Literal["run"] = "run"
     duration: PositiveTime
-    """how long the scene is looked at"""
+    """simulated time"""
 
 
 class Start(TrainScene, TransientScene):
@@ -549,7 +549,7 @@ class Drivetrain(MachineSpec):
     motions: dict[str, Motion] = Field(default_factory=dict, max_length=40)
     """prescribed motions, by name"""
     impulses: dict[str, Impulse] = Field(default_factory=dict, max_length=40)
-    """blows, by name"""
+    """impulses, by name"""
     checks: DrivetrainChecks = DrivetrainChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None

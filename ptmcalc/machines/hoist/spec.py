@@ -92,7 +92,7 @@ class HoistChecks(CheckSettings):
     lowering_factor: Annotated[PositiveRatio | None, Limit()] = None
     """largest rope force over the weight in a stop or a start; needed to check it"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way of a lowered load to its stop; a stop at all is asked for when left out"""
+    """maximum stopping distance of a lowered load; only a stop is required when left out"""
     rope_share: Annotated[Fraction, Limit()] = 0.05
     """least rope force over the weight while it hangs: what keeps the rope in its grooves"""
     gear_impact: Annotated[PositiveRatio, Limit()] = 3.0
@@ -131,11 +131,11 @@ class Lift(HoistScene, TransientScene):
     rope: Literal["slack", "taut"] = "slack"
     """whether the drive must take up slack rope first, or the rope is taut without force"""
     slack: Annotated[PositiveLength | None, Setting("as much as brings the drive to its speed: the worst case")] = None
-    """way of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
+    """travel of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
     speed: Literal["main", "creep"] = "main"
     """of the hoist"""
     profile: Profile = Profile()
-    """how the drive comes up; a torque step when left out"""
+    """how the drive starts; a torque step when left out"""
 
 
 class Start(HoistScene, TransientScene):
@@ -145,7 +145,7 @@ class Start(HoistScene, TransientScene):
     direction: Literal["up", "down"] = "up"
     """of the load"""
     profile: Profile = Profile()
-    """how the drive comes up; a torque step when left out"""
+    """how the drive starts; a torque step when left out"""
 
 
 class Stop(HoistScene, TransientScene):
@@ -177,7 +177,7 @@ class Release(HoistScene, TransientScene):
 
 
 class WindUp(HoistScene, TransientScene):
-    """The rope climbs from a layer to the next one while the drum turns evenly."""
+    """The rope climbs from a layer to the next one while the drum turns at constant speed."""
 
     type: Literal["winding"] = "winding"
     layer: Annotated[int, Field(ge=2, le=20, strict=True), Setting("the first climb, which is the steepest")] = 2
@@ -212,7 +212,7 @@ class Hoist(MachineSpec):
     drum: Drum
     """the drum"""
     winding: Winding = Winding()
-    """how the rope lies on the drum in several layers"""
+    """arrangement of the rope on the drum in several layers"""
     gearbox: Gearbox | None = None
     """between motor and drum; with `motor` needed for starts and stops"""
     motor: DutyMotor | None = None

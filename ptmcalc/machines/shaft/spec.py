@@ -251,7 +251,7 @@ class ToolLoad(Fragment):
     points: Annotated[tuple[ForcePoint, ...], Field(min_length=2, max_length=200)]
     """points, the distances rising, straight in between; outside of them there is no force"""
     stroke: Literal["approach", "return", "both"] = "approach"
-    """on the way to the dead centre, away from it, or both"""
+    """towards the dead centre, away from it, or both"""
     dead_centre: Literal["far", "near"] = "far"
     """the one with the slider far from the crank's axis, or near to it"""
 

@@ -54,7 +54,7 @@ class Belt(Fragment):
     carcass_thickness: Annotated[PositiveLength | None, Limit()] = None
     """of the plies without the covers, or of the cords of a steel-cord belt"""
     warp: Literal["cotton", "polyamide", "polyester", "aramid", "steel_cord"] | None = None
-    """material that carries the tension; with `carcass_thickness` it says how small a drive drum may be"""
+    """material that carries the tension; with `carcass_thickness` it determines the minimum pulley diameter"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -82,7 +82,7 @@ class IdlerRow(Fragment):
     ] = None
     """distance of the idler sets; needed for sag and with `set_mass`"""
     set_mass: Annotated[Mass | None, OneOf("line_mass")] = None
-    """rotating mass of one idler set, reduced to the rim"""
+    """rotating mass of one idler set, reduced to the roll surface"""
     line_mass: Annotated[LineMass | None, OneOf("set_mass")] = None
     """rotating mass per length, or give `set_mass` and `pitch`"""
 
@@ -155,7 +155,7 @@ class Load(Fragment):
 
 
 class Transition(Fragment):
-    """The way between a drum and the first full trough."""
+    """The distance between a pulley and the first full trough."""
 
     length: PositiveSpan
     """from the drum's axis to the first full trough"""

@@ -23,7 +23,7 @@ _OF_THE_STREAM = ("skirt", "loading")
 
 
 class Skirt(Fragment):
-    """Skirt plates beside the load."""
+    """Skirt plates along the load."""
 
     width: PositiveLength
     """between the plates"""
@@ -67,7 +67,7 @@ class ExtraForce(Fragment):
     loading: Loading | None = None
     """force that brings the material to the speed of the belt; the factor C has it already"""
     at: Literal["tail", "carry", "return"] = "tail"
-    """where it acts: at the loading point by the tail, or evenly along a strand"""
+    """where it acts: at the loading point by the tail, or uniformly along a strand"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -113,7 +113,7 @@ class Resistance(Fragment):
     speed_share: Annotated[Fraction, Absent("the resistance does not depend on the speed, as ISO 5048 takes it")] = 0.0
     """part of the idlers' resistance at rated speed that is proportional to the speed"""
     forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
-    """special resistances by name, besides main and secondary ones"""
+    """special resistances by name, in addition to main and secondary ones"""
     start_factor: Annotated[FactorFromOne | None, Assumed()] = None
     """resistance at the start over resistance in motion; 1.2 is assumed when it is left out"""
     stop_factor: Annotated[PositiveRatio | None, Assumed()] = None

@@ -97,7 +97,7 @@ class Wind(Fragment):
     gust_pressure: Annotated[PositivePressure | None, OneOf("gust")] = None
     """of a gust, on top of the steady one"""
     gust_rise: Annotated[PositiveTime | None, Assumed()] = None
-    """time in which a gust comes up"""
+    """rise time of a gust"""
     gust_time: Annotated[PositiveTime | None, Assumed()] = None
     """how long it lasts"""
 
@@ -150,7 +150,7 @@ class Cycle(Fragment):
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
     """largest allowed angle of a stop: 15 deg in light duty"""
     start_time: Annotated[PositiveTime | None, OneOf("start_angle, motor.mean_starting_torque")] = None
-    """in which it comes to speed, where the motor's torque does not say it"""
+    """starting time, if the motor torque does not determine it"""
     start_angle: Annotated[PositiveAngle | None, OneOf("start_time, motor.mean_starting_torque")] = None
     """over which it comes to speed, instead of `start_time`"""
     pause: Annotated[Time, Absent("without a rest the motor is hottest")] = 0.0
@@ -191,7 +191,7 @@ class RingPoint(Fragment):
     axial: Annotated[float, Measure(units.FORCE, at_least=0)]
     """axial force"""
     moment: PositiveTorque
-    """tilting moment that it bears with this axial force"""
+    """permissible tilting moment with this axial force"""
 
 
 class Ring(Fragment):
@@ -301,7 +301,7 @@ class SlewingCrane(MachineSpec):
     type: Literal["slewing"]
     """of the crane"""
     load: Load | None = None
-    """what hangs on the jib; not needed beside `inertia`, but without it nothing is said of its swing"""
+    """what hangs on the jib; not needed with `inertia`, but without it the sway is not computed"""
     slewing_part: Body | None = None
     """platform, column or portal with what stands on it"""
     counterweight: Body | None = None

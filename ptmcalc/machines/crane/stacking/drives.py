@@ -43,7 +43,7 @@ Group = Literal["M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8"]
 class Travel(Fragment):
     """A mechanism that travels: how fast, and what starts and stops it.
 
-    It keeps to a ramp of speed (`acceleration`, `deceleration`), or a force acts at the rims of its wheels
+    It keeps to a ramp of speed (`acceleration`, `deceleration`), or a force acts at its wheel treads
     (`driving_force`, `braking_force`, or those of a `drive`).
     """
 
@@ -54,19 +54,19 @@ class Travel(Fragment):
     deceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
     """of a stop along a ramp of speed"""
     ramp_rise: Annotated[Time, Absent("an acceleration at once swings the column farthest")] = 0.0
-    """in which the acceleration of a ramp comes up and goes down, in a straight line"""
+    """in which the acceleration of a ramp rises and falls linearly"""
     driving_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
-    """at the rims, of a start by force"""
+    """at the wheel treads, of a start by force"""
     driving_rise: Annotated[Time, Absent("a force at once swings the column farthest")] = 0.0
-    """in which it comes up, in a straight line"""
+    """in which it rises linearly"""
     braking_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
-    """at the rims, of a stop by force, without the resistance"""
+    """at the wheel treads, of a stop by force, without the resistance"""
     braking_delay: Annotated[Time | None, Assumed()] = None
     """from switching off until it begins"""
     braking_rise: Annotated[Time, Absent("the interval of the assumed `braking_delay` includes the rise")] = 0.0
-    """in which it comes up, in a straight line"""
+    """in which it rises linearly"""
     resistance: Annotated[Force | None, Assumed()] = None
-    """to travel, at the rims"""
+    """to travel, at the wheel treads"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
     wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the wheel treads")] = None
@@ -76,7 +76,7 @@ class Travel(Fragment):
     permitted_starts_per_hour: Annotated[HourlyRate | None, Limit()] = None
     """what motor and brake allow; that of the drive's motor when left out"""
     buffers: Buffer | None = None
-    """at the ends of its way; needed for a `buffer`"""
+    """at the ends of its path; needed for a `buffer`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

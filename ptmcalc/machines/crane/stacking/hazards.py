@@ -57,7 +57,7 @@ class Fork(Fragment):
     """The telescopic fork and its drive."""
 
     mass: PositiveMass
-    """of fork and drive reduced to its way; with a slip clutch weaker than the motor only what is behind it"""
+    """of fork and drive, reduced to the fork; with a slip clutch weaker than the motor only the parts behind it"""
     speed: PositiveSpeed
     """of the fork"""
     motor_force: PositiveForce
@@ -127,18 +127,18 @@ class SafetyGear(Fragment):
     """What catches the carriage when its ropes fail."""
 
     type: Literal["progressive", "instantaneous"]
-    """`progressive`: it brakes with an even force; `instantaneous`: it locks, and only its mounting and the column
-    give way"""
+    """`progressive`: it brakes with a constant force; `instantaneous`: it locks, and only its mounting and the column
+    deflect"""
     force: Annotated[PositiveForce | None, OneOf("stiffness")] = None
     """braking force of a `progressive` gear"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("force")] = None
     """of an `instantaneous` gear with its mounting and the column"""
     stroke: PositiveLength = Field(examples=["300 mm"])
-    """way it has: of a `progressive` gear to brake in, of an `instantaneous` one what it may give way"""
+    """braking distance of a `progressive` gear, maximum deflection of an `instantaneous` one"""
     trip_ratio: Annotated[TripRatio, _TRIP_RATIO] = 1.4
     """speed at which it trips over the hoisting speed; 1.2 to 1.5"""
     reaction_time: Annotated[Time, _REACTION] = 0.05
-    """from tripping until it grips"""
+    """from tripping until it engages"""
     arm: Annotated[SignedSpan, _GEAR_ARM] = 0.0
     """of the gear's force from the axis of the column, along the travel of bridge or base"""
 

@@ -105,7 +105,7 @@ class TopGuide(Fragment):
     stiffness: Annotated[PositiveStiffness | None, Absent("a free head swings farther than one that is held")] = None
     """along the aisle, of the guide at the head; the head is free when left out"""
     gap: Annotated[Length, _GUIDE_PLAY] = 0.0
-    """play to each side before it holds"""
+    """clearance to each side before it holds"""
     rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the guide across the aisle; needed to see whether it keeps the machine upright"""
 
@@ -179,7 +179,7 @@ class Rollers(Fragment):
     ] = 1
     """rollers that share the reaction of a set"""
     planes: Literal["separate", "joint"] | None = None
-    """whether each plane has rollers of its own, or one set bears both: between the two when left out"""
+    """whether each plane has rollers of its own, or one set carries both: between the two when left out"""
     rating: Annotated[PositiveForce | None, Limit()] = None
     """largest load of one roller; needed to check it"""
 

@@ -36,7 +36,7 @@ class StackerScene(Scene):
 
 
 class HoistScene(StackerScene):
-    """The carriage is set in motion, or comes to rest at the end of its way down."""
+    """The carriage is set in motion, or comes to rest at the end of lowering."""
 
     type: Literal["hoist"] = "hoist"
     direction: Literal["up", "down"] = "up"

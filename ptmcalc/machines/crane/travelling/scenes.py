@@ -64,7 +64,7 @@ class HoistWhileTravelling(MovingScene):
 
     type: Literal["hoist_while_travelling"] = "hoist_while_travelling"
     hoist: Literal["up", "down"] = "up"
-    """which way"""
+    """direction"""
     time: Annotated[PositiveTime | None, Absent("it is hoisted as long as the crane starts")] = None
     """how long from the beginning of the start; as long as the start when left out"""
 
@@ -97,7 +97,7 @@ class RailStep(TravelScene):
 
 
 class Skew(TravelScene):
-    """It travels askew, led by its foremost guide."""
+    """It travels skewed, guided by its foremost guide."""
 
     type: Literal["skew"] = "skew"
 

@@ -55,7 +55,7 @@ Corner = Literal["A1", "A2", "B1", "B2"]
 
 
 class Bridge(Fragment):
-    """What travels besides the trolley: girders, end carriages, the legs of a gantry."""
+    """Travelling parts other than the trolley: girders, end carriages, the legs of a gantry."""
 
     mass: PositiveMass
     """without the trolley"""
@@ -175,12 +175,12 @@ class Rail(Fragment):
 
 
 class Guide(Fragment):
-    """What keeps the crane on its rails when it runs askew."""
+    """Guides that keep a skewing crane on its rails."""
 
     type: Literal["flanges", "rollers"] = "flanges"
     """flanges of the wheels, or guide rollers"""
     clearance: Length
-    """play between guide and rail, both sides together"""
+    """clearance between guide and rail, both sides together"""
     wear: Annotated[Length | None, Assumed()] = None
     """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
     base: Annotated[PositiveSpan | None, Absent("flanges guide at the wheels; rollers in front of them press less")] = (
@@ -200,7 +200,7 @@ class Guide(Fragment):
     ] = 0.001
     """angle of wheels and rails by tolerances"""
     edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
-    """by which the play becomes an angle"""
+    """by which the clearance becomes an angle"""
     rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of a guide; needed to check it"""
 
@@ -242,7 +242,7 @@ class Wind(Fragment):
 
 
 class Parking(Fragment):
-    """What holds the crane out of service besides its brakes."""
+    """Devices other than the brakes that hold the crane out of service."""
 
     force: PositiveForce
     """of rail clamps, pins or storm anchors"""
@@ -347,7 +347,7 @@ class TravelChecks(CheckSettings):
     brake_time: Annotated[PositiveTime, Limit()] = 15.0
     """longest stop"""
     brake_distance: Annotated[PositiveSpan | None, Limit()] = None
-    """longest way to a stop; needed to check it"""
+    """maximum stopping distance; needed to check it"""
     sway_angle: Annotated[PositiveAngle, Limit()] = 0.174532925199433
     """largest angle of the load, 10 deg when left out"""
     residual_sway: Annotated[PositiveAngle | None, Limit()] = None
@@ -376,7 +376,7 @@ class Travelling(MachineSpec):
     hook_block: Annotated[Mass | None, Assumed()] = None
     """hook block and whatever stays on the hook"""
     bridge: Bridge | None = None
-    """what travels besides the trolley; of a bridge or gantry"""
+    """travelling parts other than the trolley; of a bridge or gantry"""
     trolley: Trolley
     """the trolley"""
     wheels: Wheels
@@ -398,7 +398,7 @@ class Travelling(MachineSpec):
     buffers: Buffer | None = None
     """at the ends; needed for a `collision`"""
     parking: Parking | None = None
-    """what holds it out of service besides its brakes"""
+    """devices other than the brakes that hold it out of service"""
     classes: Classes = Field(default=Classes(), alias="class")
     """what the crane is classed as"""
     declared: Declared = Declared()

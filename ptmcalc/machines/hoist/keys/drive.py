@@ -37,7 +37,7 @@ class Gearbox(drive.Gear):
     backlash: Annotated[
         float, Measure(units.ANGLE, at_least=0), Absent("no backlash: its impact is only checked with it")
     ] = 0.0
-    """the whole play between rotor and drum, as an angle of the drum"""
+    """total backlash between rotor and drum, as an angle of the drum"""
     damping: Annotated[
         float,
         Measure(units.RATIO, at_least=0, at_most=1),
@@ -69,7 +69,7 @@ class Brake(Fragment):
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until its full torque"""
     rise: Literal["linear", "exponential"] = "linear"
-    """how it comes up; `rise_time` is the time constant of an exponential rise"""
+    """how it rises; `rise_time` is the time constant of an exponential rise"""
 
 
 class Classes(Fragment):

@@ -89,7 +89,7 @@ class Rope(Fragment):
     breaking_force: Annotated[PositiveForce | None, Checked()] = None
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
-    """whether it is a rotation-resistant rope, which bears a smaller fleet angle"""
+    """whether it is a rotation-resistant rope, which has a smaller permissible fleet angle"""
     damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
     """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
 
@@ -103,7 +103,7 @@ class Drum(Fragment):
     """The drum."""
 
     diameter: PositiveLength
-    """of the surface the rope lies on: the bottom of the grooves"""
+    """of the surface below the rope: the bottom of the grooves"""
     length: PositiveLength
     """along the axis, of the part one rope is wound on"""
     surface: Literal["grooved", "smooth"] = "grooved"
@@ -145,14 +145,14 @@ class Limiter(Fragment):
     delay: Annotated[
         float, Measure(units.TIME, at_least=0), Assumed(0.0, 0.0, 0.2, "contactors and load cells: up to 0.2 s")
     ] = 0.0
-    """from then until the motor is off and the brake is told to act"""
+    """from then until the motor is off and the brake receives its command"""
 
 
 class Winding(Fragment):
-    """How the rope lies in several layers on the drum."""
+    """Arrangement of the rope in several layers on the drum."""
 
     packing: Literal["nested", "square"] = "nested"
-    """`nested`: a layer lies in the valleys of the one below; `square`: on top of it"""
+    """`nested`: a layer is in the valleys of the one below; `square`: on top of it"""
     crossovers: Annotated[
         int, Field(ge=1, le=4, strict=True), Setting("two crossovers a turn, as of drums grooved parallel")
     ] = 2
