@@ -133,7 +133,7 @@ def test_the_table_shows_scales_loads_and_distortions() -> None:
     assert "run_loaded T2 leaving drive pulley, minimum 30 kN 0.01 300 N" in lines
     assert any(line.startswith("run_loaded belt sag ratio h/a, maximum") and " distorted " in line for line in lines)
     text = " ".join(lines)
-    for part in ("damping ratio", "friction coefficients", "slope of a motor curve", "play that tolerances make"):
+    for part in ("damping ratio", "friction coefficients", "slope of a motor curve", "clearance due to tolerances"):
         assert part in text, part
     assert max(map(len, done.out.splitlines())) <= 120
     assert all(line == line.rstrip() for line in done.out.splitlines())
