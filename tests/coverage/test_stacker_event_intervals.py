@@ -22,8 +22,8 @@ from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of
-from ptmcalc.machines.crane.stacking.solvers.fork_caught import CAUGHT_STOPPED, CAUGHT_TRAIN
-from ptmcalc.machines.crane.stacking.solvers.fork_pushed import PUSH_RIGID, PUSH_TRAIN
+from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_STOPPED, CAUGHT_TRAIN
+from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_RIGID, PUSH_TRAIN
 
 ON_TRIAL = {
     "crane": (

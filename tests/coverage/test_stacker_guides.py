@@ -36,9 +36,9 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.solvers.drive_times import DRIVE_TIMES
-from ptmcalc.machines.crane.stacking.solvers.mast_beam import MAST_BEAM
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.mast.beam import MAST_BEAM
+from ptmcalc.machines.crane.stacking.mast.modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.mechanisms.drive_times import DRIVE_TIMES
 
 ON_TRIAL = {"crane": ("top_guide",)}
 KIND = next(one for one in load_kind("crane").types if one.type == "rack_stacker")

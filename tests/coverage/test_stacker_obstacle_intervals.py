@@ -26,8 +26,8 @@ from support.stacker_masts import OVERHEAD
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL
-from ptmcalc.machines.crane.stacking.solvers.obstacle_energy import OBSTACLE_BOUND
+from ptmcalc.machines.crane.stacking.collision.obstacle_energy import OBSTACLE_BOUND
+from ptmcalc.machines.crane.stacking.mast.modal import COLLISION_MODAL
 
 ON_TRIAL = {"crane": ("obstacle_contact", "mast_gravity", "obstacle_bound", "collision_modal")}
 KIND = next(one for one in load_kind("crane").types if one.type == "overhead_stacker")

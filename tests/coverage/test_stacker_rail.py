@@ -17,7 +17,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.solvers.rail_roll import RAIL_JUMP, RAIL_RESPONSE
+from ptmcalc.machines.crane.stacking.rail.roll import RAIL_JUMP, RAIL_RESPONSE
 
 WITHOUT_BARS = {"crane": ("aisle_rail", "aisle_rail_answer", "aisle_rail_jump", "wheel_lift")}
 KIND = next(one for one in load_kind("crane").types if one.type == "rack_stacker")

@@ -36,9 +36,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.solvers.mast_beam import MAST_BEAM
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import STANDING_MODAL
-from ptmcalc.machines.crane.stacking.solvers.weights import WEIGHTS
+from ptmcalc.machines.crane.stacking.mast.beam import MAST_BEAM
+from ptmcalc.machines.crane.stacking.mast.modal import STANDING_MODAL
+from ptmcalc.machines.crane.stacking.strength.weights import WEIGHTS
 
 ON_TRIAL = {"crane": ("standing_modal", "mast_beam", "mast_gravity")}
 KINDS = {one.type: one for one in load_kind("crane").types}

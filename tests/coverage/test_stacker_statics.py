@@ -30,10 +30,10 @@ from support.stacker_statics import Statics, random_stacker
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.solvers.buffer_stop import BUFFER_STOP
-from ptmcalc.machines.crane.stacking.solvers.carriage_statics import CARRIAGE_STATICS
-from ptmcalc.machines.crane.stacking.solvers.safety_gear_catch import GEAR_CATCH
-from ptmcalc.machines.crane.stacking.solvers.weights import WEIGHTS
+from ptmcalc.machines.crane.stacking.collision.buffer_stop import BUFFER_STOP
+from ptmcalc.machines.crane.stacking.mechanisms.carriage_statics import CARRIAGE_STATICS
+from ptmcalc.machines.crane.stacking.safety_gear.catch import GEAR_CATCH
+from ptmcalc.machines.crane.stacking.strength.weights import WEIGHTS
 
 ON_TRIAL = {"crane": ("carriage_statics",)}
 WITHOUT_BARS = {"crane": ("weights", "buffer_stop", "safety_gear_catch", "safety_gear")}

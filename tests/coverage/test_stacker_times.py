@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from support.machines import loaded
 
-from ptmcalc.machines.crane.stacking import starts
+from ptmcalc.machines.crane.stacking.mast.modal import MAST_MODAL
+from ptmcalc.machines.crane.stacking.mechanisms import starts
 from ptmcalc.machines.crane.stacking.scenes import Brake, Start
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 COUNT = 12

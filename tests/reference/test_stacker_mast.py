@@ -12,7 +12,7 @@ from support.stacker_masts import OVERHEAD
 
 from ptmcalc.contract.report import LoadReport
 from ptmcalc.laws import buffer, mast, mast_modes
-from ptmcalc.machines.crane.stacking.solvers.mast_modal import COLLISION_MODAL, MAST_MODAL
+from ptmcalc.machines.crane.stacking.mast.modal import COLLISION_MODAL, MAST_MODAL
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 PRINTED = 1e-5

@@ -11,7 +11,7 @@ from support.stacker_events import RACK
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.machines.crane.stacking import two_mass
+from ptmcalc.machines.crane.stacking.mast import two_mass
 from ptmcalc.numerics.mast.run import Course
 
 SCENES = [{"type": name} for name in ("fork_caught", "fork_push", "rail", "safety_gear", "buffer")]

@@ -17,8 +17,8 @@ from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.run import settle
 from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.mechanisms.drive_times import DRIVE_TIMES
 from ptmcalc.machines.crane.stacking.scenes import Stand
-from ptmcalc.machines.crane.stacking.solvers.drive_times import DRIVE_TIMES
 from ptmcalc.numerics import record
 
 HERE = Path(__file__).parent

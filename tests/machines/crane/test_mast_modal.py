@@ -14,8 +14,8 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.contract.result import Result
 from ptmcalc.engine.load import load_text
 from ptmcalc.machines.crane.stacking import model
-from ptmcalc.machines.crane.stacking.names_mast import GRAVITY
-from ptmcalc.machines.crane.stacking.solvers import mast_modal
+from ptmcalc.machines.crane.stacking.mast import modal
+from ptmcalc.machines.crane.stacking.mast.names import GRAVITY
 from ptmcalc.machines.crane.stacking.spec import Stacker
 
 C = 600e3
@@ -31,8 +31,8 @@ def spec_of(data: dict[str, Any]) -> Stacker:
 
 def solved(data: dict[str, Any], level: int = 0, *, gravity: bool = False, scene: int = 0) -> Result:
     spec = spec_of(data)
-    carried = mast_modal.ALWAYS | ({GRAVITY} if gravity else frozenset())
-    return mast_modal.run(spec, spec.all_scenes[scene], carried, level)
+    carried = modal.ALWAYS | ({GRAVITY} if gravity else frozenset())
+    return modal.run(spec, spec.all_scenes[scene], carried, level)
 
 
 def inside(result: Result, name: str, value: float) -> None:
@@ -234,11 +234,9 @@ class TestHard:
             obstacle=contact,
             scenes=[{"type": "obstacle", "mechanism": "trolley", "speed_share": 0.8}],
         )
-        fine = mast_modal.run(spec_of(hit), spec_of(hit).all_scenes[0], mast_modal.ALWAYS, 2)
+        fine = modal.run(spec_of(hit), spec_of(hit).all_scenes[0], modal.ALWAYS, 2)
         assert fine.work < 3000
-        light = mast_modal.run(
-            spec_of(changed(hit, column__mass="1 kg")), spec_of(hit).all_scenes[0], mast_modal.ALWAYS, 0
-        )
+        light = modal.run(spec_of(changed(hit, column__mass="1 kg")), spec_of(hit).all_scenes[0], modal.ALWAYS, 0)
         value, other = (one.loads["collision_force"].estimate.value for one in (fine, light))
         assert value == pytest.approx(other, rel=1e-3)
 
@@ -250,7 +248,7 @@ class TestHard:
     def test_predicted_seconds_grow_with_the_refinement(self) -> None:
         spec = spec_of(OVERHEAD)
         scene = spec.all_scenes[0]
-        costs = [mast_modal.MAST_MODAL.cost(spec, scene, mast_modal.ALWAYS, level) for level in range(3)]
+        costs = [modal.MAST_MODAL.cost(spec, scene, modal.ALWAYS, level) for level in range(3)]
         assert 0 < costs[0] < costs[1] < costs[2] < 2
         assert model.mechanism(spec, scene) == "trolley"
 
@@ -258,7 +256,7 @@ class TestHard:
 def test_a_guide_at_the_head_is_no_part_of_the_stiffness_of_the_column() -> None:
     """Which is what turns a swing into a force: with the guide in it standing told another stiffness than weights."""
     free, held = (
-        mast_modal.run(spec, spec.all_scenes[0], frozenset(), 0).loads["column_stiffness"].estimate
+        modal.run(spec, spec.all_scenes[0], frozenset(), 0).loads["column_stiffness"].estimate
         for spec in (
             spec_of(changed(RACK, scenes=[{"type": "stand"}])),
             spec_of(changed(RACK, scenes=[{"type": "stand"}], column__top_guide={"stiffness": "2 MN/m"})),

@@ -11,8 +11,8 @@ from support.machines import changed, report_of
 
 from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import Amount, FileReport, TableReport
-from ptmcalc.machines.crane.stacking import combinations
-from ptmcalc.machines.crane.stacking.derived import MARKED_BY, UNMARKED
+from ptmcalc.machines.crane.stacking.strength import combinations
+from ptmcalc.machines.crane.stacking.strength.derived import MARKED_BY, UNMARKED
 from ptmcalc.report import Format, render
 
 OVERHEAD, RACK = "crane_overhead_stacker", "crane_rack_stacker"

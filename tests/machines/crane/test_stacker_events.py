@@ -14,9 +14,9 @@ from support.stacker_ode import Caught
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
-from ptmcalc.machines.crane.stacking.solvers.fork_caught import CAUGHT_TRAIN
-from ptmcalc.machines.crane.stacking.solvers.fork_pushed import PUSH_RIGID, PUSH_TRAIN
-from ptmcalc.machines.crane.stacking.solvers.rail_roll import RAIL_JUMP, RAIL_RESPONSE
+from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_TRAIN
+from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_RIGID, PUSH_TRAIN
+from ptmcalc.machines.crane.stacking.rail.roll import RAIL_JUMP, RAIL_RESPONSE
 
 Q = 1600 * 9.81
 C20 = Caught(9000.0, 1600.0, Q, 9e5, 2.5e6, 0.3, 1e9, 4e4)

@@ -10,9 +10,9 @@ from support.machines import changed, loaded
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import Found
-from ptmcalc.machines.crane.stacking.derived import bounds_of_derived, derived, with_derived
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, SafetyGearScene, Stand
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived, derived, with_derived
 
 G = 9.81
 OVERHEAD: dict[str, Any] = {

@@ -6,7 +6,7 @@ from ptmcalc.base import units
 from ptmcalc.base.estimate import Interval
 from ptmcalc.components.travel_drive import TravelDrive
 from ptmcalc.contract.machine import Assumption
-from ptmcalc.machines.crane.stacking.drives import ROPE_MODULUS, Travel
+from ptmcalc.machines.crane.stacking.keys.drives import ROPE_MODULUS, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import StackerScene

@@ -10,7 +10,7 @@ from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of, roll_of
 from ptmcalc.machines.crane.stacking.judging import OneCheck, given
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.rolling import wave_share
+from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import (
     BufferScene,
     ForkCaught,

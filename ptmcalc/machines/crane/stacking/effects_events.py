@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking.derived import bounds_of_derived
 from ptmcalc.machines.crane.stacking.events import catch_of, fall_of, push_of, roll_of
 from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.rolling import wave_share
+from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
 from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush, RailScene, SafetyGearScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.laws import buffer, fork, rail, safety_gear
-from ptmcalc.machines.crane.stacking import columns, model
-from ptmcalc.machines.crane.stacking.catching import Catch, Limit, Push
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.fork.masses import Catch, Limit, Push
+from ptmcalc.machines.crane.stacking.mast import columns
 from ptmcalc.machines.crane.stacking.model import filled
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import BufferScene, ForkCaught, ForkPush, RailScene, SafetyGearScene

@@ -10,17 +10,17 @@ from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
 from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
-from ptmcalc.machines.crane.stacking.checks_mast import CHECKS_OF_MAST
-from ptmcalc.machines.crane.stacking.checks_statics import CHECKS_OF_STATICS
-from ptmcalc.machines.crane.stacking.checks_strength import CHECKS_OF_STRENGTH
-from ptmcalc.machines.crane.stacking.combinations import tables
 from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
-from ptmcalc.machines.crane.stacking.effects_mast import EFFECTS_OF_MAST
 from ptmcalc.machines.crane.stacking.figures import FIGURES
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
+from ptmcalc.machines.crane.stacking.mast.checks import CHECKS_OF_MAST
+from ptmcalc.machines.crane.stacking.mast.effects import EFFECTS_OF_MAST
+from ptmcalc.machines.crane.stacking.mechanisms.checks import CHECKS_OF_STATICS
 from ptmcalc.machines.crane.stacking.relations import relations_of
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.checks import CHECKS_OF_STRENGTH
+from ptmcalc.machines.crane.stacking.strength.combinations import tables
 from ptmcalc.spec.scene import Scene
 
 EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)

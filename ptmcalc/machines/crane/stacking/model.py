@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ptmcalc.components.motor import ConverterMotor, torques_up_to
 from ptmcalc.laws import carriage, inertia, reeving
-from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
+from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import StackerScene, Start

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.machines.crane.stacking.drives import Rotation, Travel
-from ptmcalc.machines.crane.stacking.hazards import Obstacle
-from ptmcalc.machines.crane.stacking.parts import Bridge, Trolley
+from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
+from ptmcalc.machines.crane.stacking.keys.hazards import Obstacle
+from ptmcalc.machines.crane.stacking.keys.parts import Bridge, Trolley
 from ptmcalc.machines.crane.stacking.scenes import (
     BOTH,
     Brake,

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from ptmcalc.base import units
-from ptmcalc.machines.crane.stacking.drives import Travel
-from ptmcalc.machines.crane.stacking.hazards import Rail
-from ptmcalc.machines.crane.stacking.parts import Base
+from ptmcalc.machines.crane.stacking.keys.drives import Travel
+from ptmcalc.machines.crane.stacking.keys.hazards import Rail
+from ptmcalc.machines.crane.stacking.keys.parts import Base
 from ptmcalc.machines.crane.stacking.scenes import (
     BOTH,
     Brake,

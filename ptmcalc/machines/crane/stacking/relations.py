@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from ptmcalc.contract.relation import Relation, computed, ordered
 from ptmcalc.contract.result import of
 from ptmcalc.machines.crane.stacking import events, model
-from ptmcalc.machines.crane.stacking.derived import MARKED_BY
 from ptmcalc.machines.crane.stacking.loads import MODES
-from ptmcalc.machines.crane.stacking.mast import swinging
+from ptmcalc.machines.crane.stacking.mast.properties import swinging
 from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import (
     Brake,
@@ -24,6 +23,7 @@ from ptmcalc.machines.crane.stacking.scenes import (
     Start,
 )
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.derived import MARKED_BY
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, float]

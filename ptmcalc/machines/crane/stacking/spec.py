@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from ptmcalc.base import units
-from ptmcalc.machines.crane.stacking.drives import Hoisting
-from ptmcalc.machines.crane.stacking.hazards import Fork, Rack, SafetyGear, Settling
-from ptmcalc.machines.crane.stacking.limits import StackerChecks
-from ptmcalc.machines.crane.stacking.parts import Cab, Carriage, Column
+from ptmcalc.machines.crane.stacking.keys.drives import Hoisting
+from ptmcalc.machines.crane.stacking.keys.hazards import Fork, Rack, SafetyGear, Settling
+from ptmcalc.machines.crane.stacking.keys.limits import StackerChecks
+from ptmcalc.machines.crane.stacking.keys.parts import Cab, Carriage, Column
 from ptmcalc.spec.fields import PositiveMass
 from ptmcalc.spec.fragment import Conflict, Given
 from ptmcalc.spec.machine import MachineSpec

@@ -9,14 +9,14 @@ import math
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.stacking.catching import RACK, ROPE
-from ptmcalc.machines.crane.stacking.derived import with_derived
 from ptmcalc.machines.crane.stacking.effects_events import CATCHING, LIMITER, PUSHING, SLOPE, YIELDING
 from ptmcalc.machines.crane.stacking.effects_events import RACK as RACK_GIVES
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.fork.caught import with_factor
+from ptmcalc.machines.crane.stacking.fork.masses import RACK, ROPE
 from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
-from ptmcalc.machines.crane.stacking.solvers.fork_caught import with_factor
 from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 from ptmcalc.numerics.train.parts import Train
 from ptmcalc.witness import lumped
 

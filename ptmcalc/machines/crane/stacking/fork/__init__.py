@@ -1,0 +1,1 @@
+"""Fork: snagged by the rack, or pushed against it."""

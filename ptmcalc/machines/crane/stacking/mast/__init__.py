@@ -1,0 +1,1 @@
+"""Mast: deflection, oscillation, settling, second-order effects."""

@@ -1,0 +1,280 @@
+"""Effects of the column's motion: what bends, what swings, what holds."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.laws import mast as law
+from ptmcalc.laws import mast_modes
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.collision.obstacle_energy import pushed
+from ptmcalc.machines.crane.stacking.mast import bounds
+from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS, MODES
+from ptmcalc.machines.crane.stacking.mast.properties import Swinging, swinging
+from ptmcalc.machines.crane.stacking.mechanisms import starts
+from ptmcalc.machines.crane.stacking.model import Push
+from ptmcalc.machines.crane.stacking.scenes import Brake, DrivenScene, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.travelling import push_of, turns
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+
+DRIVEN: frozenset[type[Scene]] = frozenset({Start, Brake})
+BENT: frozenset[type[Scene]] = DRIVEN | {ObstacleScene}
+MOVED_LOADS = frozenset(
+    {
+        *("mast_deflection_max", "mast_force_max", "mast_moment_max", "settling_time"),
+        *("collision_force", "collision_deflection", "contact_force"),
+        *("column_stress", "bridge_stress", "stability_reserve", "combination_force"),
+    }
+)
+"""Loads, or families of them, that the motion of the column makes."""
+
+FLEXIBLE_THRESHOLD = 0.15
+MASS_THRESHOLD = 0.05
+MODES_THRESHOLD = 1.0
+RISE_OF_MODES, MASS_OF_MODES = 0.2, 2.0
+GRAVITY_THRESHOLD = 0.03
+CONTACT_THRESHOLD = 0.1
+HOLDING_THRESHOLD = 1.0
+GUIDE_THRESHOLD = 0.1
+
+
+def _anything(loads: Loads) -> Offsets:
+    return {name: ANYTHING for name in loads if name.partition("[")[0] in MOVED_LOADS}
+
+
+def anything_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
+    """Nothing is known of a column's motion without this; a column that only turns does not move so.
+
+    **Range** every load of the column's motion.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return {} if turns(spec, scene) else _anything(loads)
+
+
+def _given(spec: Stacker, scene: DrivenScene) -> tuple[Swinging, Push]:
+    push = push_of(spec, scene)
+    return swinging(spec, scene, push.rotors), push
+
+
+def _period(one: Swinging, push: Push, mode: int) -> float:
+    return 2 * math.pi / mast_modes.mast_frequency(one.exact if push.kind == "force" else one.held, mode)
+
+
+# -- a column that bends --------------------------------------------------------------------------------------------
+
+
+def flexible_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Criterion | None:
+    """Period of the column over the time in which its load comes up.
+
+        T/t_r
+
+    **Range** starts and stops; without end for a sudden force and for a collision. It is in every run.
+    **Error** an engineering measure: after a rise of some periods hardly anything swings.
+    **Source** `laws.mast.rise_factor`.
+    """
+    if turns(spec, scene):
+        return None
+    value = math.inf
+    if not isinstance(scene, ObstacleScene):
+        one, push = _given(spec, scene)
+        value = _period(one, push, 1) / push.rise if push.rise > 0 else math.inf
+    meaning = "period of the column over the rise of its load"
+    return Criterion("T/t_r", value, FLEXIBLE_THRESHOLD, meaning, "laws.mast")
+
+
+def mass_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
+    """Mass of the column over what climbs it.
+
+        m_c/m_2
+
+    **Range** every motion of the column; it is in every run.
+    **Error** an engineering measure: a quarter of the column or so swings with the load.
+    **Source** `laws.mast.mass_coefficient`.
+    """
+    if turns(spec, scene):
+        return None
+    value = spec.column.mass / model.climbing_mass(spec, scene)
+    return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mass of the column over what climbs it", "laws.mast")
+
+
+def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
+    """Whether the second mode is set off, or has much to move.
+
+        max( T_2/(0.2 t_r), m_c/(2 m_2) )
+
+    **Range** starts and stops; without end for a sudden force.
+    **Error** an engineering measure.
+    **Source** modal analysis; thresholds of the theory of this tool.
+    """
+    if turns(spec, scene):
+        return None
+    one, push = _given(spec, scene)
+    rise = _period(one, push, 2) / push.rise / RISE_OF_MODES if push.rise > 0 else math.inf
+    heavy = spec.column.mass / model.climbing_mass(spec, scene) / MASS_OF_MODES
+    meaning = "second mode over the rise of the load, column over the load, each over its threshold"
+    return Criterion("T₂/t_r, m_c/m_2", max(rise, heavy), MODES_THRESHOLD, meaning, "modal analysis")
+
+
+def modes_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
+    """What all modes but the one shape of two masses may change, from exact sums over the modes.
+
+    **Range** starts and stops of a column whose head is free; with a guide nothing is known.
+    **Error** derived but for one factor that is calibrated on a seeded sample: `bounds.modes_bound`.
+    **Source** modal analysis.
+    """
+    if turns(spec, scene):
+        return {}
+    if guided(spec):
+        return _anything(loads)
+    return bounds.modes_bound(spec, scene, loads)
+
+
+# -- weights --------------------------------------------------------------------------------------------------------
+
+
+def gravity_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
+    """Weight on the column over its stiffness.
+
+        P/(c l)
+
+    **Range** every column; P of carriage, cab and load.
+    **Error** an engineering measure: weights change the stiffness by about 1.2 of it.
+    **Source** `laws.mast.gravity_stiffness`.
+    """
+    if turns(spec, scene):
+        return None
+    weight = model.climbing_mass(spec, scene) * spec.gravity
+    value = weight / swinging(spec, scene).stiffness / spec.column.length
+    return Criterion("P/(c l)", value, GRAVITY_THRESHOLD, "weight on the column over its stiffness", "laws.mast")
+
+
+def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
+    """What weights may do to frequencies and swing.
+
+    **Range** every column that its weights do not buckle; of a motion with a guided head nothing is known.
+    **Error** of frequencies derived; of a motion twice the difference of two runs of two masses, calibrated on a seeded
+    sample: `bounds.gravity_bound`.
+    **Source** minimum and maximum principles of Rayleigh and Courant; `numerics.mast`.
+    """
+    if turns(spec, scene):
+        return {}
+    if guided(spec) and not isinstance(scene, Stand):
+        times = bounds.time_bound(spec, scene, loads) if isinstance(scene, DrivenScene) else {}
+        return {**_anything(loads), **times, **bounds.weighted_frequencies(spec, scene, loads)}
+    return bounds.gravity_bound(spec, scene, loads)
+
+
+# -- contact, brake, guide ------------------------------------------------------------------------------------------
+
+
+def contact_criterion(spec: Stacker, scene: ObstacleScene) -> Criterion:
+    """Force of the collision over what the brake takes; without end for a drive that is still on.
+
+        v (c m_1)^(1/2)/W
+
+    **Range** every collision; it is in every run.
+    **Error** an engineering measure.
+    **Source** energy, `laws.buffer.collision_force`.
+    """
+    push = pushed(spec, scene)
+    one = swinging(spec, scene)
+    tension = model.speed(spec, scene) * math.sqrt(one.stiffness * one.base)
+    value = math.inf if push >= 0 else tension / -push
+    return Criterion("v√(c m_1)/W", value, CONTACT_THRESHOLD, "force of the collision over the brake's", "laws.buffer")
+
+
+def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
+    """What the column asks of the brake, or of a drive that keeps its speed, after the stop, over what that has.
+
+        2 (m_12 + m_22)/m max(1, (1 + r)/(2 r^(1/2))),   1 + r = m_22 m/(m_11 m_22 - m_12^2)
+
+    **Range** starts and stops by a force; 0 along a ramp of speed. It is in every run.
+    **Error** exact at worst for two masses and a sudden force without damping: above 1 the base may slip again.
+    **Source** `laws.mast.after_stop_ratio`.
+    """
+    if turns(spec, scene):
+        return None
+    meaning = "pull of the swinging column after the stop over what holds the base"
+    one, push = _given(spec, scene)
+    value = 0.0
+    if push.kind == "force":
+        m11, m12, m22 = one.masses
+        whole = m11 + 2 * m12 + m22
+        r = m22 * whole / (m11 * m22 - m12 * m12) - 1
+        lag = law.static_lag(2.0, 1.0, m11, m12, m22)
+        value = lag * ((1 + r) / (2 * math.sqrt(r)) if r > 1 else 1.0)
+    return Criterion("F/P", value, HOLDING_THRESHOLD, meaning, "laws.mast")
+
+
+def holding_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
+    """Nothing is known of a column's motion without this; nor until when a base that may slip again is braked.
+
+        t_first <= t < infinity   where the column may pull its base through the brake
+
+    **Range** every load of the column's motion, and the time of a stop by a force.
+    **Error** unbounded, but for the time of a stop whose base stands at once: nothing.
+    **Source** there is no run that leaves it out; `starts.slips_again`.
+    """
+    told = dict(anything_bound(spec, scene, loads))
+    assert isinstance(scene, Start | Brake)
+    if "brake_time" in loads and not starts.stands_at_once(spec, scene):
+        told["brake_time"] = Interval(0.0, math.inf)
+    return told
+
+
+def guided(spec: Stacker) -> bool:
+    """Whether something holds the head of the column."""
+    guide = spec.column.top_guide
+    return guide is not None and guide.stiffness is not None
+
+
+def guide_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
+    """Stiffness of the guide at the head over that of the column there.
+
+        k_g/c
+
+    **Range** rack stackers; 0 for a free head.
+    **Error** an engineering measure.
+    **Source** springs side by side.
+    """
+    guide = spec.column.top_guide
+    stiff = guide.stiffness if guide is not None and guide.stiffness is not None else 0.0
+    value = stiff / swinging(spec, scene).stiffness if stiff else 0.0
+    return Criterion("k_g/c", value, GUIDE_THRESHOLD, "guide at the head over the column", "springs side by side")
+
+
+def guide_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:
+    """Nothing where the head is free; else only the frequencies are known without its guide.
+
+    **Range** every load of the column's motion.
+    **Error** exact for a free head; of frequencies a bound (`bounds.guided_frequencies`), of all else unbounded: a
+    guide makes another beam of the column.
+    **Source** statics; Rayleigh's theorem on one constraint.
+    """
+    if not guided(spec) or turns(spec, scene):
+        return {}
+    return {**_anything(loads), **bounds.guided_frequencies(spec, scene, loads)}
+
+
+EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
+    Effect(FLEXIBLE, "mast flexibility", BENT, flexible_criterion, anything_bound),
+    Effect(MASS, "mast mass", BENT, mass_criterion, anything_bound),
+    Effect(MODES, "higher mast modes", DRIVEN, modes_criterion, modes_bound, calibrated=True),
+    Effect(
+        GRAVITY,
+        "second-order effect of gravity on the mast",
+        BENT | {Stand},
+        gravity_criterion,
+        gravity_bound,
+        calibrated=True,
+    ),
+    Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
+    Effect(HOLDING, "holding of the base after the stop", DRIVEN, holding_criterion, holding_bound),
+    Effect(GUIDE, "top guide of the mast", DRIVEN, guide_criterion, guide_bound),
+)

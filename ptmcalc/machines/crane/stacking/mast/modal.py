@@ -1,0 +1,541 @@
+"""The column in finite elements and modes, marched through drive, brake, standstill and contact."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.base.errors import NumericsError
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.memory import kept_for
+from ptmcalc.contract.result import Event, Finding, Found, History, Result, of
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.crane.stacking import model
+from ptmcalc.machines.crane.stacking.loads import MODES
+from ptmcalc.machines.crane.stacking.mast import march
+from ptmcalc.machines.crane.stacking.mast.march import Built, Happening
+from ptmcalc.machines.crane.stacking.mast.names import CONTACT, FLEXIBLE, GRAVITY, GUIDE, HOLDING, MASS
+from ptmcalc.machines.crane.stacking.mast.names import MODES as MODES_HIGHER
+from ptmcalc.machines.crane.stacking.mast.resting import at_rest
+from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Stand, Start
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.machines.crane.stacking.strength.derived import DERIVED, with_derived
+from ptmcalc.machines.crane.stacking.travelling import evenly
+from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
+from ptmcalc.numerics.mast.parts import Column
+from ptmcalc.numerics.mast.run import Course, play
+from ptmcalc.numerics.record import MOST_KEPT, most_work, too_much_memory
+from ptmcalc.spec.scene import Scene
+
+ALWAYS = frozenset({FLEXIBLE, MASS})
+MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
+"""Modes at the coarsest refinement, for a load that comes at once and at most; how often they are doubled, less one."""
+_ELEMENTS = 3
+"""Elements per mode."""
+_MARGIN = 3.0
+_UNSEEN = 1e-10
+"""Share of a reading that the march may miss of it."""
+_CLOSES = 1e-8
+_FAINT = 1e-9
+"""Share of the lowest mode's deflection below which a mode is not followed; what it adds is in the bar."""
+_SWINGS = 3.0
+"""Periods of the column beside a base at rest that are looked at after the event."""
+_BLOW = 1.5
+"""Periods of everything against the column in which a collision is looked at."""
+_COMPARED = 0.7
+"""Panels of the run that a bar is found with, over the usual ones."""
+_DOUBLINGS = 5
+_FREQUENCIES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """A run, and the place and stiffness its deflections are read with."""
+
+    moves: Happening
+    course: Course
+    nudged: tuple[Course | None, Course | None] = (None, None)
+    """runs of a base that has a little less speed to win or to lose, and a little more: by what the modes left out may
+    add to it; None for one that has none to lose, and of a base that keeps to its path"""
+
+    @property
+    def place(self) -> float:
+        """The far end [m]."""
+        return self.moves.column.column.length
+
+
+def run(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> Result:
+    """The column beside its base, from the beginning of an event until some swings after it.
+
+        M w'' + C w' + (K + K_weights) w = -M 1 a + forces,   m a + (M 1)^T w'' = drive + friction + contact
+
+    The base slips or is held (a brake that sticks, a drive that keeps its speed), contacts open and close: each change
+    is a root of the exact motion between two of them. Peaks are roots too. A base on a ramp of speed follows it.
+
+    **Range** small deflections of slender columns; a drive or brake whose force depends on time alone.
+    **Error** numerical: three times the difference to half as many elements and modes, and the bound of what modes left
+    out could add to a load that comes at once. Of a largest value upward too what all modes come to that meet in phase
+    after the run, once the base is held for good.
+    **Source** `numerics.mast`; lecture notes Kramatorsk 2007 for the two-mass equations it refines.
+    """
+    gravity = GRAVITY in carried
+    if isinstance(scene, Stand):
+        return Result(_of_the_column(march.built(spec, scene, gravity=gravity), math.inf), work=_FREQUENCIES)
+    moves = march.happening(spec, scene, gravity=gravity)
+    modes = followed(moves, level)
+    if _panels(moves, modes, scene) > MOST_KEPT:
+        raise too_much_memory(moves.lasts)
+    most = most_work(_seconds(scene, moves, modes, level))
+    course = _play(spec, scene, moves, modes, most=most)
+    other = _play(spec, scene, moves, modes // 2, course.record.time, _COMPARED, most=most)
+    fine, coarse = Played(moves, course, _nudged(moves, course, most)), Played(moves, other)
+    found = _of_the_column(moves.column, moves.rolling)
+    if isinstance(scene, ObstacleScene):
+        found |= _of_the_blow(fine, coarse)
+    else:
+        found |= _of_the_swing(scene, fine, coarse)
+        found |= _settling(spec, scene, fine, coarse)
+    residual = max(course.residual, other.residual)
+    findings = list(_remarks(scene, fine))
+    if residual > _CLOSES:
+        findings.append(
+            Finding(
+                "NUM101",
+                f"scene `{scene.label}`: the energy balance has a residual of {residual:.1e}: no number is reliable",
+            )
+        )
+        found = {name: Found(Estimate.unknown(one.estimate.value), one.at, one.note) for name, one in found.items()}
+    return Result(
+        with_derived(spec, scene, found),
+        work=course.record.steps + other.record.steps,
+        window=(0.0, course.record.time),
+        health={"energy_residual": residual, "steps": float(course.record.steps)},
+        findings=tuple(findings),
+        events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
+        histories=lambda: _histories(spec, scene, moves, level, course.record.time),
+    )
+
+
+def followed(moves: Happening, level: int) -> int:
+    """Modes that are followed at a refinement, even in number: half of them are at least those up to 5/rise in Hz, and
+    no more than move anything: those of a column of a gram are so fast and so faint that nobody would see them."""
+    modes = MODES_FIRST
+    if moves.rise > 0:
+        values = frequencies(moves.column.column, MODES_MOST // 2, moves.rolling, MODES_MOST).values
+        modes = min(max(2 * wanted(values, moves.rise), MODES_FIRST), MODES_MOST)
+    modes <<= level
+    place = moves.column.column.length
+    mast = Mast.of(moves.column.column, _ELEMENTS * modes, (place,))
+    gives = np.abs(mast.at(place) * mast.participation) / mast.frequencies**2
+    return min(modes, 2 * int((gives > _FAINT * gives[0]).sum()))
+
+
+def _play(
+    spec: Stacker,
+    scene: StackerScene,
+    moves: Happening,
+    modes: int,
+    end: float = 0.0,
+    refined: float = 1.0,
+    *,
+    keep: bool = False,
+    most: float = math.inf,
+) -> Course:
+    """One run: to an end that is given, or until the event is over and some swings after it; given up after so many
+    panels."""
+    case = march.case_of(spec, moves, _ELEMENTS * modes, modes)
+    if end:
+        return play(case, end, refined, keep=keep, most_work=most)
+    factor = model.window_factor(scene)
+    after = factor * _SWINGS * 2 * math.pi / float(case.mast.frequencies[0])
+    if isinstance(scene, ObstacleScene):
+        swing = 2 * math.pi * math.sqrt(moves.column.total / moves.column.stiffness)
+        return play(case, factor * _BLOW * swing, refined, most_work=most)
+    end = moves.lasts + after
+    course = play(case, end, refined, most_work=most)
+    for _ in range(_DOUBLINGS):
+        since = course.held_since
+        if since + after <= course.record.time * (1 + 1e-9):
+            break
+        end = since + after if math.isfinite(since) else 2 * end
+        course = play(case, end, refined, most_work=most)
+    return course
+
+
+# -- what is read ---------------------------------------------------------------------------------------------------
+
+
+def _of_the_column(built: Built, base: float) -> dict[str, Found]:
+    """Stiffness at the far end, with the weights of the run and without a guide, and the lowest frequencies, over a
+    base that is held or rolls."""
+    found = _stiffness(replace(built.column, props=()))
+    lowest = frequencies(built.column, len(MODES), base, _FREQUENCIES)
+    for mode, value, doubt in zip(MODES, lowest.values.tolist(), lowest.bars.tolist(), strict=False):
+        found[of("natural_frequency", mode)] = Found(Estimate.within(value, doubt))
+        if mode == MODES[0]:
+            swing = 2 * math.pi / value
+            found["period"] = Found(Estimate.within(swing, 2 * math.pi / (value - doubt) - swing))
+    return found
+
+
+def _stiffness(free: Column) -> dict[str, Found]:
+    """Of a column whose head is free; nothing where only its guide keeps it from buckling."""
+    try:
+        fine, coarse = (Mast.of(free, count, (free.length,)) for count in (_FREQUENCIES, _FREQUENCIES // 2))
+    except NumericsError:
+        return {}
+    stiffness, other = (1 / mast.gives(free.length, free.length) for mast in (fine, coarse))
+    bar = abs(stiffness - other) + 1e-9 * stiffness
+    return {"column_stiffness": Found(Estimate.within(stiffness, bar))}
+
+
+def _bar(fine: float, coarse: float, more: float = 0.0) -> Estimate:
+    """A reading with its bar: from the run beside it, and what is known of the modes left out."""
+    return Estimate.within(fine, _MARGIN * abs(fine - coarse) + _UNSEEN * abs(fine) + more)
+
+
+def _deflection(fine: Played, coarse: Played) -> Found:
+    moves, course = fine.moves, fine.course
+    value, time = course.largest("deflection")
+    other = coarse.course.largest("deflection")[0]
+    mast, kept = course.case.mast, course.system.count
+    rest = left_out(mast, moves.rolling, fine.place, kept, moves.rise, moves.jump)
+    known = _bar(value, other, rest + _nudge(fine, "deflection", value) + _beats(fine)[0])
+    return Found(_ringing(fine, "deflection", known), {"time": time})
+
+
+def _ringing(fine: Played, what: str, known: Estimate) -> Estimate:
+    """A largest value of a column that rings on: without damping its modes meet in phase some time after the run."""
+    if not fine.course.stays:
+        return known
+    most = fine.course.most_later(what) + known.high - known.value
+    return replace(known, high=most, model=most - known.high) if most > known.high else known
+
+
+def _times(one: Found, factor: float) -> Found:
+    e = one.estimate
+    ends = e.low * factor, e.high * factor
+    return Found(Estimate(e.value * factor, *ends, e.numerical * factor, e.model * factor), one.at)
+
+
+def _moment(fine: Played, coarse: Played) -> Found:
+    moves, course = fine.moves, fine.course
+    value, time = course.largest("moment")
+    rest = moment_left_out(course.case.mast, moves.rolling, course.system.count, moves.rise, moves.jump)
+    rest += _nudge(fine, "moment", value) + _beats(fine)[1]
+    known = _bar(value, coarse.course.largest("moment")[0], rest)
+    return Found(_ringing(fine, "moment", known), {"time": time})
+
+
+def _of_the_swing(scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
+    deflection = _deflection(fine, coarse)
+    found = {
+        "mast_deflection_max": deflection,
+        "mast_force_max": _times(deflection, fine.moves.column.stiffness),
+        "mast_moment_max": _moment(fine, coarse),
+    }
+    name = "start_time" if isinstance(scene, Start) else "brake_time"
+    if fine.moves.follows:
+        found[name] = Found(Estimate.exact(fine.moves.lasts))
+        return found
+    if not isinstance(scene, Start):
+        found[name] = _standstill(fine, coarse)
+        return found
+    time, other = (one.course.first("base", "at speed") for one in (fine, coarse))
+    if math.isfinite(time) and math.isfinite(other):
+        found[name] = Found(_first_time(fine, "at speed", time, other))
+    elif math.isinf(time) and math.isinf(other):
+        found[name] = Found(Estimate.exact(math.inf))
+    else:
+        found[name] = Found(Estimate.unknown(time))
+    return found
+
+
+def _standstill(fine: Played, coarse: Played) -> Found:
+    """When the base stands for good: with its first standstill, or where the column pulls it through its brake again
+    with the last one.
+
+    The last one of a base that slips again lies where the runs beside it put it too, and has no later end where
+    something may still wake it: a column without damping pulls for ever. Before its first standstill it does not stand.
+    """
+    first, other = (one.course.first("base", "at rest") for one in (fine, coarse))
+    if math.isinf(first) or math.isinf(other):
+        return Found(Estimate.exact(math.inf) if first == other else Estimate.unknown(first))
+    begun = _first_time(fine, "at rest", first, other)
+    runs = [fine.course, coarse.course, *(one for one in fine.nudged if one is not None)]
+    lasts = [one.held_since for one in runs]
+    if all(one.stays and _at_once(one) for one in runs):
+        return Found(begun)
+    if math.isinf(lasts[0]):
+        note = f"by {fine.course.record.time:.3g} s the base has no permanent standstill"
+        return Found(Estimate(math.inf, begun.low, math.inf, model=math.inf), note=note)
+    apart = _MARGIN * abs(lasts[0] - lasts[1])
+    low = max(begun.low, min(*lasts, lasts[0] - apart))
+    high = max(begun.high, *lasts, lasts[0] + apart) if all(one.stays for one in runs) else math.inf
+    note = "the column pulls the base through its brake after the first standstill"
+    if math.isinf(high):
+        return Found(Estimate(lasts[0], low, high, model=math.inf), note=f"{note}, and may do so again")
+    return Found(Estimate(lasts[0], low, high, numerical=max(lasts[0] - low, high - lasts[0])), note=note)
+
+
+def _at_once(course: Course) -> bool:
+    """Whether the first standstill of a base is its last."""
+    return course.held_since <= course.first("base", "at rest") * (1 + 1e-9)
+
+
+def _first_time(fine: Played, word: str, time: float, other: float) -> Estimate:
+    """When the base first has its speed, or first stands.
+
+    What the modes left out may add to its speed is at most V (`speed_left_out`): it is there no sooner than a base that
+    has V less to go, and no later than one that has V more. Two runs more tell when those are; they count beside the
+    difference to half as many modes, which by chance may be nothing.
+    """
+    known = _bar(time, other)
+    low, high = (0.0 if one is None else one.first("base", word) for one in fine.nudged)
+    low, high = known.low - max(time - low, 0.0), known.high + max(high - time, 0.0)
+    return Estimate(time, max(low, 0.0), high, numerical=max(time - low, high - time))
+
+
+def _nudged(moves: Happening, course: Course, most: float) -> tuple[Course | None, Course | None]:
+    """The same run of a base that has a little less speed to win or to lose, and a little more.
+
+    When it stands, or has its speed, decides in which swing of the column it is held, and whether it slips again: what
+    the modes left out may add to its speed is then in all that comes after.
+    """
+    if moves.follows or moves.obstacle is not None or not moves.base.grips:
+        return None, None
+    jolt = speed_left_out(course.case.mast, moves.base.mass, course.system.count, moves.rise, moves.jump)
+    found = []
+    for more in (-jolt, jolt):
+        base, (grip,) = moves.base, moves.base.grips
+        speed = (base.speed or grip.speed) + more
+        if base.speed:
+            base = replace(base, speed=speed)
+        else:
+            base = replace(base, grips=(replace(grip, speed=speed),))
+        found.append(play(replace(course.case, base=base), course.record.time, most_work=most) if speed > 0 else None)
+    return found[0], found[1]
+
+
+@kept_for(16)
+def _beats(fine: Played) -> tuple[float, float]:
+    """What deflection and moment may be off by as modes that ring on meet in other phases than they would.
+
+        sum_k |g_k| s_k min(2, |w_k - w_k'| T)
+
+    with g_k what a mode takes of the load that comes up, s_k = min(1, 2/(w_k t_r)), w_k its frequency of twice as many
+    elements and w_k' that of the modes kept, in a run of the time T. Two runs may agree on a largest value by chance.
+    """
+    moves, course = fine.moves, fine.course
+    if moves.obstacle is not None:
+        return 0.0, 0.0
+    mast, kept = course.case.mast, course.system.count
+    exact = Mast.of(moves.column.column, 2 * (len(mast.elements.places) - 1), (fine.place,))
+    built, base = exact.elements, moves.rolling
+    held = mast.frequencies[:kept]
+    if math.isinf(base):
+        values, shapes, own, per = exact.frequencies, exact.shapes, held, 1.0
+    else:
+        values, shapes = exact.rolling(base)
+        total = base + mast.elements.total
+        pull = mast.participation[:kept]
+        inverse = (np.eye(kept) - np.outer(pull, pull) / total) / np.outer(held, held)
+        own = 1 / np.sqrt(np.linalg.eigvalsh(inverse)[::-1])
+        per = 1 / total
+    count = min(kept, len(values))
+    values, shapes, own = values[:count], shapes[:, :count], own[:count]
+    pushed = built.carried @ shapes * per
+    inertia = built.turned @ shapes
+    if math.isfinite(base):
+        inertia = inertia - built.moment * pushed
+    meets = np.minimum(2.0, np.abs(values - own) * course.record.time) * abs(moves.jump)
+    if moves.rise > 0:
+        meets = meets * np.minimum(1.0, 2 / (values * moves.rise))
+    gains = (
+        built.row(fine.place) @ shapes * pushed / values**2,
+        inertia * pushed - built.righted @ shapes * pushed / values**2,
+    )
+    shift, turn = (float(np.abs(one) @ meets) for one in gains)
+    return shift, turn
+
+
+def _nudge(fine: Played, what: str, value: float) -> float:
+    """What a little more or less speed of the base makes of a largest value."""
+    return max((abs(one.largest(what)[0] - value) for one in fine.nudged if one is not None), default=0.0)
+
+
+def _of_the_blow(fine: Played, coarse: Played) -> dict[str, Found]:
+    deflection = _deflection(fine, coarse)
+    found = {
+        "collision_force": _times(deflection, fine.moves.column.stiffness),
+        "collision_deflection": deflection,
+        "mast_moment_max": _moment(fine, coarse),
+    }
+    obstacle = fine.moves.obstacle
+    assert obstacle is not None
+    value, time = fine.course.top("contact")
+    if math.isinf(obstacle.stiffness):
+        note = "the impact on a rigid obstacle has a finite impulse only, no finite force"
+        found["contact_force"] = Found(Estimate.unknown(math.inf), {"time": 0.0}, note)
+    elif obstacle.damping:
+        note = "a dashpot pushes at the first touch as hard as it is fast: the largest force is one of this model"
+        found["contact_force"] = Found(Estimate.unknown(value), {"time": time}, note)
+    else:
+        found["contact_force"] = Found(_bar(value, coarse.course.top("contact")[0]), {"time": time})
+    return found
+
+
+def _settling(spec: Stacker, scene: StackerScene, fine: Played, coarse: Played) -> dict[str, Found]:
+    """From the standstill of the base until the far end stays in the window."""
+    window = spec.settling.window
+    if window is None or spec.column.log_decrement is None or not isinstance(scene, Brake):
+        return {}
+    if not fine.course.stays:
+        return {"settling_time": Found(Estimate.unknown(math.inf), note="the base is not yet held permanently")}
+    apart = abs(fine.course.largest("deflection")[0] - coarse.course.largest("deflection")[0])
+    found = at_rest(spec, scene, fine.course, window, min(_MARGIN * apart, window))
+    late = _drift(fine, coarse, window, found.time)
+    if late:
+        found = at_rest(spec, scene, fine.course, window, min(_MARGIN * apart + late, window))
+    if math.isinf(found.time):
+        return {"settling_time": Found(Estimate.exact(math.inf), note=found.reason)}
+    bar = found.high - found.time
+    low = min(found.low, found.time)
+    numerical = max(bar, found.time - low) if math.isfinite(bar) else found.time - low
+    return {"settling_time": Found(Estimate(found.time, low, found.high, numerical=numerical))}
+
+
+def _drift(fine: Played, coarse: Played, window: float, time: float) -> float:
+    """What the phase of the lowest mode may be wrong by until a time, as a deflection at the size of the window [m]."""
+    if not math.isfinite(time):
+        return 0.0
+    values = (one.course.case.mast.frequencies[0] for one in (fine, coarse))
+    first, second = values
+    return window * abs(float(first - second)) * time
+
+
+def _remarks(scene: StackerScene, fine: Played) -> list[Finding]:
+    """What happened on the way that a reader must know."""
+    course, said = fine.course, []
+    if isinstance(scene, Start | Brake) and not fine.moves.follows and math.isinf(course.held_since):
+        what = "reached its speed" if isinstance(scene, Start) else "come to rest"
+        said.append(
+            Finding(
+                "NUM103", f"scene `{scene.label}`: by {course.record.time:.3g} s the base has not {what} permanently"
+            )
+        )
+    first = course.first("base", "at rest") if isinstance(scene, Brake) and not fine.moves.follows else math.inf
+    if math.isfinite(first) and math.isfinite(course.held_since) and not _at_once(course):
+        text = (
+            f"scene `{scene.label}`: the swinging column pulls the base through its brake: at rest at {first:.3g} s,"
+            f" permanently at {course.held_since:.3g} s"
+        )
+        damps = "" if course.stays else "the damping of the mast, `column.log_decrement`, determines when it ends"
+        said.append(Finding("NUM110", text, hint=damps))
+    return said
+
+
+def _histories(spec: Stacker, scene: StackerScene, moves: Happening, level: int, end: float) -> Mapping[str, History]:
+    """Deflection, force and moment over time, from a run that keeps them."""
+    course = _play(spec, scene, moves, followed(moves, level), end, keep=True)
+    times, deflections = course.over_time("deflection")
+    force = (deflections * moves.column.stiffness).tolist()
+    at = times.tolist()
+    if isinstance(scene, ObstacleScene):
+        contact = course.over_time("contact")[1].tolist()
+        return {
+            "collision_deflection": History(units.LENGTH, at, deflections.tolist()),
+            "collision_force": History(units.FORCE, at, force),
+            "contact_force": History(units.FORCE, at, contact),
+        }
+    return {
+        "mast_deflection_max": History(units.LENGTH, at, deflections.tolist()),
+        "mast_force_max": History(units.FORCE, at, force),
+        "mast_moment_max": History(units.TORQUE, at, course.over_time("moment")[1].tolist()),
+    }
+
+
+def _cost(spec: Stacker, scene: StackerScene, carried: frozenset[str], level: int) -> float:
+    """Seconds of a run and of the one its bars are found with."""
+    if isinstance(scene, Stand):
+        return 0.02
+    moves = march.happening(spec, scene, gravity=False)
+    try:
+        modes = followed(moves, level)
+    except NumericsError:  # it has no modes, as its run will say at once
+        return 0.04
+    return _seconds(scene, moves, modes, level)
+
+
+def _panels(moves: Happening, modes: int, scene: StackerScene) -> float:
+    """Panels in which some mode that rings on could still have its summit: about eight to a radian of the slowest."""
+    factor = model.window_factor(scene)
+    return 8 * modes * factor * moves.lasts * math.sqrt(moves.column.stiffness / moves.column.total)
+
+
+def _seconds(scene: StackerScene, moves: Happening, modes: int, level: int) -> float:
+    """By the swings of the modes in the time that is looked at: fast ones are passed over by long panels; a point that
+    stops dead is struck again by every mode."""
+    slowest = math.sqrt(moves.column.stiffness / moves.column.total)
+    if moves.obstacle is not None and math.isinf(moves.obstacle.stiffness):
+        return 0.04 * math.pow(modes / MODES_FIRST, 2.5)
+    runs = (
+        1 if moves.follows or moves.obstacle is not None else 2
+    )  # two more of a base that is as fast, but for a little
+    return runs * 0.04 * (1 + level) + runs * 1e-3 * modes * (1 + (moves.lasts * slowest + 20) / 20)
+
+
+def _solver(
+    name: str,
+    title: str,
+    scenes: frozenset[type[Scene]],
+    always: frozenset[str],
+    gives: frozenset[str],
+    levels: int,
+    fidelity: Fidelity = Fidelity.TRANSIENT,
+) -> Solver[Stacker, StackerScene]:
+    return Solver(
+        name=name,
+        title=title,
+        fidelity=fidelity,
+        scenes=scenes,
+        represents=always | {GRAVITY},
+        gives=gives | {"column_stiffness", "natural_frequency", "period"} | DERIVED,
+        run=run,
+        cost=_cost,
+        source="finite elements of Euler and Bernoulli; exact propagation between events (`numerics.mast`)",
+        valid=evenly,
+        always=always,
+        levels=levels,
+    )
+
+
+MAST_MODAL = _solver(
+    "mast_modal",
+    "mast start or stop, finite-element modes",
+    frozenset({Start, Brake}),
+    ALWAYS | {MODES_HIGHER, HOLDING, GUIDE},
+    frozenset(
+        {"start_time", "brake_time", "settling_time", "mast_deflection_max", "mast_force_max", "mast_moment_max"}
+    ),
+    LEVELS,
+)
+COLLISION_MODAL = _solver(
+    "collision_modal",
+    "collision with an obstacle, finite-element modes",
+    frozenset({ObstacleScene}),
+    ALWAYS | {CONTACT},
+    frozenset({"collision_force", "collision_deflection", "mast_moment_max", "contact_force"}),
+    LEVELS,
+)
+STANDING_MODAL = _solver(
+    "standing_modal",
+    "mast frequencies, finite elements",
+    frozenset({Stand}),
+    frozenset(),
+    frozenset(),
+    1,
+    Fidelity.MODAL,
+)

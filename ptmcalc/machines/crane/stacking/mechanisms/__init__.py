@@ -1,0 +1,1 @@
+"""Mechanisms: carriage, ropes, starting and stopping times."""

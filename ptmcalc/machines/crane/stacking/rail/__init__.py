@@ -1,0 +1,1 @@
+"""Rail: steps, gaps and waviness, wheels that lift off."""

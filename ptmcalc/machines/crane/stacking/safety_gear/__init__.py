@@ -1,0 +1,1 @@
+"""Safety gear: fall and catch."""

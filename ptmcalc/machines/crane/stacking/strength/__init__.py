@@ -1,0 +1,1 @@
+"""Strength: load combinations, stresses, stability."""
