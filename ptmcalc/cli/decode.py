@@ -10,7 +10,7 @@ from ptmcalc.cli.output import say
 
 if TYPE_CHECKING:
     from ptmcalc.base.units import Quantity
-    from ptmcalc.machines.shaft.decoding import Decoded
+    from ptmcalc.machines.shaft.records.decoding import Decoded
 
 
 class Phase(StrEnum):
@@ -50,8 +50,8 @@ def decode(
     from ptmcalc.base import units
     from ptmcalc.contract.report import FileReport, exit_status
     from ptmcalc.engine.load import load_file
-    from ptmcalc.machines.shaft.decoding import decoded
     from ptmcalc.machines.shaft.model import machine_of
+    from ptmcalc.machines.shaft.records.decoding import decoded
     from ptmcalc.machines.shaft.spec import Shaft
     from ptmcalc.report import Format as Plain
     from ptmcalc.report import render

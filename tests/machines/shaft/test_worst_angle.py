@@ -5,9 +5,9 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.shaft import worst
 from ptmcalc.machines.shaft.cases import departure
-from ptmcalc.machines.shaft.motion import ORDERS, run_out
+from ptmcalc.machines.shaft.runs import worst
+from ptmcalc.machines.shaft.runs.motion import ORDERS, run_out
 from ptmcalc.machines.shaft.spec import RunOut, Shaft
 
 

@@ -4,8 +4,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds, impossible
+from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import machine_in
+from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.loads import OF_CYCLE
 from ptmcalc.machines.shaft.spec import Shaft, Steady
 from ptmcalc.machines.shaft.steady import surely_stalls

@@ -12,7 +12,7 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver, always_valid
-from ptmcalc.machines.shaft import impossible, ledger, motion, worst
+from ptmcalc.machines.shaft import ledger
 from ptmcalc.machines.shaft.cases import (
     Departure,
     cycle_of,
@@ -24,10 +24,11 @@ from ptmcalc.machines.shaft.cases import (
     target_speed,
     wanted_stop,
 )
+from ptmcalc.machines.shaft.cycle import impossible
 from ptmcalc.machines.shaft.loads import ANGULAR_ACCELERATION, OF_RUN_OUT, OF_RUN_UP
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.results import bar, result_of
-from ptmcalc.machines.shaft.solvers import speed_quadrature
+from ptmcalc.machines.shaft.runs import motion, speed_quadrature, worst
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
 
 _SEPARATE = 150

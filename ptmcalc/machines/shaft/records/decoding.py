@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ptmcalc.base import units
 from ptmcalc.base.errors import UsageError
 from ptmcalc.base.units import Quantity
-from ptmcalc.machines.shaft import slowing
 from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.records import slowing
 from ptmcalc.numerics import decode
 
 FloatArray = NDArray[np.float64]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import Departure
-from ptmcalc.machines.shaft.motion import ORDERS, Run, run_out
+from ptmcalc.machines.shaft.runs.motion import ORDERS, Run, run_out
 from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]

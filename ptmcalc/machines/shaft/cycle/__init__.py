@@ -1,0 +1,1 @@
+"""The steady cycle: speed fluctuation, flywheel, cycles that are impossible."""

@@ -1,0 +1,1 @@
+"""Measured speed records: motor curve, losses and brake torque from them."""

@@ -1,0 +1,1 @@
+"""Run-up and run-out: the tachogram, the worst angle, the brake."""
