@@ -30,10 +30,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import Rung, plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import widen
-from ptmcalc.machines.crane.travelling.effects import IN_PLANE
-from ptmcalc.machines.crane.travelling.solvers.sway_exact import SWAY_EXACT
-from ptmcalc.machines.crane.travelling.solvers.sway_linear import SWAY_LINEAR
-from ptmcalc.machines.crane.travelling.solvers.sway_simulated import SWAY_SIMULATED
+from ptmcalc.machines.crane.travelling.sway.effects import IN_PLANE
+from ptmcalc.machines.crane.travelling.sway.sway_exact import SWAY_EXACT
+from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR
+from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
 
 ON_TRIAL = {
     "crane": (

@@ -12,11 +12,11 @@ from support.travelling_statics import Statics, random_crane
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.travelling.solvers.buffer_collision import BUFFER_COLLISION
-from ptmcalc.machines.crane.travelling.solvers.rail_response import RAIL_RESPONSE
-from ptmcalc.machines.crane.travelling.solvers.skewing import SKEWING
-from ptmcalc.machines.crane.travelling.solvers.storm_parking import STORM_PARKING
-from ptmcalc.machines.crane.travelling.solvers.travel_statics import STARTING, TRAVEL_STATICS
+from ptmcalc.machines.crane.travelling.buffers.buffer_collision import BUFFER_COLLISION
+from ptmcalc.machines.crane.travelling.rail.rail_response import RAIL_RESPONSE
+from ptmcalc.machines.crane.travelling.skewing.skewing import SKEWING
+from ptmcalc.machines.crane.travelling.statics.travel_statics import STARTING, TRAVEL_STATICS
+from ptmcalc.machines.crane.travelling.storm.storm_parking import STORM_PARKING
 
 WITHOUT_BARS = {
     "crane": (

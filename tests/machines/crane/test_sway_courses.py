@@ -5,9 +5,9 @@ import pytest
 from support.command import ROOT
 
 from ptmcalc.engine.load import load_file
-from ptmcalc.machines.crane.travelling.solvers.sway_linear import SWAY_LINEAR
-from ptmcalc.machines.crane.travelling.solvers.sway_simulated import SWAY_SIMULATED
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR
+from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
 
 
 @pytest.mark.parametrize("label", ["start_loaded", "brake_loaded", "hoist_while_travelling_loaded"])

@@ -16,9 +16,9 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.solvers.sway_exact import SWAY_EXACT
-from ptmcalc.machines.crane.travelling.solvers.sway_linear import SWAY_LINEAR
-from ptmcalc.machines.crane.travelling.solvers.sway_simulated import SWAY_SIMULATED
+from ptmcalc.machines.crane.travelling.sway.sway_exact import SWAY_EXACT
+from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR
+from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
 
 RAMP = Machine(True, 1.0, 1e4, 2e4, 8.0, 1500.0, ramp=0.15)
 STEEP = Machine(False, 2.0, 1e4, 2e4, 5.0, 1500.0, ramp=1.5)

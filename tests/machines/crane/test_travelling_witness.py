@@ -11,9 +11,9 @@ from support.machines import changed, load_of
 from support.travelling import BRIDGE, crane_of, scene_report
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.crane.travelling.course import State
-from ptmcalc.machines.crane.travelling.simulated import Simulated
-from ptmcalc.machines.crane.travelling.solvers.sway_simulated import SWAY_SIMULATED
+from ptmcalc.machines.crane.travelling.sway.course import State
+from ptmcalc.machines.crane.travelling.sway.simulated import Simulated
+from ptmcalc.machines.crane.travelling.sway.sway_simulated import SWAY_SIMULATED
 from ptmcalc.machines.crane.travelling.witness import SWAY_CARTESIAN
 
 CAGE = {"power": "5 kW", "speed": "1400 rpm", "synchronous_speed": "1500 rpm", "overload": 2.4}

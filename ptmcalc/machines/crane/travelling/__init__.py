@@ -10,15 +10,15 @@ from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
 from ptmcalc.machines.crane.travelling.checks import CHECKS
-from ptmcalc.machines.crane.travelling.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.travelling.checks_events import CHECKS_OF_EVENTS
-from ptmcalc.machines.crane.travelling.effects import EFFECTS_OF_TRAVEL
-from ptmcalc.machines.crane.travelling.factors import CREEPING
 from ptmcalc.machines.crane.travelling.figures import FIGURES
 from ptmcalc.machines.crane.travelling.loads import LOADS, parts
 from ptmcalc.machines.crane.travelling.relations import RELATIONS
 from ptmcalc.machines.crane.travelling.solvers import SOLVERS
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.statics.checks_drive import CHECKS_OF_DRIVE
+from ptmcalc.machines.crane.travelling.statics.factors import CREEPING
+from ptmcalc.machines.crane.travelling.sway.effects import EFFECTS_OF_TRAVEL
 
 _SPEED_TOLERANCE = 0.05
 

@@ -17,17 +17,18 @@ from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling import cartesian, model
-from ptmcalc.machines.crane.travelling.cartesian import Force, Journey, Mode, Numbers, Seen, no_force
-from ptmcalc.machines.crane.travelling.course import Course, Reading, Worst
-from ptmcalc.machines.crane.travelling.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.loads import MOVING
 from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
-from ptmcalc.machines.crane.travelling.reading import loads_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.simulated import turns
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway import cartesian
+from ptmcalc.machines.crane.travelling.sway.cartesian import Force, Journey, Mode, Numbers, Seen, no_force
+from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, Worst
+from ptmcalc.machines.crane.travelling.sway.effects import CURVE, IN_PLANE, LARGE, MOVING_SCENES, SWAY
+from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls
+from ptmcalc.machines.crane.travelling.sway.reading import loads_of
+from ptmcalc.machines.crane.travelling.sway.simulated import turns
 from ptmcalc.machines.crane.travelling.witness_events import OF_EVENTS
 from ptmcalc.witness import lumped
 

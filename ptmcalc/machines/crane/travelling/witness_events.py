@@ -20,11 +20,12 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer, skew
-from ptmcalc.machines.crane.travelling import model, yawing
-from ptmcalc.machines.crane.travelling.effects import RAIL
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.buffers import yawing
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.effects import RAIL
 from ptmcalc.witness import lumped
 
 FloatArray = NDArray[np.float64]

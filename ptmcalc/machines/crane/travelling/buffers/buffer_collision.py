@@ -9,7 +9,8 @@ from ptmcalc.components.buffer import Stopped, stopped
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import buffer
-from ptmcalc.machines.crane.travelling import model, yawing
+from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.buffers import yawing
 from ptmcalc.machines.crane.travelling.loads import OF_THE_BUFFERS, names
 from ptmcalc.machines.crane.travelling.scenes import Collision
 from ptmcalc.machines.crane.travelling.spec import Travelling

@@ -13,12 +13,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.result import Event, Finding, History
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.course import Course, Reading, State, Worst
-from ptmcalc.machines.crane.travelling.linear import linear_course, stalled
 from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.moving import Motion, motion_of, stalls
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, State, Worst
+from ptmcalc.machines.crane.travelling.sway.linear import linear_course, stalled
+from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls
 from ptmcalc.numerics.distinct import distinct
 from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Load, Push, Rail, Smooth, Straight
 from ptmcalc.numerics.pendulum.pieces import Pieces, braking

@@ -7,11 +7,11 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import pendulum, skid
 from ptmcalc.machines.crane.travelling import model, wheels
-from ptmcalc.machines.crane.travelling.effects import MOVING_SCENES, mean_acceleration
 from ptmcalc.machines.crane.travelling.model import filled
-from ptmcalc.machines.crane.travelling.moving import motion_of, stalls
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.effects import MOVING_SCENES, mean_acceleration
+from ptmcalc.machines.crane.travelling.sway.moving import motion_of, stalls
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
-from ptmcalc.machines.crane.travelling.course import Course, Phase
-from ptmcalc.machines.crane.travelling.moving import Motion, stalls
+from ptmcalc.machines.crane.travelling.sway.course import Course, Phase
+from ptmcalc.machines.crane.travelling.sway.moving import Motion, stalls
 from ptmcalc.numerics.pendulum import linear
 from ptmcalc.numerics.pendulum.linear import LinearCase, LinearSwing, linear_swing
 from ptmcalc.numerics.pendulum.pieces import Pieces

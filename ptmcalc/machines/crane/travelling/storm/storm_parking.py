@@ -4,12 +4,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import travel
-from ptmcalc.machines.crane.travelling import model, resisting, stability, wheels
-from ptmcalc.machines.crane.travelling.course import State
+from ptmcalc.machines.crane.travelling import model, stability, wheels
 from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM, names
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.statics import resisting
+from ptmcalc.machines.crane.travelling.sway.course import State
 
 
 def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> Result:

@@ -3,7 +3,10 @@
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.travelling.effects import (
+from ptmcalc.machines.crane.travelling.loads import MOVING
+from ptmcalc.machines.crane.travelling.scenes import Moving
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.effects import (
     CURVE,
     IN_PLANE,
     LARGE,
@@ -12,12 +15,9 @@ from ptmcalc.machines.crane.travelling.effects import (
     SWAY,
     follows_curve,
 )
-from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.moving import motion_of
-from ptmcalc.machines.crane.travelling.reading import failures_of, findings_of, loads_of
-from ptmcalc.machines.crane.travelling.scenes import Moving
-from ptmcalc.machines.crane.travelling.simulated import simulate, turns
-from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.moving import motion_of
+from ptmcalc.machines.crane.travelling.sway.reading import failures_of, findings_of, loads_of
+from ptmcalc.machines.crane.travelling.sway.simulated import simulate, turns
 
 TOLERANCES = (1e-9, 1e-12)
 

@@ -6,7 +6,6 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import braking_number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
-from ptmcalc.machines.crane.travelling import drive
 from ptmcalc.machines.crane.travelling.checks import (
     RUNNING,
     STARTS,
@@ -17,6 +16,7 @@ from ptmcalc.machines.crane.travelling.checks import (
 )
 from ptmcalc.machines.crane.travelling.scenes import Run, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.statics import drive
 
 
 def _loaded(spec: Travelling, scene: TravelScene) -> bool:

@@ -11,10 +11,10 @@ from ptmcalc.contract.result import Failure, Finding, Found, of
 from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.travelling import model, stability
 from ptmcalc.machines.crane.travelling.checks import rate_key
-from ptmcalc.machines.crane.travelling.course import Course, State, extreme
-from ptmcalc.machines.crane.travelling.moving import motion_of
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.course import Course, State, extreme
+from ptmcalc.machines.crane.travelling.sway.moving import motion_of
 from ptmcalc.machines.crane.travelling.wheels import FloatArray, Wheels, driven_corners
 
 STALL = "stall: the motors do not bring the crane to full speed against friction, wind and slope"

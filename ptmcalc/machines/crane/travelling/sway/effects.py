@@ -10,14 +10,14 @@ from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import rail
 from ptmcalc.machines.crane.travelling import model
-from ptmcalc.machines.crane.travelling.course import State
-from ptmcalc.machines.crane.travelling.finite import far, regular, widened
-from ptmcalc.machines.crane.travelling.linear import linear_course
 from ptmcalc.machines.crane.travelling.loads import MOVING
-from ptmcalc.machines.crane.travelling.moving import Motion, motion_of
-from ptmcalc.machines.crane.travelling.reading import loads_of
 from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, RailStep, Start
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.sway.course import State
+from ptmcalc.machines.crane.travelling.sway.finite import far, regular, widened
+from ptmcalc.machines.crane.travelling.sway.linear import linear_course
+from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of
+from ptmcalc.machines.crane.travelling.sway.reading import loads_of
 from ptmcalc.machines.crane.travelling.wheels import Wheels
 from ptmcalc.spec.scene import Scene
 

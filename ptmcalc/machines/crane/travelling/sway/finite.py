@@ -5,9 +5,9 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.travelling.course import Course, Phase, between
-from ptmcalc.machines.crane.travelling.linear import linear_course
-from ptmcalc.machines.crane.travelling.moving import Motion
+from ptmcalc.machines.crane.travelling.sway.course import Course, Phase, between
+from ptmcalc.machines.crane.travelling.sway.linear import linear_course
+from ptmcalc.machines.crane.travelling.sway.moving import Motion
 
 _LOOKS = 200
 _SMALL = 0.03

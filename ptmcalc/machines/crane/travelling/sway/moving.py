@@ -4,9 +4,10 @@ import math
 from dataclasses import dataclass
 
 from ptmcalc.components.motor import ConverterMotor
-from ptmcalc.machines.crane.travelling import model, resisting
+from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.statics import resisting
 
 
 @dataclass(frozen=True, slots=True)

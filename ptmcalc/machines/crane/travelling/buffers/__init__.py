@@ -1,0 +1,1 @@
+"""Buffers: collision, and the crane that yaws in it."""

@@ -1,0 +1,1 @@
+"""Skewing of the crane on its rails."""

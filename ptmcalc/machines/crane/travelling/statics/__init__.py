@@ -1,0 +1,1 @@
+"""Steady travel: resistance, power, wheel loads, duty, standard factors."""

@@ -1,0 +1,1 @@
+"""Storm: wind out of service."""

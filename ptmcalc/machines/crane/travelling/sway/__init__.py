@@ -1,0 +1,1 @@
+"""Starting and stopping: sway of the load, wheel loads, adhesion."""
