@@ -52,12 +52,12 @@ the stiffness by less than 4 % and the frequency by less than 2 %, with the fact
 `gravity_bound` covers the neglected weight. A smaller value requests it in more scenes."""
 CONTACT_THRESHOLD = 0.1
 """Collision force relative to the force of the brake [1]. An engineering choice: below 10 % the collision force is less
-than 10 % of the brake force. The neglect of the contact has no bound, so verdicts come from runs with it. The value
-affects the reported state of the effect."""
+than 10 % of the brake force. Every run simulates the contact, so no error depends on the value. It affects the list of
+sensitive effects."""
 HOLDING_THRESHOLD = 1.0
 """Force of the vibrating mast on the base after the stop, relative to the holding force [1]. Derived for two masses and
-a sudden force: below 1 the base does not slip again. The neglect of the effect has no bound, so verdicts come from runs
-with it. The value affects the reported state of the effect."""
+a sudden force: below 1 the base does not slip again. Every run simulates the holding, so no error depends on the value.
+It affects the list of sensitive effects."""
 GUIDE_THRESHOLD = 0.1
 """Stiffness of the top guide relative to that of the mast at its head [1]. An engineering choice: below 10 % the guide
 changes the stiffness by less than 10 % and the frequency by less than 5 %. The neglect of a guide has a bound for
