@@ -20,6 +20,9 @@ from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
 
 _SPEED_TOLERANCE = 0.05
+"""Share [1] by which the stated speed may exceed the no-load speed of motor and gear; above, SPC201 is reported. An
+engineering choice: a smaller value reports rounded speeds, a larger one accepts a wrong ratio. No load depends on
+it."""
 
 
 def inspect(spec: Shaft) -> Iterator[Finding]:

@@ -14,7 +14,14 @@ Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
 
 INERTIA_THRESHOLD = 0.05
+"""Torque by the varying inertia relative to the mean torque [1]. An engineering choice: below 5 % it changes the torque
+balance by less than 5 %. `inertia_bound` adds the resulting error to the bar below the threshold; from the threshold on
+the error is unbounded and a run must simulate the effect. A larger value widens the range of the bound."""
 SLOPE_THRESHOLD = 1.0
+"""Period of the load relative to the time constant of motor and shaft [1]; lecture notes Kramatorsk, section on the
+flywheel. Well below 1 the motor torque stays near its mean; `slope_bound` adds the error of a constant torque to the
+bar. From 1 on the error is unbounded and a run must simulate the slope. A larger value widens the range of the
+bound."""
 
 _CLOSED = frozenset({"kinetic_energy", "speed_run_out", "torque_starting", "acceleration_starting"})
 """Loads that no effect changes: they are of the moment at which the motion begins."""

@@ -43,6 +43,9 @@ Shape = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray | None]]
 """Inertia of the mechanism, its slope, and the torque of weights and springs, over the angle."""
 
 _SAME_ANGLE = 1e-9
+"""Distance [rad] up to which two breaks of the cycle count as one; for tool positions relative to the crank radius. A
+numerical choice: it is above the rounding of an angle, about 1e-15. A larger value merges separate breaks; a smaller
+one leaves stretches of rounding width."""
 _INSIDE = 64 * np.finfo(float).eps
 
 

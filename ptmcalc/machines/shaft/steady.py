@@ -15,12 +15,24 @@ FloatArray = NDArray[np.float64]
 
 FINE, COARSE = 12, 8  # nodes of a stretch, and of the run the bar is read from
 _LONGEST = math.pi / 8
+"""Longest stretch of the first grid [rad], 1/16 turn; at most a quarter of the cycle. A numerical choice: refinement
+divides stretches where needed. A larger value may miss narrow changes of the torque; a smaller one costs time in
+proportion."""
 _SHORTEST = 1e-11  # of the cycle
 _TOLERANCE, _ROUNDING = 1e-12, 1e-15
+"""Last coefficients up to which a stretch is not divided, relative to the largest rate and to the largest e = w^2/2
+[1]. A numerical choice: 1e-12 is below the reported accuracy, 1e-15 is a few units of the resolution of floating-point
+numbers. Larger values reduce the accuracy; smaller ones divide rounding."""
 _UNSEEN = 16 * float(np.finfo(float).eps)  # of e: what its last digits make of its rate is no tail, 0.4 to 3 of eps
 _ON_EDGE, _NEAR_EDGE = 1e-9, 0.05  # shares of a stretch
 _MOST_STRETCHES, _MOST_REFINED, _MOST_SECANTS = 3_000, 10_000, 40
+"""Stretches of a cycle, stretches of all refinements together, and root-finding steps for a corner of the torque [1]. A
+numerical choice: smaller values end the refinement early and may refuse a cycle with NUM101. Larger ones allow longer
+runs."""
 _STARTS, _MOST_MARCHED = 28, 1000
+"""Initial speeds tried for a steady cycle, and stretches tried one by one in that search [1]. A numerical choice: fewer
+initial speeds may miss a cycle in a narrow speed range. Fewer stretches refuse the search early with NUM103; more of
+both cost time."""
 _ROUGH = 1e-7  # of the value at the beginning of a stretch, where only the way to the cycle is looked for
 _SAMPLES = np.linspace(0.0, 1.0, 41)
 

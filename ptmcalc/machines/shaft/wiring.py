@@ -14,6 +14,8 @@ from ptmcalc.spec.fragment import Conflict, Given
 
 FULL_TURN = units.unit_of("rev")[0]
 _SAME = 1e-9
+"""Share [1] of the cycle angle up to which two angles are equal. A numerical choice: it is above the rounding of
+converted units, about 1e-15. A larger value rejects valid tables; a smaller one accepts a repeated first point."""
 
 
 def _type_of(block: Given | None) -> object:

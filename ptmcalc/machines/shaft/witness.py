@@ -26,13 +26,25 @@ from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
 from ptmcalc.witness import lumped
 
 _FIRST, _SECOND = 1e-7, 1e-9
+"""Relative tolerance of the coarse and of the fine run [1]; three times their difference is the error bar. A numerical
+choice: smaller values narrow the bar and take more steps. Their ratio of 100 makes the coarse run dominate the
+difference."""
 _SAMPLES = 24
+"""Samples of the speed in a step [1]; a parabola through three of them refines the extremes. A numerical choice: more
+samples reduce the error of the extremes and cost time in proportion."""
 _ANGLES, _NARROWINGS = 32, 2
+"""Starting angles of a batch of stops, and further batches around the worst one [1]. A numerical choice: fewer angles
+may miss the worst peak, fewer batches widen the error bar. More cost time in proportion."""
 _STEPS = (45, 90)
 """Steps of a turn in the runs of a stop from many angles at once."""
 _MOST_CYCLES = 60.0
+"""Cycles of a motion [1] from which the reference method is not used. A numerical choice: a smaller value refuses slow
+machines, a larger one allows longer runs."""
 _A_CYCLE, _A_STEP = 0.03, 7e-4
+"""Predicted time [s] of a cycle by adaptive steps and of a step of a batch. An engineering choice: the values decide
+only whether the reference method fits into the available time. No load depends on them."""
 _NEAR = 1e-10
+"""Relative tolerance [1], a numerical choice. No code of this module uses it; a change has no effect."""
 Readings = dict[str, float]
 
 

@@ -10,7 +10,13 @@ from ptmcalc.machines.crane.slewing import chain, model
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 _TIME_TOLERANCE = 0.02
+"""Relative difference [1] of the stated start time and that of the stated torque, above which SPC201 is reported. An
+engineering choice: a smaller value reports rounded inputs, a larger one accepts contradictions. No load depends on
+it."""
 _SPEED_TOLERANCE = 0.1
+"""Relative difference [1] of the stated slewing speed and that of motor and gear, above which SPC201 is reported. An
+engineering choice: a smaller value reports the slip of motors, a larger one accepts a wrong ratio. No load depends on
+it."""
 
 
 def inspect(spec: SlewingCrane) -> Iterator[Finding]:

@@ -18,12 +18,18 @@ from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
 _LONGER, _TRIES = 3.0, 3
+"""Factor of the simulated time from attempt to attempt, and number of attempts of a start or stop [1]. A numerical
+choice: a start may take 27 times and a stop 18 times as long as that of the rigid crane. Larger values refuse later and
+cost longer runs."""
 _PERIODS_AFTER = 3.0
 """Periods of the load that are looked at after the stop."""
 _STATE = ("along", "across", "along_rate", "across_rate")
 _INHERITED = 10.0
 """By how much an error of the state with which a piece begins may have grown by the end of it."""
 _AT_SPEED = 1e-9
+"""Relative deviation [1] from full speed up to which a drive has reached it at the end of its ramp. A numerical choice:
+it is above the step tolerance of the pendulum, 1e-11. A larger value accepts a drive at its torque limit; a smaller one
+misses the end of a ramp by rounding."""
 _STANDS = 1e-9
 """Share of the full speed below which the crane stands."""
 _WIDEST = math.radians(80.0)
@@ -31,6 +37,8 @@ _WIDEST = math.radians(80.0)
 _PARTS = 3
 """Times the usual time after a stop that are looked at more where the load still drags the crane."""
 _MOST_STEPS = 3000
+"""Steps of one integration [1] after which it is refused with NUM103. A numerical choice: a smaller value refuses long
+sway early, a larger one allows longer runs. No result that is reached depends on it."""
 
 
 @dataclass(frozen=True, slots=True)

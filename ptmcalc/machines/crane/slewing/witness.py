@@ -29,10 +29,16 @@ from ptmcalc.witness import lumped
 FloatArray = NDArray[np.float64]
 Torque = Callable[[float, float], float]
 _PERIODS_AFTER = 3.0
+"""Sway periods [1] after the stop in which extremes are searched, times 2 + `_DRAGGED`. A numerical choice, equal to
+that of the solver: fewer miss later extremes, more cost time."""
 _DRAGGED = 8
 """So many times longer, since a load that swings may drag a braked crane on."""
 _LONGEST = 2000.0
+"""Time [s] after which a start or stop is refused with NUM102. An engineering choice: a smaller value refuses slow
+cranes, a larger one allows longer runs."""
 _SAMPLES = 40
+"""Samples of the angles in a step [1]; a parabola through three of them refines the extremes. A numerical choice: more
+samples reduce the error of the extremes and cost time in proportion."""
 _OUTWARDS, _AHEAD, _ROPE = range(3)
 
 

@@ -28,14 +28,38 @@ ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
 FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
 
 CATCHING_THRESHOLD = 0.05
+"""Additional force of a snagged fork, relative to the weight on the rope [1]. An engineering choice
+(`laws.fork.catching_number`): below 5 % the snag adds less than 5 % of the weight. Every run simulates the snag, so no
+error depends on the value. It affects the list of sensitive effects."""
 RACK_THRESHOLD = 0.1
+"""Stiffness of the rope relative to that of the rack [1]. An engineering choice: below 10 % the rack changes frequency
+and dynamic force by less than 5 %, as springs in series. `rack_bound` covers the neglected rack. A smaller value
+requests it in more scenes."""
 SLOPE_THRESHOLD = 0.05
+"""Damping ratio of the drive by the slope of the motor [1]. An engineering choice: below 0.05 the first peak of the
+dynamic force decreases by less than 15 %, 1 - exp(-pi 0.05). `slope_bound` adds the decrease to the error bar. A
+smaller value requests the slope in more scenes."""
 LIMITER_THRESHOLD = 1.0
+"""Upper bound of the rope force relative to the force of the limiter [1]. Derived: below 1 the limiter does not trip
+and its neglect has no error. A value above 1 would neglect limiters that trip."""
 PUSHING_THRESHOLD = 0.05
+"""Shock force of the fork relative to the force of its drive [1]. An engineering choice: below 5 % the shock is less
+than 5 % of the drive force. Every run simulates the shock, so no error depends on the value. It affects the list of
+sensitive effects."""
 YIELDING_THRESHOLD = 0.1
+"""Stiffness of the rack relative to that of the mast at the fork [1]. An engineering choice: below 10 % the mast
+changes the shock force by less than 5 %, as springs in series. `yield_bound` covers the neglected mast. A smaller value
+requests it in more scenes."""
 UNEVEN_THRESHOLD = 0.02
+"""Change of the wheel loads by the rail, relative to gravity [1]. An engineering choice: below 2 % the wheel loads
+change by less than 2 %. Every run simulates the rail, so no error depends on the value. It affects the list of
+sensitive effects."""
 JUMPING_THRESHOLD = 1.0
+"""Share of its load that a wheel loses on the rail [1]. Derived: at 1 the wheel load is zero; below, one undamped mode
+stays on the rail and the neglect of lift-off has no error. A larger value would keep a wheel on the rail by a pull."""
 GEAR_THRESHOLD = 1.0
+"""Force of the safety gear relative to the weight [1]. Derived: at or below 1 the gear does not decelerate the
+carriage. Every run simulates the gear, so no error depends on the value. It affects the list of sensitive effects."""
 
 
 def _anything(loads: Loads) -> Offsets:

@@ -17,9 +17,13 @@ from ptmcalc.numerics.train.system import TrainSystem
 _OTHERWISE = 0.7
 """How the run beside the one that counts divides time, over its own panels."""
 _MARGIN = 3.0
+"""Factor [1] on the difference of two runs with other time steps, in the error bar. A numerical choice: both runs are
+exact but for rounding. A larger value widens the bar; below 1 the bar may exclude the second run."""
 _UNSEEN = FADED + 3e-12
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 _CLOSES = 1e-9
+"""Largest relative residual [1] of the energy balance. A numerical choice: it is above the rounding of a run and below
+the accuracy of any input. Above it NUM101 is reported and the error bar is unbounded."""
 MOST_SPREAD = 300.0
 """Fastest over slowest vibration of what is played: beyond it the fast one has died in any machine, not in a run."""
 _MOST_EVENTS = 2000

@@ -21,6 +21,9 @@ from ptmcalc.machines.crane.travelling.statics.factors import CREEPING
 from ptmcalc.machines.crane.travelling.sway.effects import EFFECTS_OF_TRAVEL
 
 _SPEED_TOLERANCE = 0.05
+"""Relative difference [1] of the stated speed and that of motor, gear and wheels, above which SPC201 is reported. An
+engineering choice: a smaller value reports the slip of motors, a larger one accepts a wrong ratio. No load depends on
+it."""
 
 
 def inspect(spec: Travelling) -> Iterator[Finding]:

@@ -22,7 +22,12 @@ from ptmcalc.machines.shaft.steady import Cycle, closed_cycle, light_cycle
 from ptmcalc.numerics.cycle import Orbit
 
 _MOST_SECANTS = 40
+"""Secant steps [1] for the flywheel in each of the two searches. A numerical choice: the secant method converges in a
+few steps. Fewer refuse flywheels with NUM101; more only delay the refusal."""
 _NEAR, _FLYWHEEL = 1e-3, 1e-11
+"""Relative deviation [1] from the required irregularity on the stretches of the cycle without flywheel, and on its own.
+A numerical choice: 1e-3 suffices as a start; 1e-11 is near the rounding of the irregularity. A larger `_FLYWHEEL`
+widens the error bar; a smaller one may not converge."""
 _LARGEST_FLYWHEEL = 1e6  # times the present inertia
 
 

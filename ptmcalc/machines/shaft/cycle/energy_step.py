@@ -21,7 +21,12 @@ from ptmcalc.numerics.steps import energy_steps
 FloatArray = NDArray[np.float64]
 
 _STEPS = 90
+"""Angle steps of a cycle at the first level [1], 4 deg for a full turn; each level doubles them. A numerical choice:
+the error decreases with the square of the number, the time grows in proportion."""
 _MARGIN = 1.0
+"""Factor [1] on the difference of two step sizes in the error bar. Derived: the method is of second order, so the error
+of the finer steps is one third of the difference (Richardson). The value 1 leaves a margin of 3; a larger one widens
+the bar."""
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,8 @@ FloatArray = NDArray[np.float64]
 
 PHASES = ("run_up", "run_out", "brake")
 _ROWS = 25
+"""Rows of the reported torque table at most [1]. An engineering choice: more rows lengthen the report. The summary
+values do not depend on it."""
 _TIMES = 2.6
 """Standard deviations in an uncertainty: 99 % of normally distributed errors."""
 _SHORTEST, _SLOWEST = 1e-6, 1e-6

@@ -26,13 +26,25 @@ FloatArray = NDArray[np.float64]
 ORDERS = ((11, 1e-11), (7, 1e-7))
 """Nodes and tolerance of the run that is reported and of the one its bar is read from."""
 MOST_CYCLES = 200_000
+"""Cycles [1] up to which a motion is skipped at once. A numerical choice: longer motions are simulated cycle by cycle
+and refused after `_FOLLOWED`. A larger value accepts slower motions and costs time in proportion."""
 _FOLLOWED = 400  # cycles one by one
 _TRIED_AGAIN = 25
+"""Cycles simulated one by one [1] after a failed skip until the next attempt. A numerical choice: an attempt costs up
+to 17 cycles. Fewer repeat failed attempts; more delay the skip."""
 _MOST_KEPT = 40
+"""Stretches of a cycle [1] from which the next cycle begins with a new grid. A numerical choice: a smaller value
+repeats refinements, a larger one keeps stretches that are no longer needed. The accuracy does not depend on it."""
 _POINTS = 7  # of the course of a step or stretch
 _JUST_BEFORE = 1e-15
+"""Share [1] of the end time of a phase by which the brake torque is evaluated earlier. Derived from the resolution of
+floating-point numbers, 2.2e-16: a few units before the end. A smaller value reads the torque behind a jump; a larger
+one falsifies a rising torque."""
 _NEAR_REST = 0.3  # part of the energy a whole cycle must leave
 _SETTLED = 1e-12
+"""Relative change of speed in a cycle [1] up to which a motion has settled and never reaches its end. A numerical
+choice: it is above rounding and near the tolerance of a run, 1e-11. A larger value ends slow motions too early; a
+smaller one may never apply."""
 _AT_REST = 1e-13  # rounding of a speed, over that at the beginning
 
 
@@ -181,6 +193,8 @@ def _marks(
 
 
 _REST, _TARGET, _STAGE = 0, 1, 2
+"""Rows of `_marks` [1]: standstill, target speed, end of the motor stage. Derived from the order of the rows; another
+value assigns the wrong event."""
 
 
 def _times(machine: Machine, driven: bool) -> list[float]:

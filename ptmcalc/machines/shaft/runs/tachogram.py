@@ -32,6 +32,8 @@ from ptmcalc.machines.shaft.runs import motion, speed_quadrature, worst
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
 
 _SEPARATE = 150
+"""Cycles [1] assumed to be simulated one by one in the predicted time; of more, most are skipped. A numerical choice:
+it affects the predicted time only, hence the order of the runs. No load depends on it."""
 _SLACK = 1e-3
 """Share of what holds a shaft by which weights have to exceed it: runs from some angles end at one known as closely."""
 

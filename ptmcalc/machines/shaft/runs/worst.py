@@ -24,16 +24,32 @@ TIME, ANGLE = 0, 1
 """What is worst: the time of the run-out, or the angle turned; the index in what `Stop.ended` gives."""
 
 _STARTS, _ANGLES = 9, 144
+"""First run-outs of a cycle, and angles at which their values are interpolated [1]. A numerical choice: `_told` adds
+runs where the interpolation may hide a worse one. Fewer widen the error bar; more cost time in proportion."""
 _QUICK = (7, 1e-5)
+"""Nodes [1] and tolerance [1] of the run-outs that are interpolated. A numerical choice: 1e-5 is below `_ENOUGH`, the
+share not resolved. A smaller tolerance costs time; a larger one makes the search follow errors of the runs."""
 _MARGIN = 2.0
+"""Factor [1] on the estimated interpolation error and on the difference of two runs. A numerical choice: a larger value
+widens the error bar and adds runs. Below 1 the bar may exclude the coarser run."""
 _MORE, _ENOUGH = 24, 3e-5
 """Runs that may be added to the first ones, and the share of the worst value that need not be told."""
 _FLOOR = 1e-10
+"""Relative rounding of a run [1], added to every error bar, as `FLOOR` of the results. A numerical choice: it is above
+the tolerance of the fine run, 1e-11. A larger value widens every bar."""
 _NAMES = ("time", "angle")
 _MOST_ROUNDS, _MOST_SECANTS, _MOST_BISECTIONS = 4, 12, 60
+"""Changes of the worst angle, secant steps and bisections of a brake torque [1]. A numerical choice: smaller values
+widen the error bar or report that no brake suffices. Larger ones cost time."""
 _LARGEST = 1e15
+"""Brake torque [N*m] above which no brake suffices. An engineering choice, equal to the largest number of a design
+file. A smaller value reports an infinite torque for large machines; a larger one only costs time."""
 _LEAST = 1e-9
+"""Smallest brake torque of the bisection [N*m]; also the relative gain [1] from which another angle is worse. A
+numerical choice: both are above rounding. A larger value misses weak brakes and slightly worse angles."""
 _SPARE = 1e-3
+"""Reserve [1] of a limit from which a quick run proves that a torque is sufficient. A numerical choice: it is above the
+error of a quick run. A larger value computes the torque of the second limit more often."""
 
 
 def measured(run: Run, which: int) -> float:

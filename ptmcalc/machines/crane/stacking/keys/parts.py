@@ -28,6 +28,8 @@ SectionModulus = Annotated[float, Measure(units.SECTION_MODULUS, above=0)]
 RootStiffness = Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)]
 Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
+"""Modulus of elasticity of structural steel [Pa], EN 1993-1-1. It is the default of `elasticity` for masts and girders.
+Their stiffness is proportional to it, their frequencies to its square root."""
 _STEEL = Absent("structural steel, whose modulus EN 1993-1-1 fixes at 210 GPa for every proof")
 _BASE_HEIGHT = Assumed(
     0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"

@@ -29,6 +29,8 @@ from ptmcalc.numerics.mast.run import Course, play
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
 _ELEMENTS = 10
+"""Beam elements [1] of the mast whose frequencies and modes enter the bounds. A numerical choice: fewer elements raise
+the frequencies and neglect modes. More elements cost time, which grows with the cube of their number."""
 _GRAVITY, _LEAST = 2.0, 1.0
 """Times the difference of two runs, one with the weights, and times what they change of the stiffness: calibrated."""
 _MOMENT = 3.0
@@ -37,6 +39,9 @@ a good part: calibrated."""
 _SETTLES = 1.5
 """Times the same, of the swing that settles: calibrated."""
 _JUST_BEFORE = 1e-9
+"""Share [1] of the time of the first standstill by which the run ends earlier, so that the base still moves. A
+numerical choice: it is above the rounding of the time and changes the acceleration by about 1e-9. A smaller value risks
+the acceleration of the held base."""
 _FREQUENCY = 2.0
 """Times the difference of two runs, one with the exact frequency: calibrated."""
 _KICK = 2.0

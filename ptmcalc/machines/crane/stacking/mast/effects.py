@@ -34,13 +34,36 @@ MOVED_LOADS = frozenset(
 """Loads, or families of them, that the motion of the column makes."""
 
 FLEXIBLE_THRESHOLD = 0.15
+"""Period of the mast relative to the rise time of its load [1]. An engineering choice: below 0.15 the dynamic part of
+the deflection is less than 5 % of the static one, T/(pi t_r). Every run simulates the flexibility, so no error depends
+on the value. It affects the list of sensitive effects."""
 MASS_THRESHOLD = 0.05
+"""Mass of the mast relative to the climbing mass [1]. An engineering choice: about a quarter of the mast moves with the
+load. Below 5 % it changes the frequency by less than 1 %. Every run simulates the mass, so no error depends on the
+value. It affects the list of sensitive effects."""
 MODES_THRESHOLD = 1.0
+"""Larger of two ratios, each relative to its own threshold `RISE_OF_MODES` or `MASS_OF_MODES` [1]. It is 1 by
+definition. `modes_bound` adds the neglected modes to the error bar. A smaller value requests them in more scenes."""
 RISE_OF_MODES, MASS_OF_MODES = 0.2, 2.0
+"""Period of the second mode relative to the rise time, and mass of the mast relative to the climbing mass [1]. An
+engineering choice: below 0.2 the dynamic part of the second mode is less than 7 % of its static part, T_2/(pi t_r).
+Below 2 the load dominates the moving mass. Smaller values request higher modes in more scenes."""
 GRAVITY_THRESHOLD = 0.03
+"""Weight on the mast relative to its stiffness times length [1]. An engineering choice: below 3 % the weight changes
+the stiffness by less than 4 % and the frequency by less than 2 %, with the factor 1.2 of `laws.mast.gravity_stiffness`.
+`gravity_bound` covers the neglected weight. A smaller value requests it in more scenes."""
 CONTACT_THRESHOLD = 0.1
+"""Collision force relative to the force of the brake [1]. An engineering choice: below 10 % the collision force is less
+than 10 % of the brake force. Every run simulates the contact, so no error depends on the value. It affects the list of
+sensitive effects."""
 HOLDING_THRESHOLD = 1.0
+"""Force of the vibrating mast on the base after the stop, relative to the holding force [1]. Derived for two masses and
+a sudden force: below 1 the base does not slip again. Every run simulates the holding, so no error depends on the value.
+It affects the list of sensitive effects."""
 GUIDE_THRESHOLD = 0.1
+"""Stiffness of the top guide relative to that of the mast at its head [1]. An engineering choice: below 10 % the guide
+changes the stiffness by less than 10 % and the frequency by less than 5 %. The neglect of a guide has a bound for
+frequencies only. A smaller value requests the guide in more scenes."""
 
 
 def _anything(loads: Loads) -> Offsets:

@@ -35,9 +35,13 @@ MODES_FIRST, MODES_MOST, LEVELS = 4, 8, 3
 _ELEMENTS = 3
 """Elements per mode."""
 _MARGIN = 3.0
+"""Factor [1] on the difference of the fine and the coarse run, in the error bar. A numerical choice: a larger value
+widens the bar and leaves more verdicts undecided. Below 1 the bar may exclude the coarse run."""
 _UNSEEN = 1e-10
 """Share of a reading that the march may miss of it."""
 _CLOSES = 1e-8
+"""Largest relative residual [1] of the energy balance. A numerical choice: it is above the rounding of a run and below
+the accuracy of any input. Above it NUM101 is reported and the error bar is unbounded."""
 _FAINT = 1e-9
 """Share of the lowest mode's deflection below which a mode is not followed; what it adds is in the bar."""
 _SWINGS = 3.0
@@ -47,7 +51,11 @@ _BLOW = 1.5
 _COMPARED = 0.7
 """Panels of the run that a bar is found with, over the usual ones."""
 _DOUBLINGS = 5
+"""Most extensions [1] of the simulated time until the base is held permanently; each doubles it while no end is known.
+A numerical choice: fewer report a late standstill as missing, more allow longer runs."""
 _FREQUENCIES = 16
+"""Beam elements [1] for the lowest frequencies and the stiffness of the mast; the error bar compares another number of
+elements. A numerical choice: more elements narrow the bar, but rounding grows with the fourth power of their number."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,8 @@ from ptmcalc.numerics.mast.system import Case
 SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""
 _DOUBLINGS = 5
+"""Most extensions [1] of the simulated time until the base is held permanently, as in `mast_modal`. A numerical choice:
+fewer miss a late standstill, more allow longer runs."""
 _MOST_WORK = 2e4
 """Panels of a run that nobody looks at: a column that rings some thousand times before it lets its base rest is left to
 the others, and bounds nothing."""

@@ -21,7 +21,11 @@ from ptmcalc.numerics.mast.run import Course
 
 ALWAYS = frozenset({FLEXIBLE, MASS, HOLDING})
 _ROUNDING = 1e-9
+"""Relative error bar [1] of the two-mass motion, which is exact but for rounding. A numerical choice: it is above the
+rounding of a run; a larger value widens every bar. The model error is the bound of the higher modes."""
 _CLOSES = 1e-8
+"""Largest relative residual [1] of the energy balance, as in `mast_modal`. A numerical choice: above it NUM101 is
+reported and the error bar is unbounded."""
 
 
 def run(spec: Stacker, scene: DrivenScene, carried: frozenset[str], level: int) -> Result:

@@ -43,6 +43,8 @@ class Combinations:
 
 
 _ALL = (1, 2, 3, 4, 5, 6)
+"""Numbers of all load combinations of tables 11.1 and 11.2, lecture notes Kramatorsk 2007. The weights of crane and
+load are part of each; without a number they are missing from that combination."""
 _INERTIA = (
     "combination 1 leaves starting and braking out although the rope formula of the same source has inertia in it:"
     " inertia is taken in the rope force (scene `hoist`), and the combination stays one of weights"

@@ -7,6 +7,8 @@ from ptmcalc.machines.crane.travelling.spec import Travelling
 CREEPING = ("HD2", "HD3")
 """Drive classes whose load is lifted off the ground at the creep speed."""
 _QUICKNESS = {"slow": 0.5, "quick": 1.0}
+"""Factor beta_3 of a slow release (grab) and a quick one (magnet) [1], EN 13001-2 and ISO 8686-1. A larger value lowers
+phi_3 = 1 - (dm/m) (1 + beta_3)."""
 
 
 def of_the_structure(spec: Travelling) -> dict[str, float]:

@@ -25,10 +25,16 @@ Signal = Callable[[FloatArray], FloatArray]
 
 ACCELERATION, PULL, WEIGHT, TRACTION, ANGLE = range(5)
 _ROWS = 5
+"""Number of the signals above [1]. Derived: one for each name; another value does not match the rows of the samples."""
 _SAMPLES, _CLOSER, _TOPS = 17, 33, 8
 """Looks in a step, around a top, and at so many of the highest tops."""
 _MOST_CHANGES = 400
+"""Integration phases [1] of a motion after which it is refused with NUM101. A numerical choice: a smaller value refuses
+motions with many stops, a larger one allows longer runs."""
 _NOISE = 1e-11
+"""Share [1] of forces and speeds below which a difference counts as rounding. A numerical choice: it is above the
+rounding of a sum of forces, about 1e-15. A smaller value starts a crane at rest by rounding; a larger one holds it
+against a real force."""
 _LONGEST_STEP = 4.0
 """Radians of the swing, at a tolerance of 1; it goes with the eighth root, so that two runs take other steps."""
 

@@ -10,7 +10,13 @@ from ptmcalc.machines.crane.travelling.sway.linear import linear_course
 from ptmcalc.machines.crane.travelling.sway.moving import Motion
 
 _LOOKS = 200
+"""Intervals [1] of the sway angle in which the largest rope force is searched. A numerical choice: free sway up to 30
+deg has its maximum at the end of the range, which is a sample. Beyond, the sampled maximum is too small by up to 2e-5.
+More intervals reduce this with the square of their number."""
 _SMALL = 0.03
+"""Value of x [1] up to which x - atan x is a series. Derived: at 0.03 the neglected term, 3 x^8/11, and the
+cancellation of the closed form are both below 1e-12. A larger value raises the first error, a smaller one the
+second."""
 
 
 def far(x: float) -> float:

@@ -28,7 +28,11 @@ FloatArray = NDArray[np.float64]
 
 SIGNALS = ("acceleration", "pull_along", "tension")
 _DOUBLINGS = 3
+"""Attempts [1] to reach a speed or standstill, each with twice the simulated time: up to 5.2 times the first estimate.
+A numerical choice: fewer refuse slow starts with NUM103, more allow longer runs."""
 _SHOWN = 400
+"""Samples of a plotted time history in each phase [1]. An engineering choice: more samples draw smoother curves and
+enlarge the output. No load depends on it."""
 _MOST_STEPS = 3000
 """Of a swing: starts of cranes take 2 to 60 radians, and a step is one or two of them."""
 _BETWEEN = np.arange(8) / 8
@@ -42,6 +46,8 @@ _TOPS = 12
 _BENDS = 1.25
 """For a second derivative that changes between the looks that tell it."""
 _SIDES = {"forward": 1.0, "rest": 0.0, "backward": -1.0}
+"""Sign of the travel [1] in each state of the axis. Derived: it is the sense of the rolling resistance; another value
+reverses or scales that force."""
 _APART = 1e-3
 """Share of the mean time from look to look by which looks are apart that tell how bent a course is between them."""
 
