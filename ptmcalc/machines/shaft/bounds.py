@@ -25,8 +25,6 @@ from ptmcalc.machines.shaft.model import Machine
 
 FloatArray = NDArray[np.float64]
 
-_ROUNDING = 1e-12
-"""Relative rounding [1], a numerical choice. No code of this module uses it; a change has no effect."""
 _PLACES = 1441
 """Angles at which weights and springs are looked at."""
 _BETWEEN = 1.01

@@ -43,8 +43,6 @@ machines, a larger one allows longer runs."""
 _A_CYCLE, _A_STEP = 0.03, 7e-4
 """Predicted time [s] of a cycle by adaptive steps and of a step of a batch. An engineering choice: the values decide
 only whether the reference method fits into the available time. No load depends on them."""
-_NEAR = 1e-10
-"""Relative tolerance [1], a numerical choice. No code of this module uses it; a change has no effect."""
 Readings = dict[str, float]
 
 

@@ -60,6 +60,15 @@ def test_the_closed_form_is_the_truth_of_a_ramp(one: Machine) -> None:
     assert loads["horizontal_force"].estimate.value == pytest.approx(max(map(abs, seen.pulls)), rel=1e-5)
 
 
+def test_the_largest_pull_of_a_violent_ramp_is_exact_inside_its_swing() -> None:
+    """Beyond 30 degrees the horizontal pull is largest before the end of the swing."""
+    one = Machine(**{**RAMP.__dict__, "ramp": 6.0, "speed": 20.0})
+    gravity, angles = 9.81, np.linspace(0.0, 2 * math.atan(6.0 / 9.81), 2_000_001)
+    pulls = one.load * (3 * gravity * np.cos(angles) + 18.0 * np.sin(angles) - 2 * gravity) * np.sin(angles)
+    found = run(SWAY_EXACT, as_file(one))["horizontal_force"].estimate
+    assert found.value == pytest.approx(float(pulls.max()), rel=1e-12)
+
+
 @pytest.mark.parametrize("one", [RAMP, PUSHED, HEAVY, BRAKED, HOISTED, LOWERED])
 def test_linear_and_simulated_agree_where_angles_are_small(one: Machine) -> None:
     tame = Machine(**{**one.__dict__, "ramp": one.ramp and one.ramp / 10, "hoisting": one.hoisting / 10})
