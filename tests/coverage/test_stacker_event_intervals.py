@@ -20,10 +20,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import AnyEffect
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
 from ptmcalc.machines.crane.stacking.events import catch_of, push_of
 from ptmcalc.machines.crane.stacking.fork.caught import CAUGHT_STOPPED, CAUGHT_TRAIN
+from ptmcalc.machines.crane.stacking.fork.effects import EFFECTS_OF_THE_FORK
 from ptmcalc.machines.crane.stacking.fork.pushed import PUSH_RIGID, PUSH_TRAIN
+from ptmcalc.machines.crane.stacking.rail.effects import EFFECTS_OF_THE_RAIL
+from ptmcalc.machines.crane.stacking.safety_gear.effects import EFFECTS_OF_THE_SAFETY_GEAR
 
 ON_TRIAL = {
     "crane": (
@@ -35,7 +37,7 @@ KIND = next(one for one in load_kind("crane").types if one.type == "rack_stacker
 COUNT, SEED = 30, 20261122
 REFERENCE = 1e-7
 """What the independent integration is good for."""
-EFFECT = {effect.name: effect for effect in EFFECTS_OF_EVENTS}
+EFFECT = {effect.name: effect for effect in (*EFFECTS_OF_THE_FORK, *EFFECTS_OF_THE_RAIL, *EFFECTS_OF_THE_SAFETY_GEAR)}
 
 
 def caught(rng: np.random.Generator, **fixed: Any) -> dict[str, Any]:

@@ -9,22 +9,35 @@ from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.machines.crane.stacking.assumptions import assumptions
-from ptmcalc.machines.crane.stacking.checks_events import CHECKS_OF_EVENTS
-from ptmcalc.machines.crane.stacking.effects_events import EFFECTS_OF_EVENTS
+from ptmcalc.machines.crane.stacking.collision.checks import CHECKS_OF_BUFFERS
 from ptmcalc.machines.crane.stacking.figures import FIGURES
+from ptmcalc.machines.crane.stacking.fork.checks import CHECKS_OF_THE_FORK
+from ptmcalc.machines.crane.stacking.fork.effects import EFFECTS_OF_THE_FORK
 from ptmcalc.machines.crane.stacking.loads import LOADS, parts
 from ptmcalc.machines.crane.stacking.mast.checks import CHECKS_OF_MAST
 from ptmcalc.machines.crane.stacking.mast.effects import EFFECTS_OF_MAST
 from ptmcalc.machines.crane.stacking.mechanisms.checks import CHECKS_OF_STATICS
+from ptmcalc.machines.crane.stacking.rail.checks import CHECKS_OF_THE_RAIL
+from ptmcalc.machines.crane.stacking.rail.effects import EFFECTS_OF_THE_RAIL
 from ptmcalc.machines.crane.stacking.relations import relations_of
+from ptmcalc.machines.crane.stacking.safety_gear.checks import CHECKS_OF_THE_SAFETY_GEAR
+from ptmcalc.machines.crane.stacking.safety_gear.effects import EFFECTS_OF_THE_SAFETY_GEAR
 from ptmcalc.machines.crane.stacking.solvers import SOLVERS
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.checks import CHECKS_OF_STRENGTH
 from ptmcalc.machines.crane.stacking.strength.combinations import tables
 from ptmcalc.spec.scene import Scene
 
-EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_EVENTS)
-CHECKS = (*CHECKS_OF_STATICS, *CHECKS_OF_STRENGTH, *CHECKS_OF_MAST, *CHECKS_OF_EVENTS)
+EFFECTS = (*EFFECTS_OF_MAST, *EFFECTS_OF_THE_FORK, *EFFECTS_OF_THE_RAIL, *EFFECTS_OF_THE_SAFETY_GEAR)
+CHECKS = (
+    *CHECKS_OF_STATICS,
+    *CHECKS_OF_STRENGTH,
+    *CHECKS_OF_MAST,
+    *CHECKS_OF_BUFFERS,
+    *CHECKS_OF_THE_FORK,
+    *CHECKS_OF_THE_SAFETY_GEAR,
+    *CHECKS_OF_THE_RAIL,
+)
 
 Piece = TypeVar("Piece", AnyEffect, AnySolver, AnyCheck)
 

@@ -1,4 +1,4 @@
-"""Effects of buffers, fork, rail and safety gear."""
+"""Effects of a snagged fork and of a fork pushed against the rack."""
 
 import math
 from collections.abc import Mapping
@@ -6,27 +6,18 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
 from ptmcalc.laws import fork
-from ptmcalc.machines.crane.stacking.events import catch_of, fall_of, push_of, roll_of
-from ptmcalc.machines.crane.stacking.rack import RackStacker
-from ptmcalc.machines.crane.stacking.rail.rolling import wave_share
-from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush, RailScene, SafetyGearScene
+from ptmcalc.machines.crane.stacking.events import catch_of, push_of
+from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import bounds_of_derived
 from ptmcalc.spec.scene import Scene
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
-
 CATCHING, RACK, SLOPE, LIMITER = "fork_catching", "rack_elasticity", "hoist_motor_slope", "load_limiter"
 PUSHING, YIELDING = "fork_pushing", "column_yield"
-UNEVEN, JUMPING = "aisle_rail", "wheel_lift"
-GEAR = "safety_gear"
-
 CAUGHT: frozenset[type[Scene]] = frozenset({ForkCaught})
 PUSHED: frozenset[type[Scene]] = frozenset({ForkPush})
-ROLLS: frozenset[type[Scene]] = frozenset({RailScene})
-FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
-
 CATCHING_THRESHOLD = 0.05
 """Additional force of a snagged fork, relative to the weight on the rope [1]. An engineering choice
 (`laws.fork.catching_number`): below 5 % the snag adds less than 5 % of the weight. Every run simulates the snag, so no
@@ -50,23 +41,10 @@ YIELDING_THRESHOLD = 0.1
 """Stiffness of the rack relative to that of the mast at the fork [1]. An engineering choice: below 10 % the mast
 changes the shock force by less than 5 %, as springs in series. `yield_bound` covers the neglected mast. A smaller value
 requests it in more scenes."""
-UNEVEN_THRESHOLD = 0.02
-"""Change of the wheel loads by the rail, relative to gravity [1]. An engineering choice: below 2 % the wheel loads
-change by less than 2 %. Every run simulates the rail, so no error depends on the value. It affects the list of
-sensitive effects."""
-JUMPING_THRESHOLD = 1.0
-"""Share of its load that a wheel loses on the rail [1]. Derived: at 1 the wheel load is zero; below, one undamped mode
-stays on the rail and the neglect of lift-off has no error. A larger value would keep a wheel on the rail by a pull."""
-GEAR_THRESHOLD = 1.0
-"""Force of the safety gear relative to the weight [1]. Derived: at or below 1 the gear does not decelerate the
-carriage. Every run simulates the gear, so no error depends on the value. It affects the list of sensitive effects."""
 
 
 def _anything(loads: Loads) -> Offsets:
     return dict.fromkeys(loads, ANYTHING)
-
-
-# -- a caught fork --------------------------------------------------------------------------------------------------
 
 
 def catching_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
@@ -197,9 +175,6 @@ def limiter_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
     return {} if case.limit is None or case.most < case.limit.force else _anything(loads)
 
 
-# -- a pushing fork -------------------------------------------------------------------------------------------------
-
-
 def pushing_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
     """What the moving fork adds to the force of its drive.
 
@@ -257,98 +232,11 @@ def yield_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
     return {name: one for name, one in bounds.items() if name in loads}
 
 
-# -- rail -----------------------------------------------------------------------------------------------------------
-
-
-def uneven_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
-    """Share of gravity by which the rail changes the wheel loads.
-
-        max( (pi/2)^2 v^2/(g r) max u,  T (h/2) (2 pi v/lambda)^2/g )
-
-    **Range** steps and gaps small beside the wheel; even waves.
-    **Error** exact for one undamped mode.
-    **Source** `laws.rail`.
-    """
-    roll = roll_of(spec, scene)
-    answers = [max(pair) for pair in roll.pulses(roll.frequency)]
-    value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
-
-
-def uneven_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
-    """Nothing is known of an uneven rail without it.
-
-    **Range** every load of a rail.
-    **Error** unbounded.
-    **Source** there is no run that leaves it out.
-    """
-    return _anything(loads)
-
-
-def jump_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
-    """Share of its load that a wheel loses on the rail: at 1 it leaves it.
-
-        max( (pi/2)^2 v^2/(g r) max(-u),  T (h/2) (2 pi v/lambda)^2/g )
-
-    **Range** as `uneven_criterion`.
-    **Error** exact for one undamped mode.
-    **Source** `laws.rail`.
-    """
-    roll = roll_of(spec, scene)
-    answers = [less for _, less in roll.pulses(roll.frequency)]
-    value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "what the rail takes off a wheel load", "laws.rail")
-
-
-def jump_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
-    """Nothing while the wheels stay on the rail; one that leaves it comes down with a blow of its own.
-
-    **Range** every load of a rail.
-    **Error** exact while the least wheel load is above 0; else unbounded, and a contact is not below 0.
-    **Source** a wheel does not pull.
-    """
-    contact = loads.get("rail_contact")
-    if contact is None or contact.low >= 0:
-        return {}
-    touched = {"phi4", "wheel_force", "combination_force[11.2,5]"}
-    return {name: ANYTHING for name in loads if name in touched}
-
-
-# -- safety gear ----------------------------------------------------------------------------------------------------
-
-
-def gear_criterion(spec: Stacker, scene: SafetyGearScene) -> Criterion:
-    """Force of the gear over the weight; it is never left out.
-
-        F/(M g)
-
-    **Range** every catch; it is in every run.
-    **Error** exact for the gear.
-    **Source** `laws.safety_gear`.
-    """
-    one = fall_of(spec, scene)
-    value = one.force / (one.mass * spec.gravity)
-    return Criterion("ψ", value, GEAR_THRESHOLD, "force of the safety gear over the weight", "laws.safety_gear")
-
-
-def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:
-    """Nothing is known of a catch without it.
-
-    **Range** every load of a catch.
-    **Error** unbounded.
-    **Source** there is no run that leaves it out.
-    """
-    return _anything(loads)
-
-
-EFFECTS_OF_EVENTS: tuple[AnyEffect, ...] = (
+EFFECTS_OF_THE_FORK: tuple[AnyEffect, ...] = (
     Effect(CATCHING, "drive and motor force on a snagged fork", CAUGHT, catching_criterion, catching_bound),
     Effect(RACK, "rack elasticity and rebound of the carriage", CAUGHT, rack_criterion, rack_bound),
     Effect(SLOPE, "torque-speed slope of the hoist motor", CAUGHT, slope_criterion, slope_bound),
     Effect(LIMITER, "load limiter", CAUGHT, limiter_criterion, limiter_bound),
     Effect(PUSHING, "fork thrust against the rack", PUSHED, pushing_criterion, pushing_bound),
     Effect(YIELDING, "mast flexibility under fork thrust", PUSHED, yield_criterion, yield_bound),
-    Effect(UNEVEN, "rail steps, gaps and waviness", ROLLS, uneven_criterion, uneven_bound),
-    Effect(JUMPING, "wheel lift-off from the rail", ROLLS, jump_criterion, jump_bound),
-    Effect(GEAR, "safety gear engagement", FALLS, gear_criterion, gear_bound),
 )

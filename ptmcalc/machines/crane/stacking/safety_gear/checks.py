@@ -1,0 +1,114 @@
+"""Checks of the safety gear."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, no_needs, only
+from ptmcalc.machines.crane.stacking.judging import OneCheck, given
+from ptmcalc.machines.crane.stacking.scenes import (
+    SafetyGearScene,
+    StackerScene,
+)
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.spec.scene import Scene
+
+FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
+
+
+def _gear_stroke_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Way the safety gear has.
+
+    **Range** any gear.
+    **Error** none: a limit of the file.
+    **Source** the maker of the gear.
+    """
+    return given(spec.safety_gear.stroke if spec.safety_gear is not None else None)
+
+
+def _gear_key(spec: Stacker, scene: StackerScene) -> KeyPath:
+    """What says how hard the gear holds."""
+    gear = spec.safety_gear
+    return ("safety_gear", "stiffness" if gear is not None and gear.type == "instantaneous" else "force")
+
+
+GEAR_STROKE: OneCheck = Check(
+    code="CRN290",
+    title="safety gear stopping distance",
+    question="Does the safety gear stop the carriage within its stroke?",
+    failure="safety gear reaches the end of its stroke",
+    scenes=FALLS,
+    loads=("safety_gear_distance",),
+    sense=Sense.AT_MOST,
+    limit=_gear_stroke_limit,
+    needs=no_needs,
+    blame=blames("safety_gear", "stroke"),
+    repair=at("safety_gear", "stroke"),
+    what="The safety gear stops the carriage within its stroke. The initial speed is the speed at the end of the"
+    " reaction time of the governor.",
+    why="At the end of its stroke, a progressive gear acts as an instantaneous gear. Its force is then ten times the"
+    " weight.",
+    formula="s = v_c^2/(2 (F_c/M - g)) <= s_max,   v_c = k v + g t_r",
+    source="free fall and energy; EN 528, EN 81-20",
+)
+
+
+def _holding_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """A gear holds more than the weight.
+
+    **Range** any gear.
+    **Error** none: equilibrium.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(1.0)
+
+
+HOLDS: OneCheck = Check(
+    code="CRN291",
+    title="safety gear holding reserve",
+    question="Does the braking force of the safety gear exceed the suspended weight?",
+    failure="safety gear does not hold the carriage",
+    scenes=FALLS,
+    loads=("safety_gear_factor",),
+    sense=Sense.AT_LEAST,
+    limit=_holding_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _gear_key(spec, scene),
+    repair=_gear_key,
+    what="The braking force of the safety gear is at least the weight of carriage, cab and load.",
+    why="A gear with a braking force below the weight only slows the fall.",
+    formula="F_c/(M g) >= 1",
+    source="equilibrium",
+)
+
+
+def _deceleration_limit(spec: Stacker, scene: StackerScene) -> Estimate:
+    """Largest deceleration of the carriage.
+
+    **Range** any carriage; 9.81 m/s^2 is usual for a cab with a driver.
+    **Error** none: a limit of the file.
+    **Source** the file; EN 81-20: a mean of 0.2 to 1 g for progressive gears.
+    """
+    return given(spec.checks.catch_deceleration)
+
+
+DECELERATION: OneCheck = only(lambda spec, scene: spec.checks.catch_deceleration is not None)(
+    Check(
+        code="CRN292",
+        title="safety gear deceleration",
+        question="Is the deceleration of the carriage in the safety gear within its limit?",
+        failure="safety gear stops the carriage too hard",
+        scenes=FALLS,
+        loads=("safety_gear_deceleration",),
+        sense=Sense.AT_MOST,
+        limit=_deceleration_limit,
+        needs=no_needs,
+        blame=lambda spec, scene, loads: _gear_key(spec, scene),
+        repair=_gear_key,
+        what="The deceleration of the carriage is at most the limit for driver, load and mast.",
+        why="An instantaneous gear decelerates the carriage with several g. The stop may break the parts that it saves"
+        " from the fall.",
+        formula="a = F/M - g",
+        source="Newton's law; EN 528, EN 81-20",
+    ),
+)
+
+CHECKS_OF_THE_SAFETY_GEAR: tuple[AnyCheck, ...] = (GEAR_STROKE, HOLDS, DECELERATION)

@@ -1,0 +1,51 @@
+"""Effect of the safety gear."""
+
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
+from ptmcalc.machines.crane.stacking.events import fall_of
+from ptmcalc.machines.crane.stacking.scenes import SafetyGearScene
+from ptmcalc.machines.crane.stacking.spec import Stacker
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+Offsets = Mapping[str, Interval]
+GEAR = "safety_gear"
+FALLS: frozenset[type[Scene]] = frozenset({SafetyGearScene})
+GEAR_THRESHOLD = 1.0
+"""Force of the safety gear relative to the weight [1]. Derived: at or below 1 the gear does not decelerate the
+carriage. Every run simulates the gear, so no error depends on the value. It affects the list of sensitive effects."""
+
+
+def _anything(loads: Loads) -> Offsets:
+    return dict.fromkeys(loads, ANYTHING)
+
+
+def gear_criterion(spec: Stacker, scene: SafetyGearScene) -> Criterion:
+    """Force of the gear over the weight; it is never left out.
+
+        F/(M g)
+
+    **Range** every catch; it is in every run.
+    **Error** exact for the gear.
+    **Source** `laws.safety_gear`.
+    """
+    one = fall_of(spec, scene)
+    value = one.force / (one.mass * spec.gravity)
+    return Criterion("ψ", value, GEAR_THRESHOLD, "force of the safety gear over the weight", "laws.safety_gear")
+
+
+def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:
+    """Nothing is known of a catch without it.
+
+    **Range** every load of a catch.
+    **Error** unbounded.
+    **Source** there is no run that leaves it out.
+    """
+    return _anything(loads)
+
+
+EFFECTS_OF_THE_SAFETY_GEAR: tuple[AnyEffect, ...] = (
+    Effect(GEAR, "safety gear engagement", FALLS, gear_criterion, gear_bound),
+)
