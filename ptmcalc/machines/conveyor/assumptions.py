@@ -15,7 +15,12 @@ from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, Em
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
+"""Upper limit of the inertia of a drive pulley that the file omits, relative to that of the motors on the same shaft
+[1]. An engineering choice for shell pulleys. A larger value widens the error bars; a smaller one excludes heavy
+pulleys."""
 _ROUGH_TAIL_SHARE = 0.01
+"""Upper limit of the mass of a tail pulley that the file omits, relative to belt and load [1]. An engineering choice. A
+larger value widens the error bars; a smaller one excludes heavy pulleys."""
 
 
 _TABLE_ENDS = 2000.0  # m, of C(L)

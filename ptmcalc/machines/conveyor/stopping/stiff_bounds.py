@@ -57,6 +57,8 @@ FloatArray = NDArray[np.float64]
 _X = np.linspace(0.0, 1.0, 65)
 _STRANDS = (RETURN, CARRY)
 _SOFTEST = 0.05
+"""Softening of the belt by sag, relative to its compliance, below which the bounds hold [1]. An engineering choice. A
+larger value admits belts with more sag, and widens the speed bound and the period by the root of 1 + softening."""
 _ON_AND_ON = 1.0
 """Times of the rigid body's last moments that the head may need besides them."""
 _ROUNDS = 0.5

@@ -22,6 +22,9 @@ from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
 from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
+"""Friction that holds the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
+numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
+early."""
 _ON_THE_GRID = 1e-6
 """Share of a step by which rounding may move a time that lies on the grid."""
 _MOST_GRIP = 700.0

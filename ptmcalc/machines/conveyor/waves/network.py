@@ -38,7 +38,12 @@ from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen
 
 _CELLS, _CELLS_OF_JUMP = 60, 240
+"""Cells of the whole belt on the coarsest of three grids at the first level; numerical choices. `_CELLS_OF_JUMP`: for a
+pulley that stops at once, whose window is short and whose fronts are steps. `_CELLS`: for any other scene. Time grows
+with the square; the error bar falls with the order 0.6 or more."""
 _SHORTER = 6
+"""Attempts to end a window before a pulley loses its belt, each at 3/4 of the one before; a numerical choice. Six reach
+18 % of that time. More attempts cost a run each; fewer report NUM102 more often."""
 _LONGEST = 8.0
 """Windows of a start in which a drum that slips may grip again."""
 _MORE = 1.25
