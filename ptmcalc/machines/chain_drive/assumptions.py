@@ -12,6 +12,8 @@ from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
 
 _STEEL = 2.06e11
+"""Modulus of elasticity of steel [Pa], a handbook value. The assumed modulus of a chain is 0.5 to 0.8 of it; an error
+of 2 % moves the frequencies by 1 %, far below that interval."""
 
 
 def _needs_modulus(spec: ChainDrive) -> float | None:
