@@ -20,6 +20,8 @@ from ptmcalc.machines.hoist.statics.topic import STATICS
 from ptmcalc.machines.hoist.winding.topic import WINDING
 
 _SPEED_TOLERANCE = 0.05
+"""Difference of two drum speeds of a file from which on SPC201 is reported [1]. An engineering choice: a smaller value
+reports rounded ratios, a larger one accepts wrong entries."""
 _WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
 
 

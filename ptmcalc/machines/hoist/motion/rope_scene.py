@@ -25,8 +25,16 @@ FINENESS = (1.0,)
 _COMPARED = 1.37
 """How much finer the run beside the one that counts divides it."""
 _MARGIN, _UNSEEN = 3.0, 1e-10
+"""Numerical choices [1]. `_MARGIN`: safety factor on the difference of two runs; not read, as `scene.with_bars` applies
+its own of the same value. `_UNSEEN`: error of a reading between the nodes, relative to the largest value; a larger
+value widens the error bars."""
 _CLOSES, _NOTHING = 1e-9, 1e-6
+"""Numerical choices [1]. `_CLOSES`: residual of the energy balance above which NUM101 is reported; a larger value
+accepts wrong runs. `_NOTHING`: rope force below 0, relative to the weight, that counts as rounding; a larger value
+ignores short slack, a smaller one reports rounding as slack (NUM104)."""
 _LONGER = 4
+"""Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
+the first. More follow late stops and take longer."""
 _SECONDS = 8e-4
 """Of a panel."""
 _EVENTS = 12

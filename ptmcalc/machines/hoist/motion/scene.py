@@ -40,9 +40,13 @@ from ptmcalc.numerics.train.system import TrainSystem
 _COMPARED = (0.7, 0.85)
 """How the runs beside the one that counts divide time, over its own stretches and panels."""
 _MARGIN = 3.0
+"""Safety factor on the difference of runs with other time steps [1]; a numerical choice. A smaller value loses the
+safety of the error bar; a larger one widens it."""
 _UNSEEN = FADED + 3e-12
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 _CLOSES = 1e-9
+"""Residual of the energy balance of a motion without a smooth torque curve [1] above which NUM101 is reported; a
+numerical choice. A larger value accepts wrong runs; a smaller one refuses rounding."""
 _MOST_EVENTS = 2000
 """Events after which a load or a gear is said to chatter: without damping it never ends."""
 _LONGER = 4

@@ -61,11 +61,18 @@ ROPE, GROUND, GEARBOX, TACKLE = "rope", "ground", "gearbox", "tackle"
 SHAFT, FLANK = "gear shaft", "gear shaft, back of the teeth"
 BRAKE, DRIVE = "brake", "drive"
 _STEEL = 7850.0
+"""Density of steel [kg/m^3], a handbook value. The inertia of a drum that the file omits is proportional to it."""
 _PERIODS = 6
+"""Periods of the slowest vibration in the window after the last event [1]. A numerical choice: a peak is within the
+first. More periods take longer; fewer leave more of the vibration to the bound of `after_window`."""
 LONGEST = 600.0
 """No scene is looked at for longer [s]."""
 _PIECES = 64
+"""Straight pieces of a smooth rise; a numerical choice. A cosine rise deviates by at most 1.5e-4 of its end value, a
+parabolic one by less. The error falls with the square of the number; time grows with it."""
 _LOOKED_AT = 2001
+"""Speeds at which the maximum of a torque curve is searched; a numerical choice. More find a narrow maximum more
+closely and take longer."""
 _SLOPES = 2.5
 """Steps in which the slope of a smooth torque curve is used, over its steepest."""
 LEAST_LEFT = 1e-3
