@@ -21,6 +21,8 @@ next to its synchronous speed still gains some per cent of it."""
 _FADED = 20.0
 """Time constants after which a decay is below 1e-8 of its beginning."""
 _TOLERANCE = 1e-6
+"""Relative tolerance of the rigid run that looks ahead [1]. A numerical choice: it decides only whether a start or stop
+ends. A smaller value takes longer; a larger one misses small gains of speed."""
 _OF_SPEEDS = 1e-9
 """Tolerance of the rigid train whose growing speeds are looked at: less than the bars of these speeds."""
 

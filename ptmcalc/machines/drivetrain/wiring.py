@@ -25,6 +25,8 @@ from ptmcalc.spec.shape import (
 GROUND = "ground"
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _SAME = 1e-9
+"""Relative difference of two gear ratios that counts as rounding [1], above the resolution 2e-16 of the floating point.
+Gears that close a loop are rejected either way; it decides between a contradiction and an undetermined load share."""
 _ROUNDED = 1e-3
 """By how much two speeds of one shaft may differ as they are written with few digits."""
 
