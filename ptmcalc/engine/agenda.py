@@ -17,6 +17,8 @@ CHUNK = 0.5
 """Predicted seconds of work that go out together, and beyond which a file goes out on its own: enough to make the way
 worth while, little enough to share evenly."""
 MOST_IN_CHUNK = 500
+"""Files of a portion. A numerical choice: it limits portions of files below 1 ms each. A larger number saves transfers;
+a smaller one distributes the files more uniformly."""
 _SHARES = 4
 """Portions that each worker takes at least of what is left: towards the end they become small."""
 _UNSEEN = 0.1

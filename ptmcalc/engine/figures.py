@@ -20,6 +20,9 @@ _CELLS = 240
 _ALIKE = 8.0
 """How much larger one curve may be than another one on the same axes: of a smaller one nothing would be seen."""
 _NEAR = 0.05
+"""Difference of a load from the magnitude of the lowest value of its history, relative to the load [1], up to which it
+is drawn there with the other sign. An engineering choice. A larger value mirrors loads that belong to no point of the
+history; a smaller one omits extremes between samples."""
 _SAME = 1e-3
 """How closely the end of a course is the load that is its extreme: solvers see between samples."""
 _OF_PLACE: Mapping[str, tuple[str, ...]] = {"time": ("time",), "distance": ("position", "place")}

@@ -45,6 +45,8 @@ BLOCK = 8192
 _MOST_RUNS = 256
 """Runs by lanes of one block, which parts wherever a branch does; what is left then is left to a batch."""
 _MOST_CORNERS = 256
+"""Corners of the box of all points at which a file is validated. A numerical choice: 8 keys have all of theirs, more
+keys a part. More corners find more refused combinations before the run and take longer."""
 _WITNESSES = 24
 """Points of a scene that are checked as files of their own, besides one of each block."""
 _SAME = 1e-9

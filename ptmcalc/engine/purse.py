@@ -13,6 +13,7 @@ from ptmcalc.text.document import Document
 FILE_TIMES = 10.0
 """Budgets of a scene that a file may take with all its scenes, the ends of what is assumed, and its repairs."""
 _NAMED = 3
+"""Scenes that a message names; the rest is counted. An engineering choice: the message stays short."""
 
 
 @dataclass

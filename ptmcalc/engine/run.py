@@ -24,8 +24,15 @@ NO_MEMORY = f"takes more memory than {MEMORY_BUDGET >> 30} GiB, the budget of a 
 _CHEAP = 0.01
 """Predicted seconds of a run that is made to see how far the ladder goes."""
 _ANYTHING = 1.0
+"""Value of a load that no run knows yet, in the load's unit, for the prediction of a run. Any finite value serves: only
+whether its bound is finite is used."""
 _NAMED = 3
+"""Loads that a message names; the rest is counted. An engineering choice: the message stays short."""
 _GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
+"""Shares of an error bar that decide the next run [1]; numerical choices. `_GOOD_PART`: a cause with this share is
+reduced first. `_SOME_PART`: a cause with this share comes next, and counts as numerical error worth another method.
+`_MUCH_LESS`: a model with more effects must promise at most this part of the bar. Other values change the order of the
+runs and their time, no verdict that is decided."""
 
 
 @dataclass(frozen=True, slots=True)

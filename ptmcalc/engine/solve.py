@@ -23,6 +23,8 @@ _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 FARTHEST = 1e3
 """How many times the present value a solution may be, or the present value it."""
 _MOST_STEPS = 60
+"""Steps that narrow a bracket; a numerical choice. Halving alone reduces it by 2^60, beyond the resolution of the
+floating point. Fewer steps may end with a wider bracket; more take longer where a clearance is not smooth."""
 _CLOSE_ENOUGH = 5e-3
 """Of the value: a bracket so narrow is an answer where there are no seconds left to narrow it."""
 _FINEST = 1

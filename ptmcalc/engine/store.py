@@ -25,6 +25,8 @@ from ptmcalc.contract.report import FileReport, Tally
 _OURS = 0x70746D63
 """`ptmc`: what marks a SQLite file as a store."""
 _FORM = 1
+"""Version of the table below, kept as `user_version`. Another number rejects all existing stores: increase it with
+every change of the table."""
 _TABLE = """
 create table if not exists result (
     key blob primary key, day text not null, tally text not null, checksum integer not null, report blob not null,
