@@ -18,7 +18,9 @@ choice: a smaller value reports rounded masses, a larger one accepts the whole w
 _MOST_FRICTION = 1.0
 """Friction coefficient of belt and pulley above which SPC201 is reported [1]. An engineering choice above the 0.8 of
 ceramic tiles. A smaller value reports valid linings; a larger one accepts percentages and misprints."""
-_STEEP = 0.309  # sine of 18 degrees
+_STEEP = 0.309
+"""Sine of 18 degrees [1]: the slope above which `small_angle` is reported, where the cosine is 5 % below 1. An
+engineering choice; a smaller value reports slopes whose cosine is close to 1."""
 
 
 def inspect(spec: Conveyor) -> Iterator[Finding]:

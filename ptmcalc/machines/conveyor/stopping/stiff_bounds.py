@@ -60,9 +60,12 @@ _SOFTEST = 0.05
 """Softening of the belt by sag, relative to its compliance, below which the bounds hold [1]. An engineering choice. A
 larger value admits belts with more sag, and widens the speed bound and the period by the root of 1 + softening."""
 _ON_AND_ON = 1.0
-"""Times of the rigid body's last moments that the head may need besides them."""
+"""Last interval of the rigid body's stop that the head may need besides [1]. Calibrated with `_ROUNDS`: finite elements
+of 24 machines needed a sixth of both, none of 200 others all of it. A smaller value loses the safety of the bound; a
+larger one lengthens the stop."""
 _ROUNDS = 0.5
-"""Of a wave that it may need besides."""
+"""Contour times that the head may need besides [1]. Calibrated as `_ON_AND_ON`. A smaller value loses the safety of the
+bound; a larger one lengthens the stop."""
 
 
 @dataclass(frozen=True, slots=True)
