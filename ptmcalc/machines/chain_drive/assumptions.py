@@ -55,7 +55,8 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
 )
 
 _ROTOR_SHARE = 0.05
-"""Inertia of a sprocket relative to that of the rotors on the same shaft, at most in usual drives."""
+"""Upper limit of the inertia of a sprocket that the file omits, relative to the rotors on the same shaft [1]. An
+engineering choice. A larger value widens the error bars; a smaller one excludes heavy sprockets."""
 
 
 def _sprocket(spec: ChainDrive) -> Interval:

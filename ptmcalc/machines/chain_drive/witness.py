@@ -33,7 +33,8 @@ from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 from ptmcalc.numerics.harmonic.parts import FREE, KELVIN_VOIGT, ON_SPROCKET, Chain, Line
 
 _PIECES = (30, 60, 120)
-"""Elements of a strand in the three meshes."""
+"""Elements of a strand in three meshes. A numerical choice: their differences give the error bar. More narrow it; time
+grows with the cube."""
 _PLACES = 2001
 """Points of a pitch at which the motion is evaluated; a numerical choice. Every second of them gives the error bar of
 the rest. More points narrow the bar and take longer."""

@@ -39,7 +39,8 @@ TEXTBOOK_K = 3500.0
 range 3000 to 4000. The resonance speed of the textbook is proportional to it."""
 
 FREQUENCIES, ORDERS, WINDOWS = 3, 6, 8
-"""Numbers of natural frequencies, tooth harmonics and safe speed ranges that are reported."""
+"""Numbers of natural frequencies (`FREQUENCIES`), tooth harmonics (`ORDERS`) and safe speed ranges (`WINDOWS`) that are
+reported. Engineering choices: more lengthen the report. Different numbers change the names of the loads."""
 
 
 def loads_of(spec: ChainDrive, found: Resonances) -> dict[str, float]:
