@@ -40,7 +40,8 @@ _LONGER = 4
 """Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
 the first. More follow late stops and take longer."""
 _SECTIONS = ((2, 4), (4, 8))
-"""Sections of the rope of both runs at each refinement."""
+"""Sections of the rope in both runs by level. A numerical choice: the error falls with the square of the number. More
+take longer."""
 _STEPS = 1e-6
 """Relative tolerance of the Runge-Kutta steps of a rope in sections [1]. A numerical choice far below the error of the
 sections. A smaller value takes more steps."""

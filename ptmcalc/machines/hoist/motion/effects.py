@@ -56,18 +56,22 @@ SHORTENING_THRESHOLD = 0.02
 An engineering choice. Below it the error bar is at most 2.1 % of the dynamic part of a force, and four times that at
 the structure."""
 _WAVE, _SNATCHED = 3.0, 8.0
-"""Largest change of a force by the rope's mass over its dynamic part times (m_r/M)^(1/2): with a rope that stays taut,
-and with one that goes slack and snatches again. On the seeded sample of the test the ratios were 1.8 and 4.0."""
+"""Largest change of a force by the rope mass, relative to its dynamic part times (m_r/M)^(1/2) [1]: with a taut rope
+(`_WAVE`), and with one that goes slack and tightens again (`_SNATCHED`). Calibrated: the largest values of the seeded
+sample were 1.8 and 4.0. Smaller values lose the safety of the bound; larger ones widen it."""
 _TRANSITS = 4.0
-"""Largest shift of a time by the rope's mass, in transits of a wave: a front may lift a load for a moment that its
-structure lets down again. On the seeded sample it was 2.5."""
+"""Largest change of a time by the rope mass, in transits of a wave [1]. Calibrated: the largest value of the seeded
+sample was 2.5, as a front may lift a load for a moment. A smaller value loses the safety of the bound; a larger one
+widens it."""
 
 
 _ROUNDING = 1e-12
 """Rounding of a ratio of two frequencies [1], above the resolution 2e-16 of the floating point. It keeps the lower
 frequency within its error bar. A larger value widens the bar without need; a smaller one loses it to rounding."""
 _BEATS = 4.0
-"""What the beat of structure and rope may shift, over the growth of the rope's swing: 2.0 on the seeded sample."""
+"""Change of a force on the structure by the beat of structure and rope, relative to the growth of the rope's
+oscillation [1]. Calibrated: the largest value of the seeded sample was 2.0. A smaller value loses the safety of the
+bound; a larger one widens it."""
 
 
 def _anything(loads: Loads) -> Offsets:
