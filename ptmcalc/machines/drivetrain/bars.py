@@ -13,7 +13,8 @@ from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.train.parts import Smooth
 
 _COMPARED = (0.7, 0.85)
-"""How the runs beside the one that counts divide time, over its own stretches and panels."""
+"""Length of intervals and panels of the compared runs, relative to the run that counts [1]. A numerical choice: the
+difference gives the error bar. Values near 1 compare runs whose errors agree; smaller ones take longer."""
 _MARGIN = 3.0
 """Safety factor on the difference of runs with other time steps [1]; a numerical choice. A smaller value loses the
 safety of the error bar; a larger one widens it."""

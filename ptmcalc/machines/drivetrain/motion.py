@@ -37,11 +37,15 @@ _PERIODS = 10
 """Periods of the lowest natural frequency in the window after the rigid start or stop [1]. A numerical choice: more
 periods take longer, fewer leave more of the vibration after the window."""
 _EVENTS, _ROUNDS = 5e-3, 3.0
-"""Seconds that the events of a play take; what a smooth torque curve costs over a linear motion."""
+"""Cost of a run. `_EVENTS`: predicted seconds of the events of a backlash. `_ROUNDS`: cost of a smooth torque curve
+relative to a linear motion [1]. Rates of a measurement of which no record is kept; wrong values change the order of the
+solvers and the length of windows."""
 BESIDE = 0.3
-"""Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
+"""Predicted seconds of a rigid run up to which it is made for criteria and later ends. A numerical choice: a larger
+value bounds more loads and takes longer."""
 LONG = 5.0
-"""Predicted seconds of a run up to which its window is made longer."""
+"""Predicted seconds of a run up to which its window is made longer. A numerical choice: a larger value follows later
+events and takes longer."""
 MOST_BESIDE = BESIDE / PANEL
 """Panels at which such a run is given up that was predicted to take less."""
 _LEAST_WORK, _MOST_TIMES = 2e5, 30.0
