@@ -55,6 +55,8 @@ from ptmcalc.machines.conveyor.waves import bounds
 FloatArray = NDArray[np.float64]
 
 _X = np.linspace(0.0, 1.0, 65)
+"""Points of a strand as fractions of its length [1] at which bounds are evaluated; a numerical choice. More points find
+the extreme more closely and take longer."""
 _STRANDS = (RETURN, CARRY)
 _SOFTEST = 0.05
 """Softening of the belt by sag, relative to its compliance, below which the bounds hold [1]. An engineering choice. A

@@ -20,6 +20,8 @@ from ptmcalc.numerics.free_waves import Row, swings
 
 _STRANDS = (RETURN, CARRY)
 _X = np.linspace(0.0, 1.0, 129)
+"""Points of a strand as fractions of its length [1] at which tensions are bounded, as in `bounds`; a numerical choice.
+More points find the extreme more closely and take longer."""
 _ALL, _HALVINGS = 8.0, 40
 """Traction in use after a start; numerical choices. `_ALL`: utilisation above which it counts as infinite [1].
 `_HALVINGS`: bisections, which resolve it to 7e-12. A larger `_ALL` reports larger numbers of a slipping pulley; fewer
