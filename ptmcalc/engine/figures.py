@@ -22,9 +22,9 @@ _ALIKE = 8.0
 """Largest ratio of two curves on the same axes [1]. An engineering choice: a larger value draws small curves that are
 not visible; a smaller one makes more figures."""
 _NEAR = 0.05
-"""Difference of a load from the magnitude of the lowest value of its history, relative to the load [1], up to which it
-is drawn there with the other sign. An engineering choice. A larger value mirrors loads that belong to no point of the
-history; a smaller one omits extremes between samples."""
+"""Difference of a load from the magnitude of the lowest value of its history, relative to the load [1]. Up to it the
+load is marked there with the other sign. An engineering choice. A larger value marks loads that belong to no point of
+the history; a smaller one omits extremes between samples."""
 _SAME = 1e-3
 """Relative difference of the extreme of a history from a load [1] up to which it is marked there. A numerical choice,
 as solvers find extremes between samples. A larger value may mark the wrong point; a smaller one omits marks."""

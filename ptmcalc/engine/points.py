@@ -50,8 +50,8 @@ _MOST_CORNERS = 256
 """Corners of the box of all points at which a file is validated. A numerical choice: 8 keys have all of theirs, more
 keys a part. More corners find more refused combinations before the run and take longer."""
 _WITNESSES = 24
-"""Points of a scene that are verified as files of their own, besides one of each block. A numerical choice: more find a
-difference more certainly and take longer."""
+"""Points of a scene that are verified as files of their own, in addition to one of each block. A numerical choice: more
+find a difference more certainly and take longer."""
 _SAME = 1e-9
 """Relative difference of a vectorised point from a file of its own [1] that counts as rounding: numpy and `math` differ
 in the last digit. A larger value hides real differences; a smaller one reports rounding."""

@@ -35,7 +35,7 @@ _GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
 """Shares of an error bar that decide the next run [1]; numerical choices. `_GOOD_PART`: a cause with this share is
 reduced first. `_SOME_PART`: a cause with this share comes next, and counts as numerical error worth another method.
 `_MUCH_LESS`: a model with more effects must promise at most this part of the bar. Other values change the order of the
-runs and their time, no verdict that is decided."""
+runs: a budget may then decide fewer checks."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,8 +33,8 @@ _FINEST = 1
 """Maximum level of a run while a value is searched. A numerical choice: near the limit every level would run. A larger
 value takes longer; 0 finds rough values."""
 _STEP = 0.01
-"""Relative step in which a value must pass for all error bars [1]. A numerical choice: a smaller value finds narrow
-bands and takes longer."""
+"""Relative step of the search for the last value that passes at all levels [1]. A numerical choice: a smaller value
+finds that value more closely and takes longer."""
 REPAIR_SECONDS = 15.0
 """Predicted seconds of the search for a repair, and as many of its refinement; `solve` has no such limit. A numerical
 choice: a larger value finds more repairs and takes longer."""

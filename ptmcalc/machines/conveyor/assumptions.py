@@ -86,8 +86,8 @@ _OTHER_WEIGHT = 0.05
 """Mass of carriage and sheaves and their friction, relative to the take-up weight [1]. An engineering choice: 2 to 5 %
 a sheave. A larger value widens the error bars of loads that depend on the weight."""
 _ELONGATION = {"steel_cord": 0.002, "textile": 0.015}
-"""Permanent elongation of a belt over its life [1]; makers state 0.1 to 0.2 % of steel cord and 0.5 to 1.5 % of
-textile. The upper limit is taken: the required take-up travel is proportional to it."""
+"""Upper limit of the permanent elongation of a belt over its life [1]; makers state 0.1 to 0.2 % of steel cord and 0.5
+to 1.5 % of textile. A larger value widens the error bar of the required take-up travel."""
 _SMALLER_TAIL = 0.6
 """Minimum diameter of the tail pulley relative to the drive pulley [1]. An engineering choice: the belt has less
 tension there. A smaller value widens the error bars."""

@@ -29,7 +29,7 @@ _ELEMENTS = (160, 320, 640)
 """Elements of the finest of three meshes by level; a numerical choice. Twice the number takes four times as long and
 halves the error at first order."""
 _FAST = 1e30
-"""Friction that holds the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
+"""Friction that locks the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
 numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
 early."""
 _A_STEP, _AN_ELEMENT = 1.1e-4, 5e-8

@@ -24,8 +24,8 @@ _TOLERANCE = 1e-8
 """Relative tolerance of the rigid run from which the bounds take their torques [1]. A numerical choice: a smaller value
 takes longer, a larger one makes the criterion less accurate."""
 _TOUCHING = 1e-9
-"""Distance from a flank, relative to half the backlash [1], that counts as contact. A numerical choice above the
-resolution 2e-16 of the floating point. A smaller value withdraws the bound for rounding."""
+"""Distance of a link beyond its flank, relative to half the backlash [1], that counts as rounding. A numerical choice
+above the resolution 2e-16 of the floating point. A smaller value withdraws the bound for rounding."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,8 +27,8 @@ _STEPS = 65
 """Speeds from no-load speed to that of the largest braking torque at which the loads are compared. A numerical choice:
 more find a narrow minimum more closely and take longer."""
 _BISECTIONS = 60
-"""Halvings of the braking share of several motors, to 1e-18 of it: the resolution of the floating point. Fewer are
-faster and coarser."""
+"""Halvings of the braking share of several motors, to 1e-18 of it: beyond the resolution 2e-16 of the floating point.
+Fewer are faster and coarser."""
 _ENDLESS = 1e6
 """Speed relative to no-load speed [1] at which a torque that grows without limit exceeds any load. A numerical choice.
 A smaller value reports a runaway of motors that hold the load."""

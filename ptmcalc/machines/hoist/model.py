@@ -282,8 +282,8 @@ def layer_factor(spec: Hoist) -> float | None:
 
 
 MOST_LAYERS_KNOWN = 2
-"""Layers for which the hoop stress of a drum shell is computed without an input; `rope_drum.layer_factor` has the
-factors. Of more layers the file must give the factor, or the check is not made."""
+"""Layers for which the hoop stress of a drum shell is computed without an input (`rope_drum.layer_factor`, DNV
+2.22:2011). Of more layers the file must give the factor, or the check is not made."""
 
 
 def fleet_angle(spec: Hoist) -> float | None:

@@ -31,7 +31,7 @@ FAR_THRESHOLD = 0.05
 choice. Below it the error bar of a tension is at most 5 % of that bound."""
 WEAK_THRESHOLD = 0.05
 """Mass of the chain relative to that of the drive [1] from which on the compliance of the drive is simulated. An
-engineering choice. Below it the error is about 5 % of the polygon effect except at resonances; the error bar holds it
+engineering choice. Below it the error is about 5 % of the polygon effect except at resonances; the error bar bounds it
 harmonic by harmonic."""
 
 _TENSIONS = (

@@ -180,7 +180,7 @@ def _behind_the_first(case: StartCase) -> tuple[float, float]:
 
 _COUNTED = 12
 """Modes whose tensions are summed one by one; a numerical choice. The rest is bounded as a whole, so that the bound
-holds for any number. More modes narrow it and take longer."""
+applies to any number. More modes narrow it and take longer."""
 
 
 def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:

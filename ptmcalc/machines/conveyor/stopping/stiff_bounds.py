@@ -59,15 +59,15 @@ _X = np.linspace(0.0, 1.0, 65)
 the extreme more closely and take longer."""
 _STRANDS = (RETURN, CARRY)
 _SOFTEST = 0.05
-"""Softening of the belt by sag, relative to its compliance, below which the bounds hold [1]. An engineering choice. A
+"""Softening of the belt by sag, relative to its compliance, below which the bounds apply [1]. An engineering choice. A
 larger value admits belts with more sag, and widens the speed bound and the period by the root of 1 + softening."""
 _ON_AND_ON = 1.0
-"""Last interval of the rigid body's stop that the head may need besides [1]. Calibrated with `_ROUNDS`: finite elements
-of 24 machines needed a sixth of both, none of 200 others all of it. A smaller value loses the safety of the bound; a
-larger one lengthens the stop."""
+"""Additional time of the head, relative to the last interval of the rigid body's stop [1]. Calibrated with `_ROUNDS`:
+finite elements of 24 machines needed a sixth of both, none of 200 others all of it. A smaller value loses the safety of
+the bound; a larger one lengthens the stop."""
 _ROUNDS = 0.5
-"""Contour times that the head may need besides [1]. Calibrated as `_ON_AND_ON`. A smaller value loses the safety of the
-bound; a larger one lengthens the stop."""
+"""Additional time of the head, in contour times [1]. Calibrated as `_ON_AND_ON`. A smaller value loses the safety of
+the bound; a larger one lengthens the stop."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
 from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
-"""Friction that holds the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
+"""Friction that locks the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
 numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
 early."""
 _ON_THE_GRID = 1e-6

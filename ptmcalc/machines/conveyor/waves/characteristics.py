@@ -57,7 +57,7 @@ _SECONDS = {"delays": (1.0e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e
 """Seconds per step, and per step and cell, without slip, with slip and with sag. Measured once; only their ratios to
 those of other solvers matter. Wrong values change the order of the solvers and the predicted time, no load."""
 _OVERHEAD = 3e-3
-"""Predicted seconds of a run besides its steps; measured once. It decides between fast solvers only."""
+"""Predicted seconds of a run in addition to its steps; measured once. It decides between fast solvers only."""
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
