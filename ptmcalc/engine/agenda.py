@@ -14,17 +14,23 @@ from heapq import heappop, heappush
 from random import Random
 
 CHUNK = 0.5
-"""Predicted seconds of work that go out together, and beyond which a file goes out on its own: enough to make the way
-worth while, little enough to share evenly."""
+"""Predicted seconds of a portion of files, and of a file from which on it is a portion of its own. A numerical choice:
+a larger value saves transfers; a smaller one distributes the work more uniformly."""
 MOST_IN_CHUNK = 500
+"""Files of a portion. A numerical choice: it limits portions of files below 1 ms each. A larger number saves transfers;
+a smaller one distributes the files more uniformly."""
 _SHARES = 4
-"""Portions that each worker takes at least of what is left: towards the end they become small."""
+"""Portions that each worker takes at least of the remaining files. A numerical choice: towards the end portions become
+small. A larger number distributes the work more uniformly with more transfers."""
 _UNSEEN = 0.1
-"""Seconds that a file may take for all that is known of its kind."""
+"""Predicted seconds of a file of a kind of which no file has been computed. A numerical choice: a larger value makes
+first portions small; a smaller one may give a worker too much."""
 _LEAST = 1e-4
-"""Seconds that a file takes at least."""
+"""Minimum of the predicted seconds of a file. A numerical choice: it keeps portions finite. A larger value makes
+portions smaller."""
 _LOOK = 0.05
-"""Seconds of a look at a file that comes back."""
+"""Seconds in which a file is planned that is then queued on its own. A numerical choice: a larger value makes portions
+of its kind smaller."""
 
 
 @dataclass(slots=True)

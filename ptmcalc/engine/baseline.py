@@ -27,9 +27,11 @@ _FORMER = "1"
 """It knew neither scenes nor values: whatever failed in one scene was known in all, however badly."""
 _BAD = (Verdict.FAIL, Verdict.UNDECIDED, Verdict.NOT_CHECKED)
 _SAME = 1e-9
-"""Relative difference of two exact values that is rounding of another processor or library."""
+"""Relative difference of two exact values [1] that counts as rounding of another processor or library. A numerical
+choice. A larger value hides small changes; a smaller one reports rounding as a change."""
 _VISIBLE = 1e-4
-"""Relative error bar from which it is written beside a value of four digits."""
+"""Relative error bar [1] from which on it is printed next to a value of four digits. An engineering choice; no
+comparison depends on it."""
 _SCENES = re.compile(r"scenes? (?P<labels>`[^`]*`(?:, `[^`]*`)*)[,:]")
 """How a warning of scenes begins."""
 _NUMBERS = ("value", "low", "high", "limit_low", "limit_high")

@@ -33,9 +33,11 @@ from ptmcalc.text.document import MAX_BYTES
 from ptmcalc.text.source import beginning_of
 
 ALONE = 3.0
-"""Predicted seconds below which one process is as quick as several, which must start first."""
+"""Predicted seconds of a batch below which one process computes it. A numerical choice: several processes must start
+first. A larger value delays medium batches; a smaller one delays small ones."""
 _AROUND = 0.003
-"""Seconds of reading, judging and reporting a file, beside its runs."""
+"""Seconds of reading, judging and reporting a file, in addition to its runs. A numerical choice: a wrong value changes
+the distribution of files, no result."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,7 +49,8 @@ from ptmcalc.text.document import Document
 
 T = TypeVar("T")
 _PARTS = 12
-"""Numbers that the shape of a history has."""
+"""Numbers that describe the shape of a history, one for each part of its time. A numerical choice: more detect smaller
+changes and lengthen the report."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,16 +22,27 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 
 ACCURACIES = (0.05, 0.01, 0.001)
+"""Relative accuracies for which `ptmcalc cost` names the fastest setting by default [1]. An engineering choice: rough,
+usual and fine design. Others are requested on the command line; no load depends on them."""
 MARGINS = "margins"
 WORK_BUDGET = 10.0
-"""Predicted seconds of one run of every setting of a file; the dearest settings beyond it are named, not run."""
+"""Predicted seconds of one run of every setting of a file; settings of higher cost are named, not run. A numerical
+choice: a larger value measures more settings and takes longer."""
 _WITNESS_SHARE = 0.25
-"""Of that budget, what the witnesses of a scene may take."""
+"""Share of that budget for the reference methods of a scene [1]. A numerical choice: a larger value allows finer
+references and leaves less for the settings."""
 MOST_RUNS = 5
+"""Repetitions of a fast run whose shortest time is reported. A numerical choice: more reduce the scatter of the time
+and take longer."""
 _ENOUGH, _LONG = 0.2, 0.5
-"""Seconds after which a setting is not repeated again, and those of a run that is made once."""
+"""Repetition of a run [s]; numerical choices. `_ENOUGH`: total time after which it is not repeated again. `_LONG`: time
+of a run that is made once. Larger values reduce the scatter of the time and take longer."""
 _SMALL = 1e-3
+"""Minimum reference of a relative error, relative to the largest load of its quantity [1]. A numerical choice: a load
+near 0 would have an infinite relative error. A larger value hides errors of small loads."""
 _ROUNDING = 1e-9
+"""Rounding relative to the value [1] within which an interval contains its reference, above the resolution 2e-16 of the
+floating point. A smaller value reports rounding as a violated bound; a larger one hides small violations."""
 _UNTRUSTED = ("NUM101", "NUM102")
 
 Loads = Mapping[str, Estimate]

@@ -16,12 +16,18 @@ from ptmcalc.contract.solver import Fidelity
 from ptmcalc.spec.machine import MachineSpec
 
 _CELLS = 240
-"""Stretches of a course of which each keeps its ends, its largest and its smallest value: more cannot be seen."""
+"""Intervals of a history in a figure, each with its ends, maximum and minimum. A numerical choice: more are not visible
+and enlarge the file; fewer draw coarse curves."""
 _ALIKE = 8.0
-"""How much larger one curve may be than another one on the same axes: of a smaller one nothing would be seen."""
+"""Largest ratio of two curves on the same axes [1]. An engineering choice: a larger value draws small curves that are
+not visible; a smaller one makes more figures."""
 _NEAR = 0.05
+"""Difference of a load from the magnitude of the lowest value of its history, relative to the load [1]. Up to it the
+load is marked there with the other sign. An engineering choice. A larger value marks loads that belong to no point of
+the history; a smaller one omits extremes between samples."""
 _SAME = 1e-3
-"""How closely the end of a course is the load that is its extreme: solvers see between samples."""
+"""Relative difference of the extreme of a history from a load [1] up to which it is marked there. A numerical choice,
+as solvers find extremes between samples. A larger value may mark the wrong point; a smaller one omits marks."""
 _OF_PLACE: Mapping[str, tuple[str, ...]] = {"time": ("time",), "distance": ("position", "place")}
 """Where a load says at which value of an axis it occurs."""
 

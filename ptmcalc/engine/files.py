@@ -21,7 +21,8 @@ SUFFIXES = (".yaml", ".yml")
 _IGNORED = ".gitignore"
 _KIND, _TYPE = (re.compile(b"^%s:[ \\t]*[\"']?([a-z_]+)" % key, re.MULTILINE) for key in (b"kind", b"type"))
 _MOST_STARS = 4
-"""Inside one part of a pattern: a name of 255 letters that does not match is tried at each `*` in as many ways."""
+"""Number of `*` inside one part of a pattern that is refused. A numerical choice: the time of a name that does not
+match grows with the power of the number. A larger number allows patterns that take very long."""
 
 
 @dataclass(frozen=True, slots=True)

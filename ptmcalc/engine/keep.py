@@ -17,8 +17,8 @@ from ptmcalc.engine.check import Options
 from ptmcalc.engine.store import Record, Store
 
 MOMENT = 0.3
-"""Seconds that a result waits for others. A chunk of quick files is back by then, and costs no transaction of its
-own; what is lost where a process is killed is less than a second of work."""
+"""Seconds that a result waits for others before it is stored. A numerical choice: a larger value needs fewer
+transactions and loses more work where a process is killed."""
 
 
 class Keeper:

@@ -41,14 +41,20 @@ from ptmcalc.spec.scene import Scene
 from ptmcalc.spec.shape import did_you_mean, is_whole, keys_of, measure_of
 
 BLOCK = 8192
-"""Points computed at once: their numbers stay near the processor."""
+"""Points computed at once. A numerical choice: their values stay in the cache of the processor. A larger number needs
+more memory; a smaller one has more overhead."""
 _MOST_RUNS = 256
-"""Runs by lanes of one block, which parts wherever a branch does; what is left then is left to a batch."""
+"""Vectorised runs of one block, which divides at each branch; the remaining points are computed as files. A numerical
+choice: more runs treat more branches and take longer where each has few points."""
 _MOST_CORNERS = 256
+"""Corners of the box of all points at which a file is validated. A numerical choice: 8 keys have all of theirs, more
+keys a part. More corners find more refused combinations before the run and take longer."""
 _WITNESSES = 24
-"""Points of a scene that are checked as files of their own, besides one of each block."""
+"""Points of a scene that are verified as files of their own, in addition to one of each block. A numerical choice: more
+find a difference more certainly and take longer."""
 _SAME = 1e-9
-"""Relative difference of a lane from a file of its own that is rounding: numpy and `math` differ in the last digit."""
+"""Relative difference of a vectorised point from a file of its own [1] that counts as rounding: numpy and `math` differ
+in the last digit. A larger value hides real differences; a smaller one reports rounding."""
 _LEFT_OUT = ("waive", "tolerances", "description", "name")
 """What a point has no use for: its verdict is that of the physics, on any day."""
 _SAID = {

@@ -11,8 +11,10 @@ from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.text.document import Document
 
 FILE_TIMES = 10.0
-"""Budgets of a scene that a file may take with all its scenes, the ends of what is assumed, and its repairs."""
+"""Work of a file with all scenes, assumptions and repairs, relative to the budget of a scene [1]. A numerical choice: a
+larger value computes more scenes to the end and takes longer."""
 _NAMED = 3
+"""Scenes that a message names; the rest is counted. An engineering choice: the message stays short."""
 
 
 @dataclass

@@ -18,14 +18,24 @@ from ptmcalc.engine.relate import narrowed, related
 from ptmcalc.spec.machine import MachineSpec
 
 WORK_BUDGET = 60.0
-"""Predicted seconds a scene may cost. Predicted, never clocked: verdicts are the same on every machine."""
+"""Predicted seconds of a scene. A numerical choice; they are predicted, not measured, so that verdicts are equal on
+every machine. A larger value decides more checks and takes longer."""
 NO_MEMORY = f"takes more memory than {MEMORY_BUDGET >> 30} GiB, the budget of a run, or than there is"
-"""What is said of a computation that finds none; the same one may find it another time."""
+"""Message of a computation without sufficient memory, with the work memory in GiB (2^30 bytes). It may succeed at
+another time."""
 _CHEAP = 0.01
-"""Predicted seconds of a run that is made to see how far the ladder goes."""
+"""Predicted seconds of a run that is made to predict the others. A numerical choice: a larger value predicts better and
+takes longer."""
 _ANYTHING = 1.0
+"""Value of a load that no run knows yet, in the load's unit, for the prediction of a run. Any finite value serves: only
+whether its bound is finite is used."""
 _NAMED = 3
+"""Loads that a message names; the rest is counted. An engineering choice: the message stays short."""
 _GOOD_PART, _SOME_PART, _MUCH_LESS = 0.25, 0.01, 0.5
+"""Shares of an error bar that decide the next run [1]; numerical choices. `_GOOD_PART`: a cause with this share is
+reduced first. `_SOME_PART`: a cause with this share comes next, and counts as numerical error worth another method.
+`_MUCH_LESS`: a model with more effects must promise at most this part of the bar. Other values change the order of the
+runs: a budget may then decide fewer checks."""
 
 
 @dataclass(frozen=True, slots=True)

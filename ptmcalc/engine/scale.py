@@ -34,7 +34,11 @@ from ptmcalc.spec.machine import MachineSpec
 
 _GRAVITY = ("gravity",)
 _ROUNDING = 1e-9
+"""Rounding of a difference of two loads relative to the larger [1], above the resolution 2e-16 of the floating point. A
+smaller value reports rounding as an effect of gravity; a larger one hides small effects."""
 _SAME = 1e-9
+"""Relative tolerance at which a scale counts as that of the law [1], above the resolution 2e-16 of the floating point.
+A smaller value adds remarks for rounding; a larger one hides a deviation from the law."""
 _LEFT_OPEN = "of modulus, density and gravity one that is left out follows"
 
 

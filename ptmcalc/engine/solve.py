@@ -21,17 +21,23 @@ from ptmcalc.spec.machine import MachineSpec
 _DECADES = (0.01, 0.03, 0.1, *(0.25 * step for step in range(1, 13)))
 """How far from the present value others are tried, in decades on either side."""
 FARTHEST = 1e3
-"""How many times the present value a solution may be, or the present value it."""
+"""Largest ratio of a solution to the present value, or of the present value to it [1]. An engineering choice: a larger
+value finds solutions that no machine has; a smaller one reports that there is none."""
 _MOST_STEPS = 60
+"""Steps that narrow a bracket; a numerical choice. Halving alone reduces it by 2^60, beyond the resolution of the
+floating point. Fewer steps may end with a wider bracket; more take longer where a clearance is not smooth."""
 _CLOSE_ENOUGH = 5e-3
-"""Of the value: a bracket so narrow is an answer where there are no seconds left to narrow it."""
+"""Relative width of a bracket [1] that is an answer where the budget is used up. A numerical choice: a larger value
+gives rough answers; a smaller one reports more searches as unfinished."""
 _FINEST = 1
-"""The most refinements of a run while a value is looked for: near the limit every one there is would run."""
+"""Maximum level of a run while a value is searched. A numerical choice: near the limit every level would run. A larger
+value takes longer; 0 finds rough values."""
 _STEP = 0.01
-"""Of the value: what still passes so far the wrong way, by whatever runs there are, is no answer yet."""
+"""Relative step of the search for the last value that passes at all levels [1]. A numerical choice: a smaller value
+finds that value more closely and takes longer."""
 REPAIR_SECONDS = 15.0
-"""Predicted work that looking for a repair may take, and narrowing it by every run there is as much again; `solve`
-has no such limit."""
+"""Predicted seconds of the search for a repair, and as many of its refinement; `solve` has no such limit. A numerical
+choice: a larger value finds more repairs and takes longer."""
 
 Clearance = Callable[[float], float]
 """How far the whole error bar lies on the sound side of the limit, and of the margin that is wanted beside it; the

@@ -23,8 +23,11 @@ from ptmcalc.base.errors import UsageError
 from ptmcalc.contract.report import FileReport, Tally
 
 _OURS = 0x70746D63
-"""`ptmc`: what marks a SQLite file as a store."""
+"""Application number of a store, the letters `ptmc`: it distinguishes a store from other SQLite files. Another number
+rejects all existing stores."""
 _FORM = 1
+"""Version of the table below, kept as `user_version`. Another number rejects all existing stores: increase it with
+every change of the table."""
 _TABLE = """
 create table if not exists result (
     key blob primary key, day text not null, tally text not null, checksum integer not null, report blob not null,
@@ -32,11 +35,13 @@ create table if not exists result (
 )
 """
 _PAGE = 1 << 14
-"""Bytes of a page: the JSON of a file then lies in a few of them."""
+"""Bytes of a page of the store. A numerical choice: the report of a file then takes a few pages. A larger value wastes
+space of short reports; a smaller one reads more pages."""
 _ASKED = 500
-"""Keys that are asked for at once."""
+"""Keys of one query. A numerical choice: more need fewer queries; SQLite limits their number."""
 _WAIT = 60.0
-"""Seconds that another process may hold the store."""
+"""Seconds that another process may lock the store. A numerical choice: a smaller value refuses a store in use; a larger
+one delays the message of a process that does not end."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,8 @@ from ptmcalc.engine.points import varied_key
 from ptmcalc.spec.fields import Measure
 
 MOST_POINTS, MOST_KEYS = 1_000_000, 20
+"""Limits of a sweep; numerical choices. `MOST_POINTS`: points. `MOST_KEYS`: keys that vary. Both together take 160 MB
+of values. Larger limits need more memory; smaller ones refuse long sweeps earlier."""
 _EXAMPLE = "takeup.tension=20 kN:60 kN:21"
 _LOG = "log"
 

@@ -10,7 +10,8 @@ from ptmcalc.engine.load import Loaded
 OF_TEXTBOOKS = frozenset({"NUM107", "NUM108"})
 """Findings about a textbook's formula, not about a number of ours."""
 FAR = 0.1
-"""Difference beyond the error bar, as a share of the formula's value, from which on it is said."""
+"""Difference from a textbook value beyond the error bar, relative to that value [1], from which on it is reported. An
+engineering choice: a smaller value reports usual simplifications; a larger one hides wrong formulas."""
 
 
 def far_from_textbook(loaded: Loaded, scene: SceneReport) -> Diagnostic | None:

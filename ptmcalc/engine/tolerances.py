@@ -16,8 +16,11 @@ from ptmcalc.numerics.statistics import quantile_interval, rank_correlation, ran
 from ptmcalc.spec.fields import Measure
 
 MOST_SAMPLES, MOST_VALUES = 1_000_000, 20_000_000
+"""Limits of a random sample; numerical choices. `MOST_SAMPLES`: machines. `MOST_VALUES`: machines times tolerances,
+which take 160 MB. Larger limits need more memory; smaller ones refuse large samples earlier."""
 _LEAST_KEPT = 1e-3
-"""Share of a normal distribution that `min` and `max` must leave: less is no tolerance of the value."""
+"""Share of a normal distribution that `min` and `max` must leave [1]. A numerical choice: less is no tolerance of the
+value, and drawing takes longer."""
 
 
 def drawn(loaded: Loaded, count: int, seed: int) -> Points:

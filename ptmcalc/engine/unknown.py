@@ -11,6 +11,7 @@ from ptmcalc.engine.run import Best, Settled
 from ptmcalc.spec.machine import MachineSpec
 
 _NAMED = 3
+"""Reasons that a message names. An engineering choice: the message stays short, and further reasons are omitted."""
 
 
 def why_open(kind: AnyKind, spec: MachineSpec, settled: Settled, names: Iterable[str]) -> str:

@@ -22,8 +22,15 @@ from ptmcalc.machines.chain_drive.starting.topic import STARTING
 from ptmcalc.machines.chain_drive.stopping.topic import STOPPING
 
 _SPEED_TOLERANCE = 0.05
+"""Difference of two chain speeds of a file from which on SPC201 is reported [1]. An engineering choice: a smaller value
+reports rounded ratios, a larger one accepts wrong entries."""
 _WEIGHT_TOLERANCE = 0.05
+"""Difference of the take-up tension from half of the weight from which on SPC201 is reported [1]. An engineering
+choice: a smaller value reports rounded masses, a larger one accepts the whole weight as tension."""
 _PITCHES_TOLERANCE = 1.0
+"""Difference of the chain length from that of the centre distance from which on SPC201 is reported [pitches]. An
+engineering choice: a length is rounded to whole pitches, an even number if possible. A larger value accepts a chain
+that cannot be closed."""
 
 
 def inspect(spec: ChainDrive) -> Iterator[Finding]:

@@ -12,6 +12,8 @@ from ptmcalc.numerics.harmonic.parts import ZENER
 from ptmcalc.spec.scene import Scene
 
 _STEEL = 2.06e11
+"""Modulus of elasticity of steel [Pa], a handbook value. The assumed modulus of a chain is 0.5 to 0.8 of it; an error
+of 2 % moves the frequencies by 1 %, far below that interval."""
 
 
 def _needs_modulus(spec: ChainDrive) -> float | None:
@@ -53,7 +55,8 @@ _OF_THE_CHAIN: tuple[Assumption[ChainDrive], ...] = (
 )
 
 _ROTOR_SHARE = 0.05
-"""Inertia of a sprocket relative to that of the rotors on the same shaft, at most in usual drives."""
+"""Upper limit of the inertia of a sprocket that the file omits, relative to the rotors on the same shaft [1]. An
+engineering choice. A larger value widens the error bars; a smaller one excludes heavy sprockets."""
 
 
 def _sprocket(spec: ChainDrive) -> Interval:

@@ -31,7 +31,12 @@ PositiveWearRate = Annotated[float, Measure(units.WEAR_RATE, above=0, smallest=1
 PositiveWearDepth = Annotated[float, Measure(units.WEAR_DEPTH, above=0, smallest=1e-30)]
 
 LEAST_TEETH, MOST_TEETH = 4, 300
+"""Numbers of teeth that a file may state; engineering choices. `LEAST_TEETH`: fewer do not turn a chain; the check of
+the teeth starts at 6. `MOST_TEETH`: rejects misprints. Wider limits accept wrong entries, narrower ones refuse valid
+sprockets."""
 _SAME_SIZE = 0.02
+"""Difference of a pitch diameter from p/sin(180 deg/z) from which on it is rejected [1]. An engineering choice: a
+smaller value rejects rounded diameters, a larger one accepts outer diameters and a wrong number of teeth."""
 
 
 class Damping(Fragment):

@@ -21,17 +21,22 @@ from ptmcalc.numerics.harmonic import parts
 FloatArray = NDArray[np.float64]
 
 CRANKED = 0.8
-"""Part of the breaking load that a cranked link bears (ACA: about 20 % less)."""
+"""Breaking load of a cranked link relative to that of the chain [1] (ACA: about 20 % less). All safety factors of a
+chain with such a link are proportional to it."""
 ROWS = {1: 1.0, 2: 1.7, 3: 2.5, 4: 3.3, 5: 3.9, 6: 4.6}
-"""Capacity of several rows of roller chain over that of one (ACA)."""
+"""Capacity of several rows of roller chain relative to one row [1] (ACA), by number of rows; other numbers count in
+full. The transmitted power is proportional to it."""
 MODES = 12
-"""How many natural frequencies are looked at."""
+"""Natural frequencies that are computed by default. A numerical choice: more find resonances at higher orders and take
+longer."""
 _LIGHT = 1e-12
-"""Mass of the slack strand between two shafts over that of the tight one: it only gives way, and is not 0."""
+"""Mass of the slack strand between two shafts relative to the tight one [1]: the strand is an elastic spring without
+mass. A numerical choice, as 0 would divide by 0. A larger value adds inertia that does not exist."""
 
 
 _CLOSEST = 1e-6
-"""Length of a strand over the distance of shafts that a search puts into each other; a file cannot."""
+"""Length of a strand relative to the centre distance when a search overlaps the shafts [1]. A numerical choice: it
+keeps the length above 0 where a file would be rejected. No file reaches it."""
 
 
 def filled(value: float | None) -> float:

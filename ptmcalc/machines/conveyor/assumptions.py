@@ -15,10 +15,17 @@ from ptmcalc.machines.conveyor.spec import IN_MOTION, Coast, Conveyor, Drive, Em
 from ptmcalc.numerics.lanes import value
 
 _ROUGH_DRUM_SHARE = 0.05
+"""Upper limit of the inertia of a drive pulley that the file omits, relative to that of the motors on the same shaft
+[1]. An engineering choice for shell pulleys. A larger value widens the error bars; a smaller one excludes heavy
+pulleys."""
 _ROUGH_TAIL_SHARE = 0.01
+"""Upper limit of the mass of a tail pulley that the file omits, relative to belt and load [1]. An engineering choice. A
+larger value widens the error bars; a smaller one excludes heavy pulleys."""
 
 
-_TABLE_ENDS = 2000.0  # m, of C(L)
+_TABLE_ENDS = 2000.0
+"""Length at which the table of the length factor C(L) ends [m]. Beyond it the lower limit of C - 1 falls as 1/L. A
+larger value narrows the interval of long conveyors."""
 
 
 def _secondary(spec: Conveyor) -> float | None:
@@ -69,16 +76,21 @@ _OF_THE_BELT: tuple[Assumption[Conveyor], ...] = (
 )
 
 _LIGHT_RUNNING = 0.6
-"""A belt that runs light, f = 0.016, relative to one designed with f = 0.027 (DIN 22101)."""
+"""Minimum of the stop factor by default [1]: f = 0.016 of a light-running belt relative to f = 0.027 of the design (DIN
+22101). A smaller value lengthens the upper limit of stopping time and distance."""
 _LEAST_AT_REST, _MOST_AT_REST = 0.3, 0.6
-"""Part of the idler resistance in motion that is counted on at standstill: practice takes one half. The low end is 0.4
-of the main resistance, which is about 0.8 of all; the high end is a little more than practice."""
+"""Share of the idler resistance that acts at standstill [1]; practice takes one half. `_LEAST_AT_REST`: 0.4 of the main
+resistance, which is about 0.8 of the total. `_MOST_AT_REST`: an engineering choice above practice. A wider interval
+widens the error bar of the backstop torque."""
 _OTHER_WEIGHT = 0.05
-"""Mass of carriage, sheaves and their friction, relative to that of the take-up weight: 2 to 5 % a sheave."""
+"""Mass of carriage and sheaves and their friction, relative to the take-up weight [1]. An engineering choice: 2 to 5 %
+a sheave. A larger value widens the error bars of loads that depend on the weight."""
 _ELONGATION = {"steel_cord": 0.002, "textile": 0.015}
-"""Permanent elongation over the life of a belt; makers state 0.1 to 0.2 % and 0.5 to 1.5 %."""
+"""Upper limit of the permanent elongation of a belt over its life [1]; makers state 0.1 to 0.2 % of steel cord and 0.5
+to 1.5 % of textile. A larger value widens the error bar of the required take-up travel."""
 _SMALLER_TAIL = 0.6
-"""Diameter of the tail pulley relative to that of the drive pulley, at least: the belt has less tension there."""
+"""Minimum diameter of the tail pulley relative to the drive pulley [1]. An engineering choice: the belt has less
+tension there. A smaller value widens the error bars."""
 
 
 def _stops(spec: Conveyor) -> bool:

@@ -13,9 +13,16 @@ from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, PlacedDrive,
 from ptmcalc.numerics.belt.station import Torque
 
 _NEARLY, _LEAST_UP_TO = 0.98, 0.9
+"""Speeds that end a start [1]; engineering choices. `_NEARLY`: relative to the speed at which the force falls to the
+resistance, which is approached without end; a larger value gives a longer starting time. `_LEAST_UP_TO`: relative to
+the rated speed; the minimum force is taken below it, as the motor torque falls to the load above."""
 _LATE_STAGE = 1e6
-"""A time at which stages that end by time, and ramps, are over [s]."""
+"""Time at which all stages that end by time, and all ramps, are over [s]. A numerical choice far beyond any start; a
+value within a start evaluates the wrong stage."""
 _CURVE_STEPS = 4000
+"""Steps of the rigid start along a motor curve; a numerical choice. A step is 1/400 of the time at mean acceleration,
+and the integration stops after 200 such times. Heun's rule has an error of second order: twice the number takes twice
+the time and leaves a quarter of the error."""
 
 
 @kept_for(64)

@@ -10,9 +10,17 @@ from ptmcalc.machines.conveyor.spec import Conveyor, EmergencyStop, Start
 from ptmcalc.machines.conveyor.waves.effects.damping import jumps
 
 _SPEED_TOLERANCE = 0.05
+"""Difference of two belt speeds of a file from which on SPC201 is reported [1]. An engineering choice: a smaller value
+reports rounded ratios and diameters, a larger one accepts wrong entries."""
 _WEIGHT_TOLERANCE = 0.05
+"""Difference of the take-up tension from half of the weight from which on SPC201 is reported [1]. An engineering
+choice: a smaller value reports rounded masses, a larger one accepts the whole weight as tension."""
 _MOST_FRICTION = 1.0
-_STEEP = 0.309  # sine of 18 degrees
+"""Friction coefficient of belt and pulley above which SPC201 is reported [1]. An engineering choice above the 0.8 of
+ceramic tiles. A smaller value reports valid linings; a larger one accepts percentages and misprints."""
+_STEEP = 0.309
+"""Sine of 18 degrees [1]: the slope above which `small_angle` is reported, where the cosine is 5 % below 1. An
+engineering choice; a smaller value reports slopes whose cosine is close to 1."""
 
 
 def inspect(spec: Conveyor) -> Iterator[Finding]:

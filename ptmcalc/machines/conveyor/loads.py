@@ -84,7 +84,8 @@ CHANGED_BY_MOTION = OF_NETWORK | PER_DRIVE
 """Loads, and families of them, that depend on how the belt moves."""
 
 FREQUENCIES = 3
-"""How many natural frequencies are reported."""
+"""Natural frequencies that are reported. An engineering choice: more lengthen the report. A different number changes
+the names of the loads."""
 
 
 def parts_of(loads: Iterable[LoadInfo], spec: Conveyor) -> Iterator[LoadInfo]:

@@ -14,15 +14,20 @@ from ptmcalc.machines.conveyor.stopping.rigid import deceleration, rigid_stop
 from ptmcalc.numerics.belt.station import Torque
 
 _CONTOURS = 2.0
-"""Times a wave goes round the belt that are looked at after it has come to rest."""
+"""Contour times after standstill that belong to a stop [1]. A numerical choice. More take longer; fewer may omit a late
+extreme."""
 _AFTER_JAM = 4.0
-"""The same after a drum has jammed: a period of the lowest mode of a uniform loop; friction then damps."""
+"""Contour times after a pulley has jammed [1]: one period of the lowest mode of a uniform loop, after which friction
+damps. More take longer; fewer may omit a late extreme."""
 AFTER_START = 2.0
-"""Times a wave goes round after the drum has its speed: half a period of the lowest mode of a uniform loop."""
+"""Contour times after the pulley has its speed [1]: half a period of the lowest mode of a uniform loop. More take
+longer; fewer may omit a late extreme."""
 MOST_ROUNDS = 1000.0
-"""Rounds of a wave in the time of a scene from which on simulating it takes a minute."""
+"""Contour times of a scene from which on it is not simulated [1]. A numerical choice: the run then takes a minute. A
+larger value allows longer runs; a smaller one leaves more scenes without a simulation."""
 _LATE = 1.25
-"""How much longer than the rigid body the belt may take to come to rest."""
+"""Time to standstill of the belt relative to the rigid body for which the window is sufficient [1]. A numerical choice.
+A larger value takes longer; a smaller one repeats more runs with a longer window."""
 
 
 @dataclass(frozen=True, slots=True)

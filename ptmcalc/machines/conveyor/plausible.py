@@ -16,9 +16,11 @@ from ptmcalc.machines.conveyor.model import load_line_mass
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive
 
 _LEAST_LOAD = 0.02
-"""Load per length relative to that of the belt. Light goods on light belts come to 0.1."""
+"""Load per length relative to the mass of the belt [1] below which SPC201 is reported. An engineering choice: light
+goods on light belts have 0.1. A larger value reports valid conveyors; a smaller one accepts wrong units."""
 _SLOWEST_MOTOR = 100.0
-"""Time in which a motor brings its own rotor to speed [s]; real ones need 0.05 to 5 s."""
+"""Time in which a motor accelerates its own rotor [s] above which SPC201 is reported. An engineering choice: motors
+take 0.05 to 5 s. A smaller value reports valid motors; a larger one accepts wrong units."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,4 +107,5 @@ def _of_the_load(spec: Conveyor) -> Iterator[Finding]:
 
 
 _MOST_LOAD = 10_000.0
-"""Load per length [kg/m]. The largest belts carry 1500 kg/m; slow feeders under silos several times that."""
+"""Load per length [kg/m] above which SPC201 is reported. An engineering choice: the largest belts carry 1500 kg/m, slow
+feeders under silos several times that. A smaller value reports valid feeders; a larger one accepts wrong units."""

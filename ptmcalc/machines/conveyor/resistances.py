@@ -8,7 +8,8 @@ from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.numerics.lanes import value
 
 _CEMA_RETURN = 0.015
-"""Share of the belt's weight that the return strand takes by CEMA's formula (`cema_effective_tension`)."""
+"""Resistance of the return strand relative to the weight of the belt [1], CEMA (`cema_effective_tension`). The
+resistance of the return strand is proportional to it."""
 
 
 def filled(value: float | None) -> float:

@@ -26,11 +26,21 @@ from ptmcalc.witness import belt
 from ptmcalc.witness.belt import Length, Motion, Plan, Roller
 
 _ELEMENTS = (160, 320, 640)
-"""Elements of the finest of three runs at each refinement."""
+"""Elements of the finest of three meshes by level; a numerical choice. Twice the number takes four times as long and
+halves the error at first order."""
 _FAST = 1e30
+"""Friction that locks the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
+numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
+early."""
 _A_STEP, _AN_ELEMENT = 1.1e-4, 5e-8
+"""Predicted seconds per step (`_A_STEP`), and per step and element (`_AN_ELEMENT`); the rates of a measurement of which
+no record is kept. Wrong values change the choice of runs within a work budget, no load."""
 _MARGIN = 3.0
+"""Safety factor on the difference of two meshes [1]. A numerical choice: at first order the rest is no larger than the
+difference. A smaller value weakens the reference; a larger one hides errors of the method it tests."""
 _LONGER = 3
+"""Windows that a stop is simulated in, each twice the one before; a numerical choice. More follow a belt that stops
+later than the rigid body; each doubles the time."""
 Readings = dict[str, float]
 
 

@@ -13,9 +13,11 @@ if TYPE_CHECKING:
     from ptmcalc.machines.drivetrain.motion import Course
 
 _STILL = 1e-9
-"""Speed that counts as standstill, relative to the largest speed of the train: rounding of a body at rest."""
+"""Speed relative to the largest of the train [1] that counts as standstill: rounding of a body at rest. A numerical
+choice. A larger value stops slow bodies; a smaller one reports rounding as motion."""
 _TOUCHES = 1e-9
-"""Distance from contact that counts as contact, relative to the play: rounding of a link that starts in contact."""
+"""Distance from contact relative to the backlash [1] that counts as contact: rounding of a link that starts in contact.
+A numerical choice. A larger value closes small gaps; a smaller one reports rounding as a gap."""
 
 
 def times(case: Case) -> dict[str, float]:

@@ -13,10 +13,17 @@ from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.train.parts import Smooth
 
 _COMPARED = (0.7, 0.85)
-"""How the runs beside the one that counts divide time, over its own stretches and panels."""
+"""Length of intervals and panels of the compared runs, relative to the run that counts [1]. A numerical choice: the
+difference gives the error bar. Values near 1 compare runs whose errors agree; smaller ones take longer."""
 _MARGIN = 3.0
+"""Safety factor on the difference of runs with other time steps [1]; a numerical choice. A smaller value loses the
+safety of the error bar; a larger one widens it."""
 _ALIKE = 1e-3
+"""Size of a load relative to the largest of its kind [1] below which its relative difference is ignored. A numerical
+choice: rounding of small parts would widen the error bars of all. A larger value narrows the bars of small loads."""
 _POLYNOMIALS = 3e-12
+"""Error of a signal between the nodes of its polynomials, relative to its largest value [1]. A numerical choice above
+the resolution 2e-16 of the floating point. A larger value widens bars that are otherwise rounding."""
 _UNSEEN = FADED + _POLYNOMIALS
 """What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
 

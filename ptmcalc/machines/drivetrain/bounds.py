@@ -17,8 +17,15 @@ from ptmcalc.numerics.train.parts import CLAMPED, KELVIN, LINEAR, NO_PULL, RIGID
 from ptmcalc.numerics.train.tree import Groups
 
 _ONE_SIGN = 1e-6
+"""Torque of the other sign, relative to the largest, that counts as rounding [1]. A numerical choice, 100 times
+`_TOLERANCE`. A larger value ignores a small change of sign, which opens the backlash; a smaller one withdraws the bound
+for rounding."""
 _TOLERANCE = 1e-8
+"""Relative tolerance of the rigid run from which the bounds take their torques [1]. A numerical choice: a smaller value
+takes longer, a larger one makes the criterion less accurate."""
 _TOUCHING = 1e-9
+"""Distance of a link beyond its flank, relative to half the backlash [1], that counts as rounding. A numerical choice
+above the resolution 2e-16 of the floating point. A smaller value withdraws the bound for rounding."""
 
 
 @dataclass(frozen=True, slots=True)

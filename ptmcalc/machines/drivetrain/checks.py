@@ -15,7 +15,8 @@ from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start,
 from ptmcalc.spec.scene import Scene
 
 WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
-"""Largest worn part of a tooth: in gearboxes and gear couplings, and in open gears (lecture notes Kramatorsk 2007)."""
+"""Largest worn part of a tooth [1], lecture notes Kramatorsk 2007 (15 to 25 % and 40 %): in gearboxes and gear
+couplings (`WORN_OUT`), and in open gears (`WORN_OUT_OPEN`). A smaller value requires an earlier renewal."""
 
 ALL: frozenset[type[Scene]] = frozenset({Run, Start, Stop})
 RUNNING: frozenset[type[Scene]] = frozenset({Run})
@@ -457,7 +458,8 @@ def _braking_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
 
 
 _MOTOR_PATH = 2
-"""Keys of the path to a motor without the one that its torques grow with."""
+"""Keys of the path to a motor, without the one that its torques are proportional to. A property of the file format: a
+longer path can be changed by one factor."""
 
 BRAKES: AnyCheck = Check(
     code="DRV111",

@@ -16,13 +16,17 @@ from ptmcalc.numerics.train.parts import Governed, Grip
 from ptmcalc.numerics.train.signals import Signal
 
 _PROGRESS = 1e-3
-"""Least share of what is missing that a start or a stop that ends gains while its time doubles: an induction motor
-next to its synchronous speed still gains some per cent of it."""
+"""Minimum share of the remaining speed that a start or stop gains while its time doubles [1]. A numerical choice: an
+induction motor near synchronous speed still gains some percent. A larger value reports slow starts as endless."""
 _FADED = 20.0
-"""Time constants after which a decay is below 1e-8 of its beginning."""
+"""Time constants of a decay after which it has no effect [1]: below 1e-8 of its beginning. A numerical choice. A larger
+value takes longer windows."""
 _TOLERANCE = 1e-6
+"""Relative tolerance of the rigid run that looks ahead [1]. A numerical choice: it decides only whether a start or stop
+ends. A smaller value takes longer; a larger one misses small gains of speed."""
 _OF_SPEEDS = 1e-9
-"""Tolerance of the rigid train whose growing speeds are looked at: less than the bars of these speeds."""
+"""Relative tolerance of the rigid run whose rising speeds are evaluated [1]. A numerical choice below the error bars of
+these speeds. A larger value reports rounding as growth."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +40,11 @@ class Ending:
 
 
 _LOOKS = 12
-"""Times that the rigid train is looked at, over twice the time each: 2048 windows."""
+"""Runs of the rigid train, each twice as long: the last takes 2048 windows. A numerical choice: more find later ends
+and take longer."""
 _LONGER = 1.2
-"""Time in which an elastic train is taken to end its start or stop, over that of the rigid one, as of its window."""
+"""Time in which an elastic train ends its start or stop, relative to the rigid one [1], as in its window. A numerical
+choice. A larger value takes longer; a smaller one may omit the end."""
 _OF_MAIN = frozenset({"start_time", "start_share", "stop_time", "stop_angle", "stop_speed_share"})
 _OF_THE_END = _OF_MAIN | {
     "part_start_time",
@@ -49,12 +55,15 @@ _OF_THE_END = _OF_MAIN | {
 }
 """Loads that are about the end of a start or stop, whenever it is."""
 DOUBLINGS = 2
-"""Times that a window is doubled in which a torque has its peak in the second half."""
+"""Doublings of a window with a torque peak in its second half. A numerical choice: more find later peaks and take
+longer."""
 APPROACHES = 4
-"""Times that a window is made longer for a place that the motion approaches."""
+"""Extensions of a window for a contact that the motion approaches. A numerical choice: more find later contacts and
+take longer."""
 _CREEP, _MORE = 0.01, 4.0
-"""Growth of a peak, relative to it, up to which undamped modes that meet later are the reason; what later windows may
-add is then at most some times the last growth, as the peak of a sum of sines grows ever slower."""
+"""Peaks that still grow; numerical choices [1]. `_CREEP`: relative growth up to which undamped modes are the reason.
+`_MORE`: later growth relative to the last, as the peak of a sum of sines grows ever more slowly. A larger `_CREEP` or a
+smaller `_MORE` loses the safety of the bound."""
 _PEAKS = frozenset({"torque_peak", "motor_torque_peak"})
 _SPEEDS = frozenset({"speed_max", "speed_min"})
 

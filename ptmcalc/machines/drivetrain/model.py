@@ -50,7 +50,8 @@ from ptmcalc.numerics.train.statics import link_forces
 from ptmcalc.numerics.train.tree import Groups
 
 _SLOPES = 2.5
-"""Steps in which the slope of a smooth torque curve is used, over its steepest."""
+"""Levels to which the slope of a smooth torque curve is rounded, up to its steepest [1]; each has its own linear
+system. A numerical choice. A larger value linearises more closely and computes more systems."""
 REACHED = "start over"
 """Name of the event of a start that is over, and what those of other parts begin with; no part can be called so."""
 

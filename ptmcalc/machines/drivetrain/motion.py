@@ -24,19 +24,37 @@ from ptmcalc.numerics.train.state import NO_FRICTION
 from ptmcalc.numerics.train.system import TrainSystem
 
 _CLOSES = 1e-9
+"""Residual of the energy balance of a motion without a smooth torque curve [1] above which NUM101 is reported; a
+numerical choice. A larger value accepts wrong runs; a smaller one refuses rounding."""
 _LONGEST, _FIRST = 4096.0, 0.25
+"""Windows of the rigid run that finds the time of a start or stop [s]; numerical choices. `_FIRST`: the first one; each
+further is 4 times longer. `_LONGEST`: the last one; without an end 1/64 of it is the time. A longer last window finds
+slower machines and takes longer."""
 _CHATTER, _LAST_PART = 60, 0.05
+"""Chatter (NUM106); engineering choices. `_LAST_PART`: last part of the scene that counts [1]. `_CHATTER`: changes of
+state in it that are still accepted. A larger number reports less chatter, a smaller one normal friction."""
 _PERIODS = 10
+"""Periods of the lowest natural frequency in the window after the rigid start or stop [1]. A numerical choice: more
+periods take longer, fewer leave more of the vibration after the window."""
 _EVENTS, _ROUNDS = 5e-3, 3.0
-"""Seconds that the events of a play take; what a smooth torque curve costs over a linear motion."""
+"""Cost of a run. `_EVENTS`: predicted seconds of the events of a backlash. `_ROUNDS`: cost of a smooth torque curve
+relative to a linear motion [1]. Rates of a measurement of which no record is kept; wrong values change the order of the
+solvers and the length of windows."""
 BESIDE = 0.3
-"""Predicted seconds of the rigid train up to which it is run for what stands beside the loads."""
+"""Predicted seconds of a rigid run up to which it is made for criteria and later ends. A numerical choice: a larger
+value bounds more loads and takes longer."""
 LONG = 5.0
-"""Predicted seconds of a run up to which its window is made longer."""
+"""Predicted seconds of a run up to which its window is made longer. A numerical choice: a larger value follows later
+events and takes longer."""
 MOST_BESIDE = BESIDE / PANEL
 """Panels at which such a run is given up that was predicted to take less."""
 _LEAST_WORK, _MOST_TIMES = 2e5, 30.0
+"""Limit of the work of a run; numerical choices. `_LEAST_WORK`: panels that any run may take. `_MOST_TIMES`: panels
+beyond, relative to those predicted [1]. Larger values allow long runs; smaller ones refuse runs that the prediction
+underestimates."""
 _DUST = 1e-11
+"""Reading relative to the largest of its kind [1] that is set to 0 as rounding. A numerical choice above the resolution
+2e-16 of the floating point. A larger value suppresses real small loads; a smaller one reports rounding as loads."""
 
 
 @dataclass(frozen=True, slots=True)

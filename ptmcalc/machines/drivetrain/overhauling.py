@@ -24,14 +24,18 @@ from ptmcalc.numerics.train.signals import Signal
 
 LOAD = "braking_reserve"
 _STEPS = 65
-"""Speeds from the no-load speed to that of the greatest braking torque at which loads over the speed are compared."""
+"""Speeds from no-load speed to that of the largest braking torque at which the loads are compared. A numerical choice:
+more find a narrow minimum more closely and take longer."""
 _BISECTIONS = 60
-"""Halvings of the share of their braking torque with which several motors hold the load: to 1e-18 of it."""
+"""Halvings of the braking share of several motors, to 1e-18 of it: beyond the resolution 2e-16 of the floating point.
+Fewer are faster and coarser."""
 _ENDLESS = 1e6
-"""Speed over the no-load speed at which a torque that grows without end counts as larger than any load."""
+"""Speed relative to no-load speed [1] at which a torque that grows without limit exceeds any load. A numerical choice.
+A smaller value reports a runaway of motors that hold the load."""
 
 _OVERSPEED = 1.2
-"""Speed that a motor bears for a short time over its no-load speed (IEC 60034-1, 9.7: tested at 1.2)."""
+"""Speed of a motor for a short time relative to no-load speed [1], IEC 60034-1, 9.7. A larger value accepts faster
+lowering; a smaller one refuses motors that withstand it."""
 
 Edge = Mesh | Spring | Grip
 

@@ -31,7 +31,13 @@ from ptmcalc.numerics.train.signals import FloatArray, Signal, Sine
 from ptmcalc.numerics.train.tree import Groups
 
 _QUIET = 1e-9
+"""Stretching speed of a link relative to the speeds at its ends [1] that counts as rounding. A numerical choice above
+the resolution 2e-16 of the floating point. A smaller value withdraws the bound for rounding; a larger one ignores an
+initial oscillation."""
 _TIED = 1e-9
+"""Relative tolerance of frequencies [1], above the resolution 2e-16 of the floating point; a numerical choice. Within
+it a sine is in resonance, and below it, relative to the highest frequency, a mode has no stiffness. A larger value
+omits slow modes; a smaller one takes rounding for a mode."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,8 +25,11 @@ from ptmcalc.spec.shape import (
 GROUND = "ground"
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _SAME = 1e-9
+"""Relative difference of two gear ratios that counts as rounding [1], above the resolution 2e-16 of the floating point.
+Gears that close a loop are always rejected; it decides between a contradiction and an undetermined load share."""
 _ROUNDED = 1e-3
-"""By how much two speeds of one shaft may differ as they are written with few digits."""
+"""Relative difference of two speeds of one shaft up to which they count as equal [1]: speeds are written with few
+digits. An engineering choice. A larger value accepts contradictions; a smaller one rejects rounded speeds."""
 
 Bodies = Mapping[str, Given]
 

@@ -17,7 +17,8 @@ from ptmcalc.witness import lumped
 from ptmcalc.witness.lumped import History
 
 _AS_GOOD_AS_STILL = 1e-6
-"""Share of the largest speed."""
+"""Speed relative to the largest of the scene [1] that counts as nearly standstill. A numerical choice: the steps do not
+decide whether it stops just before the end. A larger value omits more reference values."""
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:

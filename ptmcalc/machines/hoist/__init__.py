@@ -20,7 +20,11 @@ from ptmcalc.machines.hoist.statics.topic import STATICS
 from ptmcalc.machines.hoist.winding.topic import WINDING
 
 _SPEED_TOLERANCE = 0.05
-_WIRE = 1.7e11  # Pa, between the moduli of ropes and of their wire
+"""Difference of two drum speeds of a file from which on SPC201 is reported [1]. An engineering choice: a smaller value
+reports rounded ratios, a larger one accepts wrong entries."""
+_WIRE = 1.7e11
+"""Modulus of a rope above which SPC201 is reported [Pa]. An engineering choice between ropes (90 to 130 GPa) and their
+wire. A smaller value reports valid ropes; a larger one accepts the modulus of wire."""
 
 
 def inspect(spec: Hoist) -> Iterator[Finding]:

@@ -9,8 +9,14 @@ from ptmcalc.contract.machine import Assumption
 from ptmcalc.laws.duty import DUTY_TYPES
 from ptmcalc.machines.hoist.spec import Hoist
 
-_MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0  # kg/m^3, mass per length over d^2
-_PITCH, _NARROW, _WIDE = 1.12, 1.06, 1.18  # of a groove, in rope diameters
+_MASS_FACTOR, _LIGHT, _HEAVY = 3800.0, 3400.0, 4300.0
+"""Mass per length of a rope relative to the square of its diameter [kg/m^3], EN 12385-4. `_MASS_FACTOR`: default.
+`_LIGHT` and `_HEAVY`: limits of the interval, 0.34 to 0.43 kg/(100 m mm^2). Rope mass is proportional to the default;
+wider limits widen the error bars."""
+_PITCH, _NARROW, _WIDE = 1.12, 1.06, 1.18
+"""Pitch of a groove relative to the rope diameter [1]; drums have 1.1 to 1.15. `_PITCH`: default. `_NARROW` and
+`_WIDE`: limits of the interval, an engineering choice. Wraps and fleet angle depend on it; wider limits widen their
+error bars."""
 
 
 def _pitch(spec: Hoist) -> float | None:
@@ -23,7 +29,8 @@ def _deflected(spec: Hoist) -> float | None:
 
 
 _DRUM_SHARE = 0.05
-"""Inertia of a drum relative to that of the rotors on the same shaft, at most in usual hoists."""
+"""Upper limit of the inertia of a drum that the file omits, relative to the rotors on the same shaft [1]. An
+engineering choice. A larger value widens the error bars; a smaller one excludes heavy drums."""
 
 
 def _reversed(spec: Hoist) -> float | None:

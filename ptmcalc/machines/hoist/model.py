@@ -13,7 +13,8 @@ from ptmcalc.numerics.distinct import distinct
 FloatArray = NDArray[np.float64]
 
 MOST_LAYERS = 10_000
-"""Layers that are looked at one by one."""
+"""Layers that are evaluated one by one; a numerical choice. Of more layers some are taken together, on the safe side.
+More take longer."""
 
 
 def filled(value: float | None) -> float:
@@ -281,7 +282,8 @@ def layer_factor(spec: Hoist) -> float | None:
 
 
 MOST_LAYERS_KNOWN = 2
-"""Layers for which the hoop stress of a drum shell is known without an input."""
+"""Layers for which the hoop stress of a drum shell is computed without an input (`rope_drum.layer_factor`, DNV
+2.22:2011). Of more layers the file must give the factor, or the check is not made."""
 
 
 def fleet_angle(spec: Hoist) -> float | None:

@@ -13,7 +13,8 @@ _MOVING: frozenset[type[Scene]] = frozenset((Lift, Start, Stop, LowerBrake, Rele
 _HANGING: frozenset[type[Scene]] = frozenset((Start, Stop, LowerBrake, Release))
 _RUN: frozenset[type[Scene]] = frozenset((Run,))
 _ROUNDING = 1e-9
-"""Relative width that rounding of loads from different sums may need."""
+"""Relative widening of a relation of loads from different sums [1], above the resolution 2e-16 of the floating point. A
+smaller value reports rounding as a contradiction; a larger one narrows loads less."""
 
 Value = Callable[[Hoist, HoistScene, Mapping[str, float]], float]
 

@@ -37,10 +37,17 @@ from ptmcalc.witness import lumped
 from ptmcalc.witness.lumped import History
 
 _LONGER = 4
+"""Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
+the first. More follow late stops and take longer."""
 _SECTIONS = ((2, 4), (4, 8))
-"""Sections of the rope of both runs at each refinement."""
+"""Sections of the rope in both runs by level. A numerical choice: the error falls with the square of the number. More
+take longer."""
 _STEPS = 1e-6
+"""Relative tolerance of the Runge-Kutta steps of a rope in sections [1]. A numerical choice far below the error of the
+sections. A smaller value takes more steps."""
 _MARGIN = 3.0
+"""Safety factor on the difference of two runs [1]. A numerical choice: of a quadratic series the rest is a third of the
+difference. A smaller value weakens the reference; a larger one hides errors of the method it tests."""
 Readings = dict[str, float]
 
 

@@ -35,9 +35,12 @@ def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Re
 
 
 TEXTBOOK_K = 3500.0
+"""Coefficient of the resonance speed of lecture notes Kramatorsk 2007, for A in cm2, q in N/m and V in m/s [1]: the
+middle of the printed range 3000 to 4000. The textbook's resonance speed is proportional to it."""
 
 FREQUENCIES, ORDERS, WINDOWS = 3, 6, 8
-"""Numbers of natural frequencies, tooth harmonics and safe speed ranges that are reported."""
+"""Numbers of natural frequencies (`FREQUENCIES`), tooth harmonics (`ORDERS`) and safe speed ranges (`WINDOWS`) that are
+reported. Engineering choices: more lengthen the report. Different numbers change the names of the loads."""
 
 
 def loads_of(spec: ChainDrive, found: Resonances) -> dict[str, float]:

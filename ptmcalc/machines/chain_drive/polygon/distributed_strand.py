@@ -26,8 +26,12 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 
 SWEEP = 200
-"""Speeds of a sweep."""
+"""Speeds of a sweep over the operating range. A numerical choice: more resolve narrow resonances in the figure and take
+longer."""
 _NEAR_A_STEP = 0.05
+"""Distance from a step of the textbook's table, relative to the length [1], within which NUM108 is reported. An
+engineering choice: a larger value reports more lengths; a smaller one omits lengths that rounding moves across the
+step. No load depends on it."""
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

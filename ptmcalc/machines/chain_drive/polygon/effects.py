@@ -24,8 +24,15 @@ Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
 
 POLYGON_THRESHOLD = 0.05
+"""Bound of the polygon tension relative to the largest static tension [1] from which on the effect is simulated. An
+engineering choice. Below it the error bar of a tension is at most 5 % of that static tension."""
 FAR_THRESHOLD = 0.05
+"""Share of the far end in the bound of the polygon tension [1] from which on its motion is simulated. An engineering
+choice. Below it the error bar of a tension is at most 5 % of that bound."""
 WEAK_THRESHOLD = 0.05
+"""Mass of the chain relative to that of the drive [1] from which on the compliance of the drive is simulated. An
+engineering choice. Below it the error is about 5 % of the polygon effect except at resonances; the error bar bounds it
+harmonic by harmonic."""
 
 _TENSIONS = (
     "tension_design",

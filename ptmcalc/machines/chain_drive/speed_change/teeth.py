@@ -24,9 +24,11 @@ from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies as s
 from ptmcalc.numerics import tooth_passes
 
 _FOR_BOUNDS = 12
-"""Modes that are bounded one by one; those above together."""
+"""Modes that are bounded one by one; the rest is bounded together. A numerical choice: more narrow the bound and take
+longer."""
 _POINTS = 4001
-"""Points of time between which a way is a cubic."""
+"""Points of time between which a travel is a cubic. A numerical choice: Simpson's rule has an error of fourth order.
+More take longer."""
 _END = np.ones(1)
 
 

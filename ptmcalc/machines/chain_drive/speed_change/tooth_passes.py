@@ -38,12 +38,17 @@ from ptmcalc.machines.chain_drive.strength import safety
 from ptmcalc.numerics import tooth_passes
 
 _LEADS = 2
-"""Places of the first joint in the pitch that are tried, at the coarsest level; twice as many at each finer one."""
+"""Positions of the first joint within the pitch at the coarsest level; twice as many at each finer one. A numerical
+choice: the difference from half as many is in the error bar. More narrow it and take longer."""
 _MODES = 6
-"""Modes that the teeth excite one by one, at the coarsest level; twice as many at each finer one."""
+"""Modes that the teeth excite one by one at the coarsest level; twice as many at each finer one. A numerical choice:
+the rest is bounded and added. More narrow the error bar and take longer."""
 _SECONDS = 4e-6
-"""Per place and mode; measured once, and only the ratio to other solvers' matters."""
+"""Predicted seconds per place and mode; measured once. Only its ratio to those of other solvers matters: a wrong value
+changes their order, no load."""
 _PER_SECTION = 1.5e-8
+"""Predicted seconds per place, mode and section of the chain; measured once. Only its ratio to those of other solvers
+matters: a wrong value changes their order, no load."""
 
 
 def range_loads(spec: ChainDrive, scene: SpeedRange, dynamic: Estimate) -> dict[str, Estimate]:

@@ -19,6 +19,8 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive
 from ptmcalc.machines.chain_drive.starting.motion import StartCase, Swinging
 
 _X = np.linspace(0.0, 1.0, 129)
+"""Points of a strand as fractions of its length [1] at which tensions are bounded; a numerical choice. The bound adds
+the curvature between two points. More points narrow it and take longer."""
 _STRANDS = (RETURN, CARRY)
 TENSIONS = ("tension_start", "tension_dynamic_start", "tension_min", "safety_start")
 """Loads of a start that depend on how the chain swings."""

@@ -14,8 +14,11 @@ from ptmcalc.machines.chain_drive.starting.waves import natural_frequencies
 from ptmcalc.numerics.two_mass_start import two_mass_start
 
 _POINTS = 201
+"""Points of a force that rises, straight between them; a numerical choice. The force of a cosine rise deviates by at
+most 1.5e-5 of its end value. The error falls with the square of the number; time grows with it."""
 _WINDOWS = 2.0
-"""Window over the start time of the rigid body: the chain is wound up before it moves."""
+"""Window relative to the start time of the rigid body [1]: the chain is tensioned before it moves. A numerical choice.
+A larger value takes longer; a smaller one may omit the peak."""
 
 
 def run(spec: ChainDrive, scene: Start, carried: frozenset[str], level: int) -> Result:

@@ -28,16 +28,18 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Drive, Sta
 from ptmcalc.numerics.mode_sum import Course
 
 _LIGHT = 1e-12
-"""Mass of the slack strand between two shafts over that of the tight one: it only gives way, and is not 0."""
+"""Mass of the slack strand between two shafts relative to the tight one [1]: the strand is an elastic spring without
+mass. A numerical choice, as 0 would divide by 0. A larger value adds inertia that does not exist."""
 _PERIODS = 1.5
-"""Window behind the end of a profile of speed or the moment at which a torque has brought the chain to speed, in
-periods of the lowest mode."""
+"""Periods of the lowest mode in the window after the end of a speed profile, or after a torque has accelerated the
+chain [1]. A numerical choice. More take longer; fewer may omit the peak."""
 _SEEN = 200
-"""Samples of a speed over time."""
+"""Samples of a speed over time. A numerical choice: more find a steep section more closely and take longer."""
 UP_TO = 0.9
-"""Part of the rated speed up to which the motors must exceed the resistance: beyond it, their curve falls to it."""
+"""Share of the rated speed up to which the motors must exceed the resistance [1]. An engineering choice: above it the
+torque curve falls to the resistance. A larger value reports stalls of drives that reach their speed."""
 _CURVE = 2000
-"""Steps of speed along a motor's curve."""
+"""Speed steps along a torque curve. A numerical choice: more reduce the error of time and travel and take longer."""
 
 
 def drive_of(spec: ChainDrive) -> Drive:

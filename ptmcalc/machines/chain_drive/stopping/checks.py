@@ -31,6 +31,8 @@ Checks = Iterable[AnyCheck]
 _BRAKED: frozenset[type[Scene]] = frozenset({Stop, EmergencyStop})
 _STOPS: frozenset[type[Scene]] = _BRAKED | {Coast}
 _HOUR = 3600.0
+"""Stopping time [s] that fails where the file states no limit; an engineering choice. A chain that runs on for so long
+counts as one that does not stop."""
 
 
 def _brake_key(spec: ChainDrive, scene: ChainScene) -> KeyPath:

@@ -162,7 +162,8 @@ def waves(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int
 
 
 _MODES = 24
-"""Modes at the coarsest level; twice as many at each finer one."""
+"""Modes at the coarsest level; twice as many at each finer one. A numerical choice: the rest is bounded and added. More
+narrow the error bar and take longer."""
 At = dict[str, float]
 
 

@@ -20,6 +20,8 @@ from ptmcalc.machines.chain_drive.starting.motion import drive_of, light_return,
 from ptmcalc.numerics.mode_sum import Course
 
 _SECTIONS = 65
+"""Points of each strand at which tensions are bounded, both ends among them; a numerical choice. The bound adds the
+curvature between two points. More points narrow it and take longer."""
 
 
 def stop_factor(spec: ChainDrive) -> float:

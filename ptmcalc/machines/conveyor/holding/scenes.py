@@ -5,7 +5,8 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
 
 AT_REST = 0.5
-"""Part of the idler resistance that acts at rest for certain, where the file does not give it."""
+"""Share of the idler resistance that certainly acts at standstill, by default [1]; practice for backstops. A larger
+value reduces the required backstop torque, a smaller one increases it."""
 
 
 def rest_factor(spec: Conveyor) -> float:

@@ -10,7 +10,8 @@ _SAFETY = {
     ("steel_cord", True): 6.7,
     ("steel_cord", False): 4.8,
 }
-"""by carcass, and whether the belt runs steadily"""
+"""Required safety factor of the belt by carcass and by steady running [1], DIN 22101:1982-02 as quoted by belt makers;
+the edition of 2011 computes it. A larger value requires a stronger belt."""
 
 
 def safety_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:

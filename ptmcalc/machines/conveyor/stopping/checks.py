@@ -20,6 +20,8 @@ Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]
 
 _HOUR = 3600.0
+"""Stopping time [s] that fails where the file states no limit; an engineering choice. A belt that runs on for so long
+counts as one that does not stop."""
 
 
 def _stop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:

@@ -25,6 +25,9 @@ from ptmcalc.contract.result import family
 from ptmcalc.laws import capstan
 
 _ROUNDING = 1e-9
+"""Relative tolerance of a comparison of two traction ratios [1], far above the resolution 2e-16 of the floating point.
+It keeps the bound where both are equal, as with a constant leaving tension. A smaller value loses that bound to
+rounding; a larger one widens the interval without need."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,16 +31,22 @@ _GRIPPING = ANY_MOTION - {Jam}
 """Scenes in which a drum has to hold the belt: over a jammed one it must slip."""
 
 
-_LEAST_WRAP = 2.8  # rad, 160 deg
+_LEAST_WRAP = 2.8
+"""Wrap angle below which a failed check names it as the cause [rad]: 160 deg. An engineering choice. A larger value
+names the wrap more often; no verdict depends on it."""
 
 
-_LEAST_GRIP = 0.6931471805599453  # mu alpha = ln 2: below it the drum transmits less than the run-off tension
+_LEAST_GRIP = 0.6931471805599453
+"""Exponent mu alpha below which a failed check names the friction as the cause [1]: at ln 2 a pulley transmits the
+leaving tension. An engineering choice. A larger value names the friction more often; no verdict depends on it."""
 
 
 _NO_RESERVE = math.nextafter(1, 0)  # just below any k_T
 
 
-_STRONG_START = 1.5  # starting force over static resistance: the usual upper end of practice
+_STRONG_START = 1.5
+"""Starting force relative to static resistance above which a failed check names the start as the cause [1]: the usual
+upper limit of practice. A smaller value names the start more often; no verdict depends on it."""
 
 
 def _slip_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:

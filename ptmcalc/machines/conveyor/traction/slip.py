@@ -34,10 +34,16 @@ from ptmcalc.machines.conveyor.model import FloatArray, StartCase
 from ptmcalc.numerics.loop import Motion
 
 _MARGIN = 2.0
-"""on the difference of two grids at first order, and on slip within the bars of the tensions"""
+"""Safety factor on the difference of two grids at first order, and on slip within the error bars of the tensions [1]. A
+numerical choice for echoes that the estimate neglects. A smaller value loses the safety of the bar; a larger one widens
+it."""
 _THREE, _SECOND_ORDER, _SLOWEST = 3.0, 0.25, 0.9
+"""Error bar from three grids; numerical choices, as in `characteristics`. `_THREE`: safety factor on the sum of the
+differences still to come [1]. `_SECOND_ORDER`: minimum ratio of two differences, 1/4 at second order, as two grids may
+agree by chance. `_SLOWEST`: maximum ratio. Larger values widen the bar."""
 _ALL_GRIP = 460.0
-"""Exponent of a capstan beyond which more turns are not counted: e^460 holds all there is, more would overflow."""
+"""Upper limit of the exponent mu alpha [1]. Resolution of the floating point: e^460 exceeds any ratio of tensions. A
+smaller value limits strong traction; a larger one may overflow."""
 
 
 def slip_loads(

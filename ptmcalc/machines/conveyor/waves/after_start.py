@@ -20,8 +20,12 @@ from ptmcalc.numerics.free_waves import Row, swings
 
 _STRANDS = (RETURN, CARRY)
 _X = np.linspace(0.0, 1.0, 129)
+"""Points of a strand as fractions of its length [1] at which tensions are bounded, as in `bounds`; a numerical choice.
+More points find the extreme more closely and take longer."""
 _ALL, _HALVINGS = 8.0, 40
-"""Grip in use above which no more of it is told, and halvings of that until it is known."""
+"""Traction in use after a start; numerical choices. `_ALL`: utilisation above which it counts as infinite [1].
+`_HALVINGS`: bisections, which resolve it to 7e-12. A larger `_ALL` reports larger numbers of a slipping pulley; fewer
+halvings are faster and coarser."""
 Place = tuple[int, int]
 """A strand, and its first (0) or last place (-1)."""
 _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_reserve"})
@@ -29,9 +33,11 @@ _FALL = frozenset({*LOWEST, "belt_safety_min", "slip_reserve_min", "starting_res
 
 
 MODES = 256
-"""Most springs of a belt whose modes are looked for: the time that takes grows with the cube of it."""
+"""Maximum number of springs of a belt whose modes are computed. A numerical choice: time grows with its cube. A smaller
+number takes the modes of a coarser grid."""
 AT_SPEED = 0.99
-"""Part of its speed from which on a drum counts as having it."""
+"""Speed of a pulley relative to rated speed [1] from which on it counts as reached. An engineering choice. A larger
+value reports more starts as unfinished."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,12 @@ from ptmcalc.numerics.lanes import value
 FloatArray = NDArray[np.float64]
 
 _X = np.linspace(0.0, 1.0, 129)
+"""Points of a strand as fractions of its length [1] at which tensions are bounded; a numerical choice. The bound adds
+the curvature between two points. More points narrow it and take longer."""
 _SAME = 1e-9
+"""Relative tolerance at which two tensions count as equal [1], far above the resolution 2e-16 of the floating point. It
+decides whether a strand takes part in the lower bound of the sag. A smaller value loses strands to rounding and narrows
+the bound."""
 OF_GRIP = frozenset(GRIP).union(SLIPS)
 """Loads of a pulley that say how much of its grip is in use, and how it slips."""
 _STRANDS = (RETURN, CARRY)

@@ -22,10 +22,15 @@ from ptmcalc.numerics.belt.station import Drum, Station, TakeUp, no_brake
 from ptmcalc.numerics.belt.travel import Travel
 
 _FAST = 1e30
+"""Friction that locks the drive pulley until its drives overcome the static tension [N]: larger than any tension. A
+numerical choice: infinity would leave differences undefined; a value near the tensions would release the pulley
+early."""
 _ON_THE_GRID = 1e-6
-"""Share of a step by which rounding may move a time that lies on the grid."""
+"""Distance of a time from a grid line, relative to the step [1], that counts as rounding. A numerical choice. A smaller
+value interpolates times on the grid; a larger one shifts times between grid lines."""
 _MOST_GRIP = 700.0
-"""mu alpha above which no tension makes a drum slip: exp of it is the largest number there is."""
+"""Exponent mu alpha above which a pulley does not slip at any tension [1]. Resolution of the floating point: e^710
+overflows. A smaller value would treat strong friction as no slip."""
 
 
 def reaches(line: BeltLine, strand: Strand, stiffness: float, speed_share: float, sags: bool) -> list[Reach]:

@@ -27,17 +27,37 @@ from ptmcalc.numerics import loop, peaks, sagging, strand
 FloatArray = NDArray[np.float64]
 
 _FEWEST, _MOST_CELLS, _MOST_SAGGING_CELLS = 16, 450, 50
-_MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0  # on errors estimated from two grids
+"""Cells of the carrying strand at the first level; numerical choices. `_FEWEST`: minimum; fewer do not resolve a wave.
+`_MOST_CELLS` and `_MOST_SAGGING_CELLS`: maximum without and with sag; time grows with the square of the cells. More
+cells narrow the error bars of short rises, which the error estimate covers otherwise."""
+_MARGIN, _SLIP_MARGIN, _SAGGING_MARGIN = 1.5, 2.0, 3.0
+"""Safety factors on errors estimated from grids [1]; numerical choices. `_MARGIN`: at second order. `_SLIP_MARGIN`:
+with slip, where the order is lost. `_SAGGING_MARGIN`: with sag, whose fronts are steep. Smaller values lose the safety
+of the bar; larger ones widen it."""
 _SHIFT_STEPS = 2
+"""Coarse steps by which a steep front may be displaced between two grids without a gap [1]. A numerical choice. A
+larger value hides real gaps; a smaller one reports the height of a displaced front as an error."""
 _LONGER = 4
-"""Doublings of the window in which a drum that slips may grip again."""
+"""Doublings of the window in which a slipping pulley may stick again; a numerical choice. More follow longer slip and
+take longer."""
 _STICKS = 1e-6
-"""Difference of the speeds of drum and belt relative to the rated speed that is rounding."""
-_SECOND_ORDER, _SLOWEST = 0.25, 0.9  # ratio of the differences of three grids: at best, and hardly converging
+"""Difference of pulley and belt speed relative to the rated speed [1] that counts as rounding. A numerical choice. A
+larger value ends slip too early; a smaller one reports rounding as slip."""
+_SECOND_ORDER, _SLOWEST = 0.25, 0.9
+"""Limits of the ratio of the differences of three grids [1]; numerical choices. `_SECOND_ORDER`: minimum, 1/4 at second
+order, as two grids may agree by chance. `_SLOWEST`: maximum, of grids that converge slowly. Larger values widen the
+error bar."""
 _TAIL_SHARE = 5.0
+"""Weight of the time constant of the tail pulley in the choice of the step [1]. A numerical choice: the tail acts more
+weakly and needs a fifth of the steps. A smaller value takes more cells for heavy tail pulleys."""
 _STEPS_PER_SCALE = 20
+"""Steps in the shortest time in which the waves change [1]. A numerical choice: the time grows with its square, the
+error falls with it. The error bar is estimated from two or three grids at any value."""
 _SECONDS = {"delays": (1.0e-6, 6.6e-10), "grip": (3.6e-6, 8.7e-10), "sag": (4.0e-5, 2.0e-8)}
+"""Seconds per step, and per step and cell, without slip, with slip and with sag. Measured once; only their ratios to
+those of other solvers matter. Wrong values change the order of the solvers and the predicted time, no load."""
 _OVERHEAD = 3e-3
+"""Predicted seconds of a run in addition to its steps; measured once. It decides between fast solvers only."""
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:

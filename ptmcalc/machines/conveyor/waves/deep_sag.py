@@ -20,7 +20,8 @@ from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.numerics.belt.march import Drawn, Extreme
 
 _FRONT_STEPS = 12
-"""Steps of the finest grid that a front is known to: three of the coarsest."""
+"""Steps of the finest grid by which the time of a front is uncertain [1]: three of the coarsest. A numerical choice. A
+larger value reports a shorter certain part of the scene; a smaller one includes the doubtful part."""
 _FALLING = frozenset(
     {
         "tension_run_off_min",

@@ -9,7 +9,8 @@ from ptmcalc.base.memory import forgotten_with
 
 T = TypeVar("T")
 _MOST_SAMPLES = 150_000
-"""Moments of all motions kept: some hundred megabytes at most."""
+"""Time samples of all motions kept, some hundred megabytes. A numerical choice: more save repeated runs and need
+memory; fewer repeat runs of the same motion."""
 
 
 class Kept(Generic[T]):

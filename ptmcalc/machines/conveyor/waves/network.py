@@ -38,21 +38,33 @@ from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen
 
 _CELLS, _CELLS_OF_JUMP = 60, 240
+"""Cells of the whole belt on the coarsest of three grids at the first level; numerical choices. `_CELLS_OF_JUMP`: for a
+pulley that stops at once, whose window is short and whose fronts are steps. `_CELLS`: for any other scene. Time grows
+with the square; the error bar falls with the order 0.6 or more."""
 _SHORTER = 6
+"""Attempts to end a window before a pulley loses its belt, each at 3/4 of the one before; a numerical choice. Six reach
+18 % of that time. More attempts cost a run each; fewer report NUM102 more often."""
 _LONGEST = 8.0
-"""Windows of a start in which a drum that slips may grip again."""
+"""Windows of a start in which a slipping pulley may stick again [1]. A numerical choice: the run ends as soon as no
+pulley slips. A larger value follows longer slip and takes longer."""
 _MORE = 1.25
-"""Factor by which a window that was too short grows at least."""
+"""Minimum growth of a window that was too short [1]. A numerical choice: a larger value takes fewer but longer runs."""
 _CONTOURS_AT_REST = 3.0
-"""Contour times after the predicted standstill: the march ends two after it, and the prediction is a mean of one."""
+"""Contour times after the predicted standstill [1]: the run ends two after it, and the prediction is a mean over one. A
+larger value takes longer; a smaller one repeats more runs."""
 _HOUR = 3600.0
-"""Time in which a belt must have come to rest to count as stopped [s], as in the check of the stopping time."""
+"""Time in which a belt must come to standstill to count as stopped [s], as in the check of the stopping time; an
+engineering choice. A smaller value reports slow stops as endless."""
 _MOST_SECONDS = 2.5
-"""Predicted seconds of the march on the finest grid: what a scene may cost by default."""
+"""Predicted seconds of the finest grid up to which a window is made longer; a numerical choice. A larger value follows
+longer stops and takes longer; a smaller one leaves more loads without an error bar."""
 _WORTH = 0.015
-"""Belt speed over that of its slowest wave from which on a plain start is worth simulating in cells."""
+"""Belt speed relative to that of its slowest wave [1] from which on a plain start is simulated in cells. A numerical
+choice: below it the bound of convection is narrower than the error bar of the cells. A smaller value takes longer
+without a gain."""
 _SECONDS = {"straight": (4e-5, 1.2e-8), "giving": (1.6e-4, 1.6e-7)}
-"""For a step, and for a cell of it, with and without sag or damping."""
+"""Predicted seconds per step, and per step and cell, without and with sag or damping; rates of a measurement of which
+no record is kept. Wrong values change the order of the solvers and the length of windows."""
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:

@@ -9,7 +9,8 @@ from ptmcalc.machines.drivetrain.model import case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
-"""Largest tail of a nonlinear torque at each refinement, as a share of its size."""
+"""Largest remainder of a nonlinear torque by level, relative to its size [1]. A numerical choice: a smaller value
+narrows the error bar and takes more steps."""
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:

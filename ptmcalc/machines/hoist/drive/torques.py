@@ -44,9 +44,11 @@ def starting_torque(motor: DutyMotor) -> float:
 
 
 _UP_TO = 0.9
-"""Part of the speed of steady hoisting up to which the motor must exceed the load: beyond it, its curve falls to it."""
+"""Share of the steady hoisting speed up to which the motor must exceed the load [1]. An engineering choice: above it
+the torque curve falls to the load. A larger value reports stalls of hoists that reach their speed."""
 _SPEEDS = 181
-"""Speeds at which a curve is evaluated: steps of half a percent of the speed."""
+"""Speeds at which a torque curve is evaluated: steps of half a percent of the speed. A numerical choice: more find a
+narrow minimum more closely."""
 
 
 def starting_reserve(spec: Hoist, motor: DutyMotor, mass: float, hook_height: float | None) -> float:

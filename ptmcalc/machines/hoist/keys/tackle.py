@@ -26,6 +26,8 @@ from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
 from ptmcalc.spec.optional import Absent, Assumed, Checked, OneOf, Setting
 
 MOST_FALLS = 64
+"""Falls of rope that a file may state; an engineering choice. It rejects misprints: a larger number accepts more of
+them, a smaller one refuses heavy hoists."""
 
 Wraps = Annotated[float, Measure(units.FACTOR, at_least=0, at_most=100)]
 

@@ -19,6 +19,8 @@ _LIFT: frozenset[type[Scene]] = frozenset({Lift})
 _BRAKED: frozenset[type[Scene]] = frozenset({LowerBrake, Stop})
 _HANGING: frozenset[type[Scene]] = frozenset({Start, Stop, LowerBrake})
 _HOUR = 3600.0
+"""Lift-off time [s] that fails; an engineering choice. A stalled motor overheats within minutes, so that any larger
+time is no lift."""
 
 # -- lift-off -------------------------------------------------------------------------------------------------------
 

@@ -29,23 +29,49 @@ SCENES: frozenset[type[Scene]] = frozenset({Lift, Start, Stop, LowerBrake, Relea
 ALWAYS = frozenset({"rope_elasticity", "drive_motion"})
 
 ELASTIC_THRESHOLD = 0.05
+"""Dynamic part of the rope force relative to the weight [1] that is reported as significant. An engineering choice:
+below it the load is lifted as if by hand. Every run includes rope elasticity, so that no error depends on it."""
 DRIVE_THRESHOLD = 0.05
+"""Load relative to drive mass, or gain of the squared drive speed until lift-off, the larger [1], that is reported as
+significant. An engineering choice: below it a drive of constant speed is equivalent. Every run includes the drive, so
+that no error depends on it."""
 STRUCTURE_THRESHOLD = 0.1
+"""Rope stiffness relative to that of the structure, or mass of the structure relative to the load, the larger [1], from
+which on the structure is simulated. An engineering choice of `laws.lift_off`. Below it the error is not bounded:
+springs in series can give a force too low, and a run without the structure has no error bar."""
 GEAR_THRESHOLD = 0.1
+"""Rope stiffness relative to that of the gear at the hook [1] from which on gear elasticity is simulated. An
+engineering choice. Below it the frequency of the load is at most 5 % too high; the gear's own vibration is not bounded,
+and a run without it has no error bar."""
 BACKLASH_THRESHOLD = 0.1
+"""Energy gained in the backlash relative to that of the gear [1] from which on backlash is simulated. An engineering
+choice. Below it backlash adds at most 2.4 % to the gear torque under a constant torque; a torque that changes its sign
+is not bounded, and a run without backlash has no error bar."""
 ROPE_MASS_THRESHOLD = 0.05
+"""Mass of the hanging rope relative to the load [1] from which on it is simulated. An engineering choice. Below it the
+frequency is at most 0.8 % too high. The error bar of a force is at most 0.67 of its dynamic part with a taut rope, and
+1.8 with one that goes slack."""
 SHORTENING_THRESHOLD = 0.02
+"""Length that the drum takes up or releases in a scene relative to the rope length [1] from which on it is simulated.
+An engineering choice. Below it the error bar is at most 2.1 % of the dynamic part of a force, and four times that at
+the structure."""
 _WAVE, _SNATCHED = 3.0, 8.0
-"""Largest change of a force by the rope's mass over its dynamic part times (m_r/M)^(1/2): with a rope that stays taut,
-and with one that goes slack and snatches again. On the seeded sample of the test the ratios were 1.8 and 4.0."""
+"""Largest change of a force by the rope mass, relative to its dynamic part times (m_r/M)^(1/2) [1]: with a taut rope
+(`_WAVE`), and with one that goes slack and tightens again (`_SNATCHED`). Calibrated: the largest values of the seeded
+sample were 1.8 and 4.0. Smaller values lose the safety of the bound; larger ones widen it."""
 _TRANSITS = 4.0
-"""Largest shift of a time by the rope's mass, in transits of a wave: a front may lift a load for a moment that its
-structure lets down again. On the seeded sample it was 2.5."""
+"""Largest change of a time by the rope mass, in transits of a wave [1]. Calibrated: the largest value of the seeded
+sample was 2.5, as a front may lift a load for a moment. A smaller value loses the safety of the bound; a larger one
+widens it."""
 
 
 _ROUNDING = 1e-12
+"""Rounding of a ratio of two frequencies [1], above the resolution 2e-16 of the floating point. It keeps the lower
+frequency within its error bar. A larger value widens the bar without need; a smaller one loses it to rounding."""
 _BEATS = 4.0
-"""What the beat of structure and rope may shift, over the growth of the rope's swing: 2.0 on the seeded sample."""
+"""Change of a force on the structure by the beat of structure and rope, relative to the growth of the rope's
+oscillation [1]. Calibrated: the largest value of the seeded sample was 2.0. A smaller value loses the safety of the
+bound; a larger one widens it."""
 
 
 def _anything(loads: Loads) -> Offsets:

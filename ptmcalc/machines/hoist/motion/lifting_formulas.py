@@ -19,6 +19,8 @@ from ptmcalc.machines.hoist.motion.reduced import (
 from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Lift, LowerBrake, Release, Start, Stop
 
 _BETA = {"slow": 0.5, "quick": 1.0}
+"""Factor beta_3 of a slow (grab) and a quick release (magnet) [1], EN 13001-2 and ISO 8686-1. The relief of the
+structure is proportional to 1 + beta_3."""
 
 
 def _shown(**values: float) -> Result:

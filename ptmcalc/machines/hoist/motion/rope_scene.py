@@ -21,18 +21,32 @@ from ptmcalc.numerics.rope.parts import Haul
 from ptmcalc.numerics.rope.rule import FloatArray
 
 FINENESS = (1.0,)
-"""How finely time is divided at each refinement."""
+"""Number of time steps by level, relative to the usual one [1]. A numerical choice: there is one level. A larger value
+narrows the error bar and takes longer."""
 _COMPARED = 1.37
-"""How much finer the run beside the one that counts divides it."""
+"""Number of time steps of the second run relative to the first [1]. A numerical choice: their difference gives the
+error bar. A value near 1 compares runs whose errors agree; a larger one takes longer."""
 _MARGIN, _UNSEEN = 3.0, 1e-10
+"""Numerical choices [1]. `_MARGIN`: safety factor on the difference of two runs; not read, as `scene.with_bars` applies
+its own of the same value. `_UNSEEN`: error of a reading between the nodes, relative to the largest value; a larger
+value widens the error bars."""
 _CLOSES, _NOTHING = 1e-9, 1e-6
+"""Numerical choices [1]. `_CLOSES`: residual of the energy balance above which NUM101 is reported; a larger value
+accepts wrong runs. `_NOTHING`: rope force below 0, relative to the weight, that counts as rounding; a larger value
+ignores short slack, a smaller one reports rounding as slack (NUM104)."""
 _LONGER = 4
+"""Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
+the first. More follow late stops and take longer."""
 _SECONDS = 8e-4
-"""Of a panel."""
+"""Predicted seconds per panel; rate of a measurement of which no record is kept. A wrong value changes the order of the
+solvers, no load."""
 _EVENTS = 12
-"""Corners that go to and fro along a rope with mass, in a prediction."""
+"""Corners that travel along a rope with mass, in a prediction. A numerical choice: a larger number predicts a longer
+run."""
 _LEAST_PANELS, _MOST_TIMES = 200, 5.0
-"""Panels that any run may take, and how many times the predicted ones."""
+"""Limit of the work of a run; numerical choices. `_LEAST_PANELS`: panels that any run may take. `_MOST_TIMES`: panels
+beyond, relative to those predicted [1]. Larger values allow long runs; smaller ones refuse runs that the prediction
+underestimates."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,15 +38,24 @@ from ptmcalc.numerics.train.modes import frequencies
 from ptmcalc.numerics.train.system import TrainSystem
 
 _COMPARED = (0.7, 0.85)
-"""How the runs beside the one that counts divide time, over its own stretches and panels."""
+"""Length of intervals and panels of the compared runs, relative to the run that counts [1]. A numerical choice: the
+difference gives the error bar. Values near 1 compare runs whose errors agree; smaller ones take longer."""
 _MARGIN = 3.0
+"""Safety factor on the difference of runs with other time steps [1]; a numerical choice. A smaller value loses the
+safety of the error bar; a larger one widens it."""
 _UNSEEN = FADED + 3e-12
-"""What reading a signal may miss of it: components that have faded, and what lies between the nodes."""
+"""Error of a reading relative to the largest value [1]: components that have faded, and the signal between the nodes. A
+numerical choice above the resolution 2e-16 of the floating point. A larger value widens bars that are otherwise
+rounding."""
 _CLOSES = 1e-9
+"""Residual of the energy balance of a motion without a smooth torque curve [1] above which NUM101 is reported; a
+numerical choice. A larger value accepts wrong runs; a smaller one refuses rounding."""
 _MOST_EVENTS = 2000
-"""Events after which a load or a gear is said to chatter: without damping it never ends."""
+"""Events after which a run ends because of chatter; a numerical choice. Without damping chatter never ends. More take
+longer; fewer refuse runs with many real events."""
 _LONGER = 4
-"""How often a stop that is not over is looked at twice as long."""
+"""Doublings of the window of a stop that is not finished; a numerical choice. The last window is 16 times the first.
+More follow late stops and take longer."""
 _FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
 _LENGTHS = frozenset({"stop_distance", "stop_distance_lowering"})
 

@@ -52,7 +52,8 @@ from ptmcalc.numerics.train.parts import (
 from ptmcalc.numerics.train.signals import ONE, Signal, Trigger
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
-"""Largest tail of a motor's smooth curve at each refinement, as a share of its size."""
+"""Largest remainder of a smooth torque curve by level, relative to its size [1]. A numerical choice: a smaller value
+narrows the error bar and takes more steps."""
 STRUCTURE, GEAR = "structure", "gear_elasticity"
 """Effects that a case carries or leaves out."""
 BACKLASH = "gear_backlash"
@@ -61,15 +62,25 @@ ROPE, GROUND, GEARBOX, TACKLE = "rope", "ground", "gearbox", "tackle"
 SHAFT, FLANK = "gear shaft", "gear shaft, back of the teeth"
 BRAKE, DRIVE = "brake", "drive"
 _STEEL = 7850.0
+"""Density of steel [kg/m^3], a handbook value. The inertia of a drum that the file omits is proportional to it."""
 _PERIODS = 6
+"""Periods of the slowest vibration in the window after the last event [1]. A numerical choice: a peak is within the
+first. More periods take longer; fewer leave more of the vibration to the bound of `after_window`."""
 LONGEST = 600.0
-"""No scene is looked at for longer [s]."""
+"""Longest window of a scene [s]; a numerical choice. A larger value follows slower hoists and takes longer; a smaller
+one reports more loads without an error bar."""
 _PIECES = 64
+"""Straight pieces of a smooth rise; a numerical choice. A cosine rise deviates by at most 1.5e-4 of its end value, a
+parabolic one by less. The error falls with the square of the number; time grows with it."""
 _LOOKED_AT = 2001
+"""Speeds at which the maximum of a torque curve is searched; a numerical choice. More find a narrow maximum more
+closely and take longer."""
 _SLOPES = 2.5
-"""Steps in which the slope of a smooth torque curve is used, over its steepest."""
+"""Levels to which the slope of a smooth torque curve is rounded, up to its steepest [1]; each has its own linear
+system. A numerical choice. A larger value linearises more closely and computes more systems."""
 LEAST_LEFT = 1e-3
-"""Mass that stays on the rope when the whole load comes off, over the load."""
+"""Mass that remains on the rope when the whole load is released, relative to the load [1]. A numerical choice, as a
+rope without mass has no frequency. A larger value adds inertia that does not exist."""
 Moving = Lift | Start | Stop | LowerBrake | Release
 
 

@@ -11,6 +11,8 @@ from ptmcalc.machines.hoist.spec import Hoist, HoistScene, Run
 from ptmcalc.machines.hoist.statics.checks_rope import RUNNING, OneCheck, loaded
 
 _FLEET, _FLEET_RESISTANT = math.radians(4), math.radians(2)
+"""Largest fleet angle by default [rad]: 4 deg (`_FLEET`), and 2 deg of rotation-resistant ropes (`_FLEET_RESISTANT`);
+makers' manuals, ISO 16625:2013 as they quote it. A larger angle accepts more wear of rope and grooves."""
 
 
 def _room(spec: Hoist, scene: Run) -> Estimate:

@@ -20,7 +20,8 @@ from ptmcalc.machines.hoist.statics.loads import OF_THE_DRUM, OF_THE_ROPE
 Numbers = dict[str, float]
 
 _ONTO = 1 + 1e-9
-"""Of the height at which a layer begins: there the rope still lies on the layer below."""
+"""Height relative to that at which a layer begins [1]: just above it the rope is on the new layer. A numerical choice
+above the resolution 2e-16 of the floating point. At 1 the layer below is evaluated."""
 
 
 def run(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> Result:

@@ -18,7 +18,8 @@ from ptmcalc.numerics.hauling import Map, Rope
 FloatArray = NDArray[np.float64]
 
 PER_PERIOD, MOST_SAMPLES = 24, 6001
-"""Moments of a history."""
+"""Samples of a history; numerical choices. `PER_PERIOD`: in a period of the rope's vibration. `MOST_SAMPLES`: maximum.
+More draw the history more smoothly and need memory."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from ptmcalc.machines.hoist.winding.loads import OF_THE_PAPER, OF_THE_WINDING
 from ptmcalc.numerics.decay_pulse import DecayPulse
 
 CLAIMED = (0.07, 0.18)
-"""Dynamic over mean stress that the paper claims."""
+"""Dynamic stress relative to mean stress that the paper states [1]: lowest and highest value. It is printed in a
+message; no load depends on it."""
 OF_PAPER = {
     "winding_displacement_max": "winding_displacement_paper",
     "winding_stress_max": "winding_stress_paper",

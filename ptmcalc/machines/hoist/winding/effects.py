@@ -11,6 +11,9 @@ from ptmcalc.machines.hoist.winding.climb import climb, radius_map, rope, sudden
 from ptmcalc.numerics.hauling import largest_possible
 
 LAYER_MAP_THRESHOLD = 0.02
+"""Dynamic stress of a sudden layer change relative to the mean stress [1] from which on the layer map is simulated. An
+engineering choice. Below it one layer change adds at most 2 %; crossovers can add up to more, which the error bar
+includes."""
 CHANGED = ("winding_displacement_max", "winding_stress_max", "winding_stress_ratio")
 """Loads that the layer map changes."""
 

@@ -12,7 +12,8 @@ from ptmcalc.machines.hoist.winding.climb import climb, histories
 from ptmcalc.numerics.decay_pulse import DecayPulse
 
 WIRE = 2.1e11
-"""Modulus of wire, which the paper takes for that of the rope [N/m^2]."""
+"""Modulus of wire that the paper takes for that of the rope [Pa]. The stress by the paper is proportional to it;
+`paper_modulus` of the file replaces it."""
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:

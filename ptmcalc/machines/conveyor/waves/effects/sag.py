@@ -23,9 +23,17 @@ from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, grown, moved_by
 
 SAG_THRESHOLD = 0.05
+"""Softening of the belt by sag, relative to its compliance [1], from which on sag is simulated. An engineering choice.
+Below it the error bar is 2 % of the wave amplitude at most, times (1 + n)^(1/2) for n contour times."""
 _SAG_FACTOR = 0.4
+"""Change of tension of a plain start relative to softening times wave amplitude [1]. Calibrated: the largest value of
+the coverage sample was 0.17. A smaller value loses the safety of the bound; a larger one widens it."""
 _SCENE_SAG_FACTOR = 1.0
+"""The same of any other scene, relative to softening times half the range of the tension [1]. Calibrated: the largest
+value of 218 stops and starts was 0.45. A smaller value loses the safety of the bound; a larger one widens it."""
 _GENTLE_SAG = 0.5
+"""Softening at the lowest tension up to which that bound applies [1]. An engineering choice. A larger value applies the
+calibrated factor to deeper sag; a smaller one leaves more scenes without a bound."""
 
 
 def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
