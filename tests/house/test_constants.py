@@ -8,13 +8,7 @@ from typing import TypeGuard
 
 from support.command import ROOT
 
-ROOMS = (
-    "ptmcalc/engine",
-    "ptmcalc/machines/chain_drive",
-    "ptmcalc/machines/conveyor",
-    "ptmcalc/machines/drivetrain",
-    "ptmcalc/machines/hoist",
-)
+ROOMS = ("ptmcalc/engine", "ptmcalc/machines")
 """Folders whose constants are examined."""
 Assignment = ast.Assign | ast.AnnAssign
 

@@ -77,7 +77,8 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
     exact = chain_selection.chain_pitches(
         layout.centre_distance, spec.chain.pitch, spec.sprocket.teeth, layout.driven.teeth
     )
-    if abs(exact - layout.pitches) > _PITCHES_TOLERANCE:
+    fits = layout.pitches == chain_selection.even_pitches(exact)
+    if not fits and abs(exact - layout.pitches) > _PITCHES_TOLERANCE:
         yield Finding(
             "SPC201",
             f"shafts {units.show(layout.centre_distance, units.LENGTH)} apart take {exact:.1f} pitches of chain",

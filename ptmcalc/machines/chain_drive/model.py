@@ -24,8 +24,8 @@ CRANKED = 0.8
 """Breaking load of a cranked link relative to that of the chain [1] (ACA: about 20 % less). All safety factors of a
 chain with such a link are proportional to it."""
 ROWS = {1: 1.0, 2: 1.7, 3: 2.5, 4: 3.3, 5: 3.9, 6: 4.6}
-"""Capacity of several rows of roller chain relative to one row [1] (ACA), by number of rows; other numbers count in
-full. The transmitted power is proportional to it."""
+"""Capacity of several rows of roller chain relative to one row [1] (ACA), by number of rows. Rows above the sixth, for
+which no source is known, do not count. The transmitted power is proportional to it."""
 MODES = 12
 """Natural frequencies that are computed by default. A numerical choice: more find resonances at higher orders and take
 longer."""

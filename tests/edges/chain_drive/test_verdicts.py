@@ -1,6 +1,7 @@
 """Chain drives with a verdict at an edge: the right value by hand, or by an integration here."""
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 import yaml
 from scipy.integrate import solve_ivp
 from support.chain_starts import KIND, built, scraper
+from support.command import ROOT
 from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
@@ -177,3 +179,25 @@ def test_a_chain_that_goes_slack_in_its_start_fails_with_the_cure() -> None:
     data = changed(scraper(), layout__takeup__tension="100 N", drive__motor__mean_starting_torque="450 N*m")
     judged = check_of(scene_of(report_of(data)), "CHN123")
     assert judged.verdict is Verdict.FAIL
+
+
+ROLLER = yaml.safe_load((ROOT / "specs" / "chain_drive" / "roller_drive.yaml").read_text("utf-8"))
+
+
+def test_rows_without_a_source_do_not_lower_the_design_power() -> None:
+    """ACA states the capacity of up to six rows; seven rows counted as 7.0 where six count as 4.6."""
+
+    def design_power(rows: int) -> float:
+        report = report_of(changed(ROLLER, chain__count=rows))
+        return next(one.estimate.value for one in report.scenes[0].loads if one.info.name == "design_power")
+
+    assert design_power(6) == pytest.approx(design_power(1) / 4.6, rel=1e-12)
+    assert design_power(7) == design_power(6)
+
+
+def test_advised_pitches_are_not_warned_of() -> None:
+    data = changed(ROLLER, layout__centre_distance="0.985 m", layout__pitches=110)
+    (warned,) = (one for one in report_of(data).diagnostics if one.code == "SPC201")
+    advised = int(re.search(r"pitches: ([0-9]+)", warned.hint)[1])  # type: ignore[index]
+    again = report_of(changed(data, layout__pitches=advised)).diagnostics
+    assert [one for one in again if one.code == "SPC201"] == []

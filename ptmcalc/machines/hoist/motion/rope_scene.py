@@ -26,10 +26,9 @@ narrows the error bar and takes longer."""
 _COMPARED = 1.37
 """Number of time steps of the second run relative to the first [1]. A numerical choice: their difference gives the
 error bar. A value near 1 compares runs whose errors agree; a larger one takes longer."""
-_MARGIN, _UNSEEN = 3.0, 1e-10
-"""Numerical choices [1]. `_MARGIN`: safety factor on the difference of two runs; not read, as `scene.with_bars` applies
-its own of the same value. `_UNSEEN`: error of a reading between the nodes, relative to the largest value; a larger
-value widens the error bars."""
+_UNSEEN = 1e-10
+"""Error of a reading between the nodes, relative to the largest value [1]. A numerical choice: a larger value widens
+the error bars."""
 _CLOSES, _NOTHING = 1e-9, 1e-6
 """Numerical choices [1]. `_CLOSES`: residual of the energy balance above which NUM101 is reported; a larger value
 accepts wrong runs. `_NOTHING`: rope force below 0, relative to the weight, that counts as rounding; a larger value
