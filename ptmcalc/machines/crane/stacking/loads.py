@@ -1,6 +1,6 @@
 """The loads a stacker crane can report."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
@@ -75,19 +75,6 @@ OF_STRENGTH = (
 )
 OF_THE_TABLES = (LoadInfo("combination_force", "leading load of the combination", units.FORCE, headline=False),)
 
-LOADS = (
-    *OF_THE_HOIST,
-    *OF_THE_COLUMN,
-    *OF_STANDING,
-    *OF_MOTION,
-    *OF_THE_OBSTACLE,
-    *OF_THE_BUFFERS,
-    *OF_THE_FORK,
-    *OF_THE_RAIL,
-    *OF_THE_SAFETY_GEAR,
-    *OF_STRENGTH,
-    *OF_THE_TABLES,
-)
 MODES = ("1", "2", "3")
 """Natural frequencies that are reported, from the lowest."""
 
@@ -106,9 +93,9 @@ def names(*groups: tuple[LoadInfo, ...]) -> frozenset[str]:
     return frozenset(info.name for group in groups for info in group)
 
 
-def parts(spec: Stacker) -> Iterator[LoadInfo]:
-    """The loads of one machine: its modes, both directions of its stability, the combinations of its table."""
-    for info in LOADS:
+def parts_of(loads: Iterable[LoadInfo], spec: Stacker) -> Iterator[LoadInfo]:
+    """Some loads of one machine: its modes, both directions of its stability, the combinations of its table."""
+    for info in loads:
         if info.name == "natural_frequency":
             yield from (info.of(mode) for mode in MODES)
         elif info.name == "combination_force":
