@@ -6,19 +6,20 @@ from ptmcalc.base import units
 from ptmcalc.contract.example import symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.assumptions import assumptions
-from ptmcalc.machines.crane.travelling.checks import CHECKS
-from ptmcalc.machines.crane.travelling.checks_events import CHECKS_OF_EVENTS
+from ptmcalc.machines.crane.travelling.buffers.topic import BUFFERS
 from ptmcalc.machines.crane.travelling.figures import FIGURES
-from ptmcalc.machines.crane.travelling.loads import LOADS, parts
+from ptmcalc.machines.crane.travelling.rail.topic import RAIL
 from ptmcalc.machines.crane.travelling.relations import RELATIONS
-from ptmcalc.machines.crane.travelling.solvers import SOLVERS
+from ptmcalc.machines.crane.travelling.skewing.topic import SKEW
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.machines.crane.travelling.statics.checks_drive import CHECKS_OF_DRIVE
 from ptmcalc.machines.crane.travelling.statics.factors import CREEPING
-from ptmcalc.machines.crane.travelling.sway.effects import EFFECTS_OF_TRAVEL
+from ptmcalc.machines.crane.travelling.statics.topic import STATICS
+from ptmcalc.machines.crane.travelling.storm.topic import STORM_PARKED
+from ptmcalc.machines.crane.travelling.sway.topic import TRAVEL
 
 _SPEED_TOLERANCE = 0.05
 """Relative difference [1] of the stated speed and that of motor, gear and wheels, above which SPC201 is reported. An
@@ -69,21 +70,19 @@ def _plays(spec: Travelling) -> Iterator[Finding]:
         )
 
 
+TOPICS = (STATICS, TRAVEL, BUFFERS, RAIL, SKEW, STORM_PARKED)
+
 TRAVELLING = MachineKind(
     name="crane",
     type="travelling",
     title="travelling crane: bridge, gantry, trolley",
     spec=Travelling,
-    loads=LOADS,
-    effects=EFFECTS_OF_TRAVEL,
     figures=FIGURES,
-    solvers=SOLVERS,
-    checks=(*CHECKS, *CHECKS_OF_DRIVE, *CHECKS_OF_EVENTS),
     starting=template_in(__package__),
     seconding=witnesses_in(__package__),
     symbols=symbols_in(__package__),
     assumed=assumptions,
     inspect=inspect,
-    parts=parts,
     relations=RELATIONS,
+    **of_topics(TOPICS),
 )

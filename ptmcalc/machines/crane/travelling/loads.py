@@ -1,6 +1,6 @@
 """The loads a travelling crane can report."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
@@ -69,8 +69,8 @@ OF_THE_BUFFERS = (
     LoadInfo("buffer_speed_left", "residual speed, end of buffer stroke", units.SPEED),
     LoadInfo("buffer_deceleration", "deceleration at buffers, maximum", units.ACCELERATION),
 )
-OF_THE_RAIL = (
-    LoadInfo("rail_contact", "minimum / static wheel load", units.RATIO),
+OF_THE_RAIL = (LoadInfo("rail_contact", "minimum / static wheel load", units.RATIO),)
+OF_SKEWING = (
     LoadInfo("skew_angle", "skewing angle alpha", units.ANGLE),
     LoadInfo("skew_force", "skewing force on front guide", units.FORCE, governing=True),
     LoadInfo("skew_force_slip", "skewing force, slip per wheel", units.FORCE),
@@ -83,17 +83,6 @@ OF_THE_STORM = (
 )
 EVEN = (*OF_TRAVEL, *OF_THE_CLASS)
 
-LOADS = (
-    *OF_THE_WHEELS,
-    *OF_TRAVEL,
-    *OF_MOTION,
-    *OF_THE_BUFFERS,
-    *OF_THE_RAIL,
-    *OF_THE_STORM,
-    *FACTORS,
-    *OF_THE_CLASS,
-)
-
 PER_CORNER = frozenset({"corner_load_max", "corner_load_min"})
 PER_DRIVEN_CORNER = frozenset({"skid_reserve"})
 MOVING = frozenset(info.name for info in OF_MOTION) | {"wheel_load_max", "wheel_load_min", "stability_reserve"}
@@ -105,9 +94,9 @@ def names(*groups: tuple[LoadInfo, ...]) -> frozenset[str]:
     return frozenset(info.name for group in groups for info in group)
 
 
-def parts(spec: Travelling) -> Iterator[LoadInfo]:
-    """The loads of one crane, corner by corner where they are of corners."""
-    for info in LOADS:
+def parts_of(loads: Iterable[LoadInfo], spec: Travelling) -> Iterator[LoadInfo]:
+    """Some loads of one crane, corner by corner where they are of corners."""
+    for info in loads:
         if info.name in PER_CORNER:
             yield from (info.of(corner) for corner in CORNERS)
         elif info.name in PER_DRIVEN_CORNER:

@@ -6,7 +6,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import braking_number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
-from ptmcalc.machines.crane.travelling.checks import (
+from ptmcalc.machines.crane.travelling.judging import (
     RUNNING,
     STARTS,
     Loads,

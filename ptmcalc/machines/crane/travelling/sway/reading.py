@@ -10,7 +10,7 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, of
 from ptmcalc.laws import pendulum
 from ptmcalc.machines.crane.travelling import model, stability
-from ptmcalc.machines.crane.travelling.checks import rate_key
+from ptmcalc.machines.crane.travelling.judging import rate_key
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.course import Course, State, extreme

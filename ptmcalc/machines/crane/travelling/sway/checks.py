@@ -1,65 +1,35 @@
-"""The checks of a travelling crane: start, stop, sway, grip, wheel loads; and what its checks share."""
+"""Checks of starts and stops: times, distance, sway, adhesion, ramp torque."""
 
 import math
-from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.judging import (
+    MOVES,
+    STARTS,
+    Loads,
+    OneCheck,
+    curve_number,
+    hangs,
+    rate_key,
+    torque_key,
+    torque_repair,
+)
 from ptmcalc.machines.crane.travelling.scenes import (
     Brake,
     HoistWhileTravelling,
     Moving,
-    Run,
     Start,
-    Storm,
     TravelScene,
 )
 from ptmcalc.machines.crane.travelling.spec import Travelling
-from ptmcalc.spec.scene import Scene
-
-Loads = Mapping[str, Estimate]
-OneCheck = Check[Travelling, TravelScene]
-STARTS: frozenset[type[Scene]] = frozenset({Start, HoistWhileTravelling})
-MOVES: frozenset[type[Scene]] = STARTS | {Brake}
-RUNNING: frozenset[type[Scene]] = frozenset({Run})
 
 
-def hangs(spec: Travelling, scene: TravelScene) -> bool:
-    """Whether anything hangs on the ropes."""
-    return model.hanging(spec, scene) > 0
-
-
-def torque_key(spec: Travelling) -> KeyPath:
-    """What says how strongly the motors start."""
-    motor = spec.drive.motor
-    if motor.mean_starting_torque is not None:
-        return ("drive", "motor", "mean_starting_torque")
-    if motor.largest_starting_torque is not None:
-        return ("drive", "motor", "largest_starting_torque")
-    return ("drive", "motor", "curve")
-
-
-def torque_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
-    """The torque of the motors, where it is one number."""
-    return curve_number(spec, torque_key(spec))
-
-
-def curve_number(spec: Travelling, path: KeyPath) -> KeyPath:
-    """The number that a key stands for: of the motors' curve, the one that all its torques grow with."""
-    motor = spec.drive.motor
-    return number_at(path, motor.curve, rated=motor.power is not None)
-
-
-def rate_key(spec: Travelling, scene: Moving) -> KeyPath:
-    """What says how fast a start or a stop is."""
-    if model.starts(scene):
-        if spec.drive.ramp_time is not None:
-            return ("drive", "ramp_time")
-        return ("drive", "acceleration") if spec.drive.acceleration is not None else torque_key(spec)
-    return ("drive", "deceleration") if model.commanded(spec, scene) is not None else ("drive", "brake", "torque")
+def _moving(scene: TravelScene) -> Moving:
+    assert isinstance(scene, Start | Brake | HoistWhileTravelling)
+    return scene
 
 
 def _rate_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
@@ -68,14 +38,6 @@ def _rate_repair(spec: Travelling, scene: TravelScene) -> KeyPath:
 
 def _rate_blame(spec: Travelling, scene: TravelScene, loads: Loads) -> KeyPath:
     return rate_key(spec, _moving(scene))
-
-
-def _moving(scene: TravelScene) -> Moving:
-    assert isinstance(scene, Start | Brake | HoistWhileTravelling)
-    return scene
-
-
-# -- start and stop -------------------------------------------------------------------------------------------------
 
 
 def _start_limit(spec: Travelling, scene: TravelScene) -> Estimate:
@@ -171,8 +133,6 @@ LONG_WAY: OneCheck = only(lambda spec, scene: spec.checks.brake_distance is not 
     )
 )
 
-# -- sway -----------------------------------------------------------------------------------------------------------
-
 
 def _sway_limit(spec: Travelling, scene: TravelScene) -> Estimate:
     """Largest angle of the load, 10 deg by default.
@@ -236,8 +196,6 @@ RESIDUAL: OneCheck = only(lambda spec, scene: hangs(spec, scene) and spec.checks
         source="pendulum under a moved pivot",
     )
 )
-
-# -- grip -----------------------------------------------------------------------------------------------------------
 
 
 def _skid_limit(spec: Travelling, scene: TravelScene) -> Estimate:
@@ -310,100 +268,4 @@ RAMP: OneCheck = only(lambda spec, scene: model.commanded(spec, _moving(scene)) 
     )
 )
 
-# -- wheel loads ----------------------------------------------------------------------------------------------------
-
-
-def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Largest load of a wheel by its rating.
-
-    **Range** any wheel and rail.
-    **Error** none: a limit of the file.
-    **Source** the maker of wheel or rail.
-    """
-    rating = spec.wheels.rating
-    return Estimate.exact(math.inf if rating is None else rating)
-
-
-WHEEL: OneCheck = Check(
-    code="CRN157",
-    title="maximum wheel load",
-    question="Is the largest wheel load within the rating of wheel and rail?",
-    failure="wheel load exceeds its rating",
-    scenes=MOVES | RUNNING,
-    loads=("wheel_load_max",),
-    sense=Sense.AT_MOST,
-    limit=_wheel_limit,
-    needs=lambda spec, scene: (("wheels", "rating"),),
-    blame=blames("wheels", "rating"),
-    repair=at("wheels", "rating"),
-    what="The load of every wheel is at most its rating. The trolley is in its worst position, and the crane starts or"
-    " stops.",
-    why="Wheel treads pit and rails roll out. The runway is designed for this load.",
-    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B",
-    source="equilibrium of the crane",
-)
-
-
-def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """A wheel stays on its rail.
-
-    **Range** any crane.
-    **Error** none: a wheel does not pull.
-    **Source** equilibrium.
-    """
-    return Estimate.exact(0.0)
-
-
-LIFTS: OneCheck = Check(
-    code="CRN158",
-    title="minimum wheel load",
-    question="Do all wheels stay in contact with the rail?",
-    failure="wheel lifts off the rail",
-    scenes=MOVES | RUNNING,
-    loads=("wheel_load_min",),
-    sense=Sense.AT_LEAST,
-    limit=_lift_limit,
-    needs=no_needs,
-    blame=lambda spec, scene, loads: ("wheels", "base"),
-    repair=at("wheels", "base"),
-    what="The load of every wheel is at least zero, so that every wheel stays on the rail. The trolley is in its worst"
-    " position, and the crane starts or stops.",
-    why="A wheel without contact does not drive, brake or guide. A high gantry on a short wheel base tips.",
-    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B >= 0",
-    source="equilibrium of the crane",
-)
-
-
-def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
-    """Moments that keep the crane on its wheels at least those that tip it, both with partial factors.
-
-    **Range** any crane.
-    **Error** none: a balance; the factors are those of the edition.
-    **Source** EN 13001-2, FEM 1.001.
-    """
-    return Estimate.exact(spec.checks.stability)
-
-
-TIPS: OneCheck = Check(
-    code="CRN159",
-    title="stability ratio",
-    question="Do the stabilising moments exceed the tipping moments by the required ratio?",
-    failure="stability ratio is too small",
-    limit_state=LimitState("crane tips", 1),
-    scenes=MOVES | RUNNING | {Storm},
-    loads=("stability_reserve",),
-    sense=Sense.AT_LEAST,
-    limit=_stability_limit,
-    needs=no_needs,
-    blame=lambda spec, scene, loads: ("wheels", "base"),
-    repair=at("wheels", "base"),
-    what="About each tipping edge of the wheels, the stabilising moment is at least the required multiple of the"
-    " tipping moment. The partial factors of the edition (`class.stability`) apply: they increase loads, drive forces"
-    " and wind, and reduce the stabilising weight.",
-    why="Equal moments do not prove stability, because weights, loads and wind are not known with that accuracy.",
-    formula="sum k_h G b / (sum k_o G b' + k_l (m a h + H h_r) + k_w F_w h_w) >= 1",
-    source="equilibrium; EN 13001-2, ISO 8686-1; FEM 1.001",
-)
-
-CHECKS: tuple[AnyCheck, ...] = (SLOW, LONG_STOP, LONG_WAY, SWAY, RESIDUAL, SKID, RAMP, WHEEL, LIFTS, TIPS)
-"""The drive is judged in `checks_drive`, buffers, rails, storm and factors in `checks_events`."""
+CHECKS_OF_SWAY: tuple[AnyCheck, ...] = (SLOW, LONG_STOP, LONG_WAY, SWAY, RESIDUAL, SKID, RAMP)

@@ -1,0 +1,37 @@
+"""Check of the wheel load at steps and gaps of the rail."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import Check, Sense, at, no_needs
+from ptmcalc.machines.crane.travelling.judging import STEPS, OneCheck
+from ptmcalc.machines.crane.travelling.scenes import TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def _contact_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """A wheel stays on its rail.
+
+    **Range** any wheel.
+    **Error** none: a wheel does not pull.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(0.0)
+
+
+CONTACT: OneCheck = Check(
+    code="CRN173",
+    title="wheel load ratio at rail steps and gaps",
+    question="Do the wheels keep contact on the largest step and gap of the rail?",
+    failure="wheel leaves the rail at a step or gap",
+    scenes=STEPS,
+    loads=("rail_contact",),
+    sense=Sense.AT_LEAST,
+    limit=_contact_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("rail", "step" if spec.rail.step else "gap"),
+    repair=at("speed"),
+    what="The wheel load stays at or above zero at the largest step and gap of the rail, so that the wheels keep"
+    " contact.",
+    why="The impact of a wheel that lands on the rail is not covered by any factor.",
+    formula="1 - (pi/2)^2 v^2/(g r) u_min >= 0",
+    source="one vertical mode over a cosine step; `laws.rail`",
+)

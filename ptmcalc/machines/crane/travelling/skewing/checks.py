@@ -1,0 +1,36 @@
+"""Check of the guide force of a skewing crane."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import Check, Sense, at, blames
+from ptmcalc.machines.crane.travelling.judging import OneCheck, rating
+from ptmcalc.machines.crane.travelling.scenes import Skew, TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def _guide_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Largest force of a guide.
+
+    **Range** flanges and guide rollers.
+    **Error** none: a limit of the file.
+    **Source** the file.
+    """
+    return rating(spec.guide.rating if spec.guide is not None else None)
+
+
+GUIDE: OneCheck = Check(
+    code="CRN174",
+    title="skewing guide force",
+    question="Is the skewing force on the front guide within its rating?",
+    failure="skewing force overloads the guide",
+    scenes=frozenset({Skew}),
+    loads=("skew_force",),
+    sense=Sense.AT_MOST,
+    limit=_guide_limit,
+    needs=lambda spec, scene: (("guide", "rating"),),
+    blame=blames("guide", "rating"),
+    repair=at("guide", "rating"),
+    what="The force of the rail on the foremost guide is at most the rating of flange, roller and rail.",
+    why="Skewing is the main cause of wear of flanges and rails. It bends end carriages and runway sideways.",
+    formula="S = sum f xi G_i (1 - d_i/h),   f = 0.3 (1 - exp(-250 alpha))",
+    source="EN 13001-2, ISO 8686-1, EN 1991-3",
+)

@@ -1,0 +1,111 @@
+"""Checks of wheel loads and stability."""
+
+import math
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs
+from ptmcalc.machines.crane.travelling.judging import (
+    MOVES,
+    RUNNING,
+    OneCheck,
+)
+from ptmcalc.machines.crane.travelling.scenes import (
+    Storm,
+    TravelScene,
+)
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def _wheel_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Largest load of a wheel by its rating.
+
+    **Range** any wheel and rail.
+    **Error** none: a limit of the file.
+    **Source** the maker of wheel or rail.
+    """
+    rating = spec.wheels.rating
+    return Estimate.exact(math.inf if rating is None else rating)
+
+
+WHEEL: OneCheck = Check(
+    code="CRN157",
+    title="maximum wheel load",
+    question="Is the largest wheel load within the rating of wheel and rail?",
+    failure="wheel load exceeds its rating",
+    scenes=MOVES | RUNNING,
+    loads=("wheel_load_max",),
+    sense=Sense.AT_MOST,
+    limit=_wheel_limit,
+    needs=lambda spec, scene: (("wheels", "rating"),),
+    blame=blames("wheels", "rating"),
+    repair=at("wheels", "rating"),
+    what="The load of every wheel is at most its rating. The trolley is in its worst position, and the crane starts or"
+    " stops.",
+    why="Wheel treads pit and rails roll out. The runway is designed for this load.",
+    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B",
+    source="equilibrium of the crane",
+)
+
+
+def _lift_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """A wheel stays on its rail.
+
+    **Range** any crane.
+    **Error** none: a wheel does not pull.
+    **Source** equilibrium.
+    """
+    return Estimate.exact(0.0)
+
+
+LIFTS: OneCheck = Check(
+    code="CRN158",
+    title="minimum wheel load",
+    question="Do all wheels stay in contact with the rail?",
+    failure="wheel lifts off the rail",
+    scenes=MOVES | RUNNING,
+    loads=("wheel_load_min",),
+    sense=Sense.AT_LEAST,
+    limit=_lift_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("wheels", "base"),
+    repair=at("wheels", "base"),
+    what="The load of every wheel is at least zero, so that every wheel stays on the rail. The trolley is in its worst"
+    " position, and the crane starts or stops.",
+    why="A wheel without contact does not drive, brake or guide. A high gantry on a short wheel base tips.",
+    formula="N = sum G b_s/2 +- (m a h + H h_r + F_w h_w)/B >= 0",
+    source="equilibrium of the crane",
+)
+
+
+def _stability_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Moments that keep the crane on its wheels at least those that tip it, both with partial factors.
+
+    **Range** any crane.
+    **Error** none: a balance; the factors are those of the edition.
+    **Source** EN 13001-2, FEM 1.001.
+    """
+    return Estimate.exact(spec.checks.stability)
+
+
+TIPS: OneCheck = Check(
+    code="CRN159",
+    title="stability ratio",
+    question="Do the stabilising moments exceed the tipping moments by the required ratio?",
+    failure="stability ratio is too small",
+    limit_state=LimitState("crane tips", 1),
+    scenes=MOVES | RUNNING | {Storm},
+    loads=("stability_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_stability_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("wheels", "base"),
+    repair=at("wheels", "base"),
+    what="About each tipping edge of the wheels, the stabilising moment is at least the required multiple of the"
+    " tipping moment. The partial factors of the edition (`class.stability`) apply: they increase loads, drive forces"
+    " and wind, and reduce the stabilising weight.",
+    why="Equal moments do not prove stability, because weights, loads and wind are not known with that accuracy.",
+    formula="sum k_h G b / (sum k_o G b' + k_l (m a h + H h_r) + k_w F_w h_w) >= 1",
+    source="equilibrium; EN 13001-2, ISO 8686-1; FEM 1.001",
+)
+
+CHECKS_OF_WHEELS: tuple[AnyCheck, ...] = (WHEEL, LIFTS, TIPS)

@@ -1,0 +1,43 @@
+"""Check of the holding force in a storm."""
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import Check, LimitState, Sense, no_needs
+from ptmcalc.machines.crane.travelling.judging import OneCheck
+from ptmcalc.machines.crane.travelling.scenes import Storm, TravelScene
+from ptmcalc.machines.crane.travelling.spec import Travelling
+
+
+def _storm_limit(spec: Travelling, scene: TravelScene) -> Estimate:
+    """Least reserve against the wind out of service, 1.1 by default.
+
+    **Range** cranes in the open.
+    **Error** none: an engineering rule.
+    **Source** handbooks of lifting machines; the standards' partial factors instead, where they are used.
+    """
+    return Estimate.exact(spec.checks.wind_reserve)
+
+
+def _storm_key(spec: Travelling, scene: TravelScene) -> KeyPath:
+    return ("parking", "force") if spec.parking is not None else ("wind", "pressure_storm")
+
+
+STORM: OneCheck = Check(
+    code="CRN175",
+    title="holding reserve, out-of-service wind",
+    question="Do brakes and rail clamps hold the parked crane in out-of-service wind?",
+    failure="holding reserve in out-of-service wind is too small",
+    limit_state=LimitState("parked crane drifts away", 1),
+    scenes=frozenset({Storm}),
+    loads=("storm_reserve",),
+    sense=Sense.AT_LEAST,
+    limit=_storm_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: _storm_key(spec, scene),
+    repair=lambda spec, scene: _storm_key(spec, scene) if spec.parking is not None else (),
+    what="Brakes and rail clamps hold the crane in the out-of-service wind with the required reserve. The brake forces"
+    " are limited by the adhesion of their wheels.",
+    why="Only the end stops stop a crane that moves in a storm.",
+    formula="(sum of min(M_b u/(r eta_r)/n, mu N_k) + clamps)/(q c A + G sin(alpha)) >= 1.1",
+    source="balance along the rails; winds of EN 13001-2, ISO 4302",
+)

@@ -1,0 +1,13 @@
+"""Storm: wind out of service."""
+
+from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.crane.travelling.loads import OF_THE_STORM
+from ptmcalc.machines.crane.travelling.spec import Travelling
+from ptmcalc.machines.crane.travelling.storm.checks import STORM
+from ptmcalc.machines.crane.travelling.storm.storm_parking import STORM_PARKING
+
+STORM_PARKED: Topic[Travelling] = Topic(
+    loads=OF_THE_STORM,
+    solvers=(STORM_PARKING,),
+    checks=(STORM,),
+)
