@@ -163,7 +163,8 @@ def words_of(annotation: Any) -> list[str]:
 def usual(model: Model, key: str) -> str:
     """A usual value of a key, as a design file writes it, or an empty text.
 
-    Each package lists those of its models in `usual.txt`, which is read for hints and schemas only.
+    Each package lists those of its models, and of the packages in it, in `usual.txt`, which is read for hints and
+    schemas only.
     """
     listed = (_usual_values(one.__module__).get(f"{one.__name__}.{key}", "") for one in model.__mro__)
     return next((value for value in listed if value), "")
@@ -181,7 +182,9 @@ def _usual_values_of(package: str) -> Mapping[str, str]:
 
     try:
         place = resources.files(package).joinpath("usual.txt")
-        lines = place.read_text("utf-8").splitlines() if place.is_file() else []
+        if not place.is_file():
+            return _usual_values_of(package.rpartition(".")[0])
+        lines = place.read_text("utf-8").splitlines()
     except (ImportError, TypeError, OSError):  # a model that is in no package
         return {}
     pairs = (line.partition(": ") for line in lines if not line.startswith("#"))

@@ -357,7 +357,7 @@ def test_findings_are_handed_on_once() -> None:
 @pytest.mark.parametrize("law", ["full", "geometric", "ballast"])
 def test_what_no_law_scales_is_always_said(law: str) -> None:
     said = " ".join(report(kind_of(STATICS), law, 0.1).distortions)
-    for part in ("damping ratio", "friction coefficients", "slope of a motor curve", "play", "delays"):
+    for part in ("damping ratio", "friction coefficients", "slope of a motor curve", "clearance", "delays"):
         assert part in said, part
     assert ("strength of a material" in said) == (law == "full")  # whose material is another one
 
