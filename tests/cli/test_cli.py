@@ -523,10 +523,7 @@ def schema(*arguments: str) -> dict[str, Any]:
     return found
 
 
-SPECS = sorted(ROOT.glob("specs/**/*.yaml"))
-
-
-@pytest.mark.parametrize("path", SPECS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(ROOT.glob("specs/**/*.yaml")), ids=lambda path: path.stem)
 def test_the_schema_accepts_the_specs_of_the_project(path: Path) -> None:
     data = parse(path.read_bytes(), path.name).data
     assert isinstance(data, dict)

@@ -62,7 +62,7 @@ def test_places_that_nearly_meet_are_said_to_be_lost() -> None:
     """The load's lowest place is 25 um above the foot: such an element is too stiff beside the column to be told."""
     data = changed(spec_data("crane_overhead_stacker"), column__foot="0.499975 m")
     report = report_of(data, budget=0.5)
-    lost = [one for one in report.diagnostics if one.code == "NUM102" and "too near each other" in one.message]
+    lost = [one for one in report.diagnostics if one.code == "NUM102" and "too close to each other" in one.message]
     assert lost
     checks = [one for scene in report.scenes for one in scene.checks]
     assert {one.verdict for one in checks} == {Verdict.PASS, Verdict.UNDECIDED}
