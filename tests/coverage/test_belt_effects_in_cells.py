@@ -32,7 +32,6 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.model import (
     DAMPING_THRESHOLD,
     TRAVEL_THRESHOLD,
@@ -45,6 +44,7 @@ from ptmcalc.machines.conveyor.motion import AFTER_START, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.waves import network
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
+from ptmcalc.machines.conveyor.waves.effects import damping, idlers, moving_belt, takeup
 
 ON_TRIAL = {"conveyor": ("takeup_mass", "viscous_idlers", "coulomb_idlers", "belt_damping", "moving_belt")}
 KIND = load_kind("conveyor")
@@ -97,7 +97,7 @@ def _relaxed(data: dict[str, Any], rng: np.random.Generator) -> None:
     motor = data["drive"]["motor"]
     for _ in range(12):
         spec = Conveyor.model_validate(data)
-        if effects.coulomb_criterion(spec, spec.all_scenes[0]).value < effects.COULOMB_THRESHOLD:
+        if idlers.coulomb_criterion(spec, spec.all_scenes[0]).value < idlers.COULOMB_THRESHOLD:
             break
         motor["mean_starting_torque"] = text(_number(motor["mean_starting_torque"]) * 1.3, "N*m")
     data["takeup"]["tension"] = text(_number(data["takeup"]["tension"]) + TAUT * starting_force(spec), "N")
@@ -132,11 +132,11 @@ def _over(criterion: Callable[..., Any]) -> Callable[[Conveyor], float]:
 
 
 SMALL = {
-    "takeup_mass": Small(_weight, effects.takeup_bound, _over(effects.takeup_criterion)),
-    "viscous_idlers": Small(_viscous, effects.speed_bound, _over(effects.speed_criterion)),
-    "coulomb_idlers": Small(_relaxed, effects.coulomb_bound, _over(effects.coulomb_criterion)),
-    "belt_damping": Small(_dashpots, effects.damping_bound, _over(effects.damping_criterion)),
-    "moving_belt": Small(_running, effects.travel_bound, _over(effects.travel_criterion)),
+    "takeup_mass": Small(_weight, takeup.takeup_bound, _over(takeup.takeup_criterion)),
+    "viscous_idlers": Small(_viscous, idlers.speed_bound, _over(idlers.speed_criterion)),
+    "coulomb_idlers": Small(_relaxed, idlers.coulomb_bound, _over(idlers.coulomb_criterion)),
+    "belt_damping": Small(_dashpots, damping.damping_bound, _over(damping.damping_criterion)),
+    "moving_belt": Small(_running, moving_belt.travel_bound, _over(moving_belt.travel_criterion)),
 }
 
 

@@ -12,8 +12,8 @@ import pytest
 from support.belt_scenes import Brake, Drive, Rig
 from support.sagging_scenes import swing
 
-from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.model import DAMPING_THRESHOLD
+from ptmcalc.machines.conveyor.waves.effects import damping
 
 ELEMENTS = 160
 PITCHES = (1.2, 3.0)
@@ -31,7 +31,7 @@ class Seen:
 
     @property
     def bound(self) -> float:
-        share = effects._DAMPING_FACTOR * math.sqrt(self.damping * (1 + self.contours))
+        share = damping._DAMPING_FACTOR * math.sqrt(self.damping * (1 + self.contours))
         return min(share, 2.0) * self.amplitude
 
 

@@ -14,11 +14,11 @@ import pytest
 from support.conveyors import random_conveyor, text
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.model import TRAVEL_THRESHOLD, belt_line, belt_travel
 from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import network
+from ptmcalc.machines.conveyor.waves.effects import moving_belt
 
 CELLS = 240
 MOST_ROUNDS = 16
@@ -69,7 +69,7 @@ def _changes(scene: str, seed: int) -> Iterator[Change]:
         network._marched(case, carried, CELLS, True, CELLS).values for carried in (CARRIED, CARRIED | {"moving_belt"})
     )
     loads = {name: Estimate.exact(value) for name, (value, _) in still.items()}
-    allowed = effects.travel_bound(spec, case.scene, loads)
+    allowed = moving_belt.travel_bound(spec, case.scene, loads)
     for name in TENSIONS:
         if name in allowed and (most := max(allowed[name].high, -allowed[name].low)) > 0:
             yield Change(seed, name, abs(moves[name][0] - still[name][0]) / most)

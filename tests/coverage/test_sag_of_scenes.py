@@ -12,7 +12,7 @@ import pytest
 from support.belt_scenes import Brake, Drive, Rig
 from support.sagging_scenes import softening, swing
 
-from ptmcalc.machines.conveyor import effects
+from ptmcalc.machines.conveyor.waves.effects import sag
 
 MESHES = (120, 240)
 LARGEST = 0.5
@@ -38,7 +38,7 @@ class Seen:
 
     @property
     def bound(self) -> float:
-        share = effects._SCENE_SAG_FACTOR * self.softening * math.sqrt(1 + self.contours)
+        share = sag._SCENE_SAG_FACTOR * self.softening * math.sqrt(1 + self.contours)
         return min(share, 2.0) * self.amplitude
 
 

@@ -29,12 +29,12 @@ from support.conveyors import random_conveyor, text
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor import effects
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
 from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
+from ptmcalc.machines.conveyor.waves.effects import sag, tail
 
 ON_TRIAL = {"conveyor": ("characteristics", "tail_jump", "tail_mass", "sag")}
 KIND = load_kind("conveyor")
@@ -165,9 +165,9 @@ def _small_sag(data: dict, rng: np.random.Generator) -> dict:
 
 
 SMALL = [
-    Small(_small_jump, "tail_jump", effects.jump_bound),
-    Small(_small_tail, "tail_mass", effects.tail_mass_bound),
-    Small(_small_sag, "sag", effects.sag_bound),
+    Small(_small_jump, "tail_jump", tail.jump_bound),
+    Small(_small_tail, "tail_mass", tail.tail_mass_bound),
+    Small(_small_sag, "sag", sag.sag_bound),
 ]
 
 

@@ -98,6 +98,14 @@ def test_a_window_of_whole_steps_takes_so_many(steps: int) -> None:
     assert len(marched(course, 1e5, steps + 0.5)[0].times) == steps + 2
 
 
+@pytest.mark.parametrize("steps", [0, 1, 7, 65])
+def test_a_belt_without_friction_that_runs_evenly_has_no_rates(steps: int) -> None:
+    """Also where the window ends before the first step: then no step has been made from which rates could be taken."""
+    row = marched(course_of(12), 1e5, steps, speed=3.0)[0].row
+    assert row.rate_energy == pytest.approx(0.0, abs=1e-12)
+    assert row.speeds == pytest.approx(np.zeros(len(row.masses)), abs=1e-12)
+
+
 def test_head_and_tail_have_their_lumps_once() -> None:
     """The head is where the course begins and ends; the tail is one node, all of whose friction is before it."""
     ends = np.array([0.0, 100.0])

@@ -198,6 +198,8 @@ def march(
         lost += _lost(speeds[:filled], friction, drag)
         ways.see(speeds[:filled], k - filled + 1)
     lost += give.lost / step if give else 0.0
+    if k < 2:
+        speeds[0] = (speeds_now[:-1] + speeds_now[1:]) / 2  # the row of the start, from which the last rates are taken
     change = _energy(against, along, impedance, step, give) - stored - carried
     turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
     residual = abs(change + lost * step - flow * step) / turnover if turnover else 0.0
@@ -217,7 +219,7 @@ def march(
         lowest=course.climb_within - bottoms.best / 2,
         lows=np.concatenate(lows),
         longest_way=ways.longest(),
-        row=_row(course, (head, seen_head), tail, (block, speeds, filled), give),
+        row=_row(course, (head, seen_head), tail, (block, speeds, (filled - 1, filled - 1 - min(k, 1))), give),
     )
 
 
@@ -225,14 +227,13 @@ def _row(
     course: Course,
     head: tuple[Station, list[Seen]],
     low: Station,
-    rows: tuple[FloatArray, FloatArray, int],
+    rows: tuple[FloatArray, FloatArray, tuple[int, int]],
     give: Give | None,
 ) -> Row:
     """The belt at the end as a row of masses, its rates by differences over the last step; `rows` are the blocks of
-    twice the tensions and of the speeds, which go round, and how many of their rows are filled."""
+    twice the tensions and of the speeds, and which of their rows are those of the last step and of the one before."""
     (top, top_seen), step = head, course.step
-    doubled, inside, filled = rows
-    now, then = (filled - 1) % _BLOCK, (filled - 2) % _BLOCK
+    doubled, inside, (now, then) = rows
 
     def speeds(back: int, row: int) -> FloatArray:
         seen = top_seen[-min(back, len(top_seen))]
