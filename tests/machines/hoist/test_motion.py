@@ -210,6 +210,49 @@ def test_lift_off_under_a_bridge_with_mass() -> None:
     assert structures[0].criterion.value == pytest.approx(1.4)
 
 
+def rise_by_steps(shape: str, rise: float, end: float) -> float:
+    """F_max/Q of 5 t that a drive of 18 t lifts off by 1.3 of their weight, which rises smoothly."""
+    m, m1, k, q = 5000.0, 18000.0, 1.2e6, 5000 * G
+
+    def share(t: float) -> float:
+        u = min(t / rise, 1.0)
+        if shape == "cosine":
+            return (1 - math.cos(math.pi * u)) / 2
+        return 2 * u**2 if u < 0.5 else 1 - 2 * (1 - u) ** 2
+
+    def rate(t: float, x: np.ndarray, lifted: bool) -> list[float]:
+        force = k * (x[0] - x[2])
+        return [x[1], (1.3 * q * share(t) - force) / m1, x[3], (force - q) / m if lifted else 0.0]
+
+    def off(t: float, x: np.ndarray, lifted: bool) -> float:
+        return float(k * x[0] - q)
+
+    off.terminal, off.direction = True, 1  # type: ignore[attr-defined]
+    first = solve_ivp(
+        rate, (0, 9), np.zeros(4), "DOP853", rtol=1e-12, atol=1e-13, events=off, args=(False,), max_step=0.01
+    )
+    second = solve_ivp(
+        rate, (first.t[-1], end), first.y[:, -1], "DOP853", rtol=1e-12, atol=1e-13, args=(True,), dense_output=True,
+        max_step=0.01,
+    )  # fmt: skip
+    y = second.sol(np.linspace(first.t[-1], end, 400_001))
+    return float((y[0] - y[2]).max()) * k / q
+
+
+@pytest.mark.parametrize("shape", ["cosine", "parabolic"])
+def test_the_bar_of_a_smooth_rise_holds_an_integration(shape: str) -> None:
+    """The program follows chords of the rise; the run with half as many tells how far they are off."""
+    profile = {"shape": shape, "time": "1.5 s", "control": "torque"}
+    data = reduced(5000.0, 18000.0, 1.2e6, 5.0, 1.3 * 5000 * G, {"type": "lift", "rope": "taut", "profile": profile})
+    spec = hoist_of(data)
+    case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
+    truth = rise_by_steps(shape, 1.5, case.window)
+    found = load_of(played(data), "lift_off_factor").estimate
+    assert found.low <= truth <= found.high
+    assert abs(found.value - truth) < found.numerical < 30 * abs(found.value - truth)
+    assert found.numerical < 1e-3
+
+
 def test_massless_structure_is_a_spring_in_series() -> None:
     data = reduced(5000.0, 18000.0, 1.2e6, 0.25, 4 * 5000 * G, {"type": "lift"}, structure={"stiffness": "4.8e6 N/m"})
     series = 1 / (1 / 1.2e6 + 1 / 4.8e6)

@@ -40,9 +40,10 @@ def hauled(spec: Hoist, scene: Moving) -> Hauled:
     return Hauled(stiffness * length, length, damping, one.weight / (stiffness * length))
 
 
-def haul(spec: Hoist, scene: Moving) -> Haul:
-    """Drive, structure and load of a scene."""
-    one, train = case(spec, scene), case(spec, scene).train
+def haul(spec: Hoist, scene: Moving, coarser: Case | None = None) -> Haul:
+    """Drive, structure and load of a scene; `coarser` is its case with fewer chords of a smooth rise."""
+    one = coarser or case(spec, scene)
+    train = one.train
     arm, turns = travel(spec, scene), ratio(spec) / travel(spec, scene)
     motor = train.bodies[_index(one, "body", MOTOR)]
     drum = train.bodies[_index(one, "body", DRUM)]

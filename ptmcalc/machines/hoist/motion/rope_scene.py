@@ -79,9 +79,11 @@ class Course:
         return max(self.top(values), self.top(-values))
 
 
-def play(spec: Hoist, scene: Moving, rope: Rod | Hauled, window: float, finer: float) -> Course:
+def play(
+    spec: Hoist, scene: Moving, rope: Rod | Hauled, window: float, finer: float, coarser: Case | None = None
+) -> Course:
     """One run over a window."""
-    haul = rope_case.haul(spec, scene)
+    haul = rope_case.haul(spec, scene, coarser)
     march = March(haul, rope, finer)
     played = march.play(window, _LEAST_PANELS + _MOST_TIMES * _panels(march, window))
     if not played.panels:
@@ -215,7 +217,10 @@ def result(spec: Hoist, scene: Moving, rope: Rod | Hauled, level: int) -> Result
     case = replace(case, window=window)
     other = play(spec, scene, rope, window, _COMPARED * finer)
     own, beside = readings(scene, case, course), readings(scene, case, other)
-    found = motion.with_bars(scene, case, own, [beside], _UNSEEN)
+    chords = None
+    if case.coarser:
+        chords = readings(scene, case.coarser, play(spec, scene, rope, window, finer, case.coarser))
+    found = motion.with_bars(scene, case, own, [beside], chords, _UNSEEN)
     if isinstance(scene, Lift) and not case.weak and not math.isfinite(course.first("lift")):
         # a strong drive that has not lifted yet: what a longer look would show is not known
         forces = {name for name, one in found.items() if math.isfinite(one.estimate.value)}

@@ -210,13 +210,19 @@ def _of_the_stop(course: Course) -> Readings:
 # -- bars -----------------------------------------------------------------------------------------------------------
 
 
-def loads(scene: Moving, course: Course, others: tuple[Course, ...]) -> dict[str, Found]:
-    """The loads of a run, with bars from others that divide time otherwise."""
-    return with_bars(scene, course.case, readings(scene, course), [readings(scene, other) for other in others])
+def loads(scene: Moving, course: Course, others: tuple[Course, ...], coarser: Course | None = None) -> dict[str, Found]:
+    """The loads of a run, with bars from others that divide time otherwise and from one with fewer chords."""
+    compared, chords = [readings(scene, other) for other in others], readings(scene, coarser) if coarser else None
+    return with_bars(scene, course.case, readings(scene, course), compared, chords)
 
 
 def with_bars(
-    scene: Moving, case: Case, own: Readings, compared: Sequence[Readings], unseen: float = _UNSEEN
+    scene: Moving,
+    case: Case,
+    own: Readings,
+    compared: Sequence[Readings],
+    coarser: Readings | None = None,
+    unseen: float = _UNSEEN,
 ) -> dict[str, Found]:
     """Loads with bars from those of runs that divide time otherwise.
 
@@ -224,19 +230,18 @@ def with_bars(
 
     Without a nonlinear torque all runs are exact and what differs is rounding; with one, stretches 0.7 and 0.85 times
     as long have errors 25 and 4 times as small or as large (the ninth power), so two runs differ by nearly the larger
-    error. Added is what reading a signal may miss.
+    error. Added is what reading a signal may miss, and the difference to a run with half as many chords of a smooth
+    rise: it is three times the error of the chords, which is of second order.
     """
-    apart: dict[str, float] = {}
-    for name, (value, _) in own.items():
-        differences = [abs(value - other[name][0]) for other in compared if math.isfinite(other[name][0])]
-        if math.isfinite(value) and len(differences) == len(compared):
-            apart[name] = max(differences, default=0.0)
+    apart, chords = _apart(own, compared), _apart(own, [coarser] if coarser else [])
+    if coarser:
+        apart = {name: apart[name] + chords[name] / _MARGIN for name in apart.keys() & chords.keys()}
     shares = {kind: _share(own, apart, kind) for kind in (_FORCES, _LENGTHS)}
     found = {}
     for name, (value, time) in own.items():
         at = {"time": time} if time is not None else {}
         if name not in apart:
-            same = all(other[name][0] == value for other in compared)
+            same = all(other[name][0] == value for other in (*compared, *([coarser] if coarser else [])))
             found[name] = Found(Estimate.exact(value) if same else Estimate.unknown(value), at)
             continue
         kind = next((kind for kind in shares if name in kind), None)
@@ -249,6 +254,16 @@ def with_bars(
     if not isinstance(scene, Lift):
         found["rope_force_share"] = over(found["rope_force_min"], weight)
     return _named_by_scene(scene, found)
+
+
+def _apart(own: Readings, others: Sequence[Readings]) -> dict[str, float]:
+    """Largest difference of each load from those of other runs, where all of them know it."""
+    apart: dict[str, float] = {}
+    for name, (value, _) in own.items():
+        differences = [abs(value - other[name][0]) for other in others if math.isfinite(other[name][0])]
+        if math.isfinite(value) and len(differences) == len(others):
+            apart[name] = max(differences, default=0.0)
+    return apart
 
 
 def _named_by_scene(scene: Moving, found: dict[str, Found]) -> dict[str, Found]:
@@ -300,10 +315,11 @@ def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> floa
 def cost(case: Case, level: int) -> float:
     """Seconds predicted of a run and those it is compared with: what rings, as long as it has to be looked at, and a
     few events."""
+    runs = 2 if case.coarser is None else 3
     if case.smooth:
         ringing = price.RADIAN * price.radians(case.train, case.window)
-        return 4e-3 + 2 * (ringing + 5e-3) * (1 + level / 2)
-    return 4e-3 + 2 * (price.linear(case.train, case.window) + 5e-3)
+        return 4e-3 + runs * (ringing + 5e-3) * (1 + level / 2)
+    return 4e-3 + runs * (price.linear(case.train, case.window) + 5e-3)
 
 
 def spent(course: Course) -> float:
@@ -336,7 +352,8 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         case = replace(case, window=longer)
         course = play(case, tolerance)
     others = tuple(play(case, tolerance, refined) for refined in (_COMPARED if case.smooth else _COMPARED[:1]))
-    found = loads(scene, course, others)
+    coarser = play(replace(case.coarser, window=case.window), tolerance) if case.coarser else None
+    found = loads(scene, course, others, coarser)
     found = ringing_on(case, course.system, course.record, found)
     if case.left_weight <= LEAST_LEFT * case.weight:
         found = _with_a_hook(found, case)

@@ -70,8 +70,9 @@ LONGEST = 600.0
 """Longest window of a scene [s]; a numerical choice. A larger value follows slower hoists and takes longer; a smaller
 one reports more loads without an error bar."""
 _PIECES = 64
-"""Straight pieces of a smooth rise; a numerical choice. A cosine rise deviates by at most 1.5e-4 of its end value, a
-parabolic one by less. The error falls with the square of the number; time grows with it."""
+"""Chords of a smooth rise; a numerical choice. A cosine rise deviates by at most 1.5e-4 of its end value, a parabolic
+one by less. The error falls with the square of the number; time grows with it. A run with half as many tells it."""
+_CURVED = ("cosine", "parabolic")
 _LOOKED_AT = 2001
 """Speeds at which the maximum of a torque curve is searched; a numerical choice. More find a narrow maximum more
 closely and take longer."""
@@ -105,6 +106,8 @@ class Case:
     """whether the scene is a lift by a drive whose largest force is less than the load's"""
     ringing: float = 0.0
     """time to observe after the last event [s]"""
+    coarser: "Case | None" = None
+    """the same with half as many chords of the smooth rise; None where nothing is replaced by chords"""
 
     def named(self, what: str, name: str) -> int | None:
         """Index of a body, link, mesh, grip or drive of this name."""
@@ -155,12 +158,16 @@ class _Key:
 
 @remembered(128)
 def _case(key: _Key) -> Case:
-    return _Builder(key.spec, key.scene, key.carried).case()
+    fine = _Builder(key.spec, key.scene, key.carried, _PIECES).case()
+    scene = key.scene
+    if not (isinstance(scene, Lift | Start) and scene.profile.shape in _CURVED and scene.profile.rise_time > 0):
+        return fine
+    return replace(fine, coarser=_Builder(key.spec, key.scene, key.carried, _PIECES // 2).case())
 
 
 class _Builder:
-    def __init__(self, spec: Hoist, scene: Moving, carried: frozenset[str]) -> None:
-        self.spec, self.scene = spec, scene
+    def __init__(self, spec: Hoist, scene: Moving, carried: frozenset[str], pieces: int) -> None:
+        self.spec, self.scene, self.pieces = spec, scene, pieces
         self.arm, self.ratio = travel(spec, scene), ratio(spec)
         self.stiffness = model.hook_stiffness(spec, model.hook_height(scene))
         self.before = model.hook_mass(spec, scene)
@@ -412,7 +419,7 @@ class _Builder:
             return [(point.time, point.share) for point in profile.points]
         if profile.shape == "ramp":
             return [(0.0, 0.0), (time, 1.0)]
-        times = np.linspace(0.0, time, _PIECES + 1)
+        times = np.linspace(0.0, time, self.pieces + 1)
         shares = start_profile.rise(profile.rise, time, times)
         return list(zip(times.tolist(), shares.tolist(), strict=True))
 
