@@ -32,19 +32,14 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.model import (
-    DAMPING_THRESHOLD,
-    TRAVEL_THRESHOLD,
-    belt_line,
-    belt_travel,
-    damping_change,
-    starting_force,
-)
+from ptmcalc.machines.conveyor.model import belt_line, starting_force
 from ptmcalc.machines.conveyor.motion import AFTER_START, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.waves import network
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects import damping, idlers, moving_belt, takeup
+from ptmcalc.machines.conveyor.waves.effects.damping import DAMPING_THRESHOLD, damping_change
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import TRAVEL_THRESHOLD, belt_travel
 
 ON_TRIAL = {"conveyor": ("takeup_mass", "viscous_idlers", "coulomb_idlers", "belt_damping", "moving_belt")}
 KIND = load_kind("conveyor")

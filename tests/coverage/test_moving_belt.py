@@ -14,11 +14,12 @@ import pytest
 from support.conveyors import random_conveyor, text
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.model import TRAVEL_THRESHOLD, belt_line, belt_travel
+from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.waves import network
 from ptmcalc.machines.conveyor.waves.effects import moving_belt
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import TRAVEL_THRESHOLD, belt_travel
 
 CELLS = 240
 MOST_ROUNDS = 16

@@ -14,12 +14,13 @@ from ptmcalc.contract.result import Finding, Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import StartCase, delay_lines_do, plainness, slides_at_rest, start_case
 from ptmcalc.machines.conveyor.motion import AFTER_START
+from ptmcalc.machines.conveyor.plain_start import delay_lines_do, plainness, slides_at_rest
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, start_case
 from ptmcalc.machines.conveyor.traction.slip import slip_loads
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.after_start import MODES, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.last_motions import Kept
 from ptmcalc.numerics import loop, peaks, sagging, strand
@@ -152,7 +153,7 @@ def _surely_as_low(case: StartCase, motions: list[loop.Motion]) -> dict[str, flo
     lows = [[min(low, motion.back_min.value) for low, motion in zip(off, motions, strict=True)]]
     lows.append([motion.carry_min.value for motion in motions])
     back, carry = (2 * max(values) - min(values) for values in lows)
-    return {"tension_min": min(back, carry)} | bounds.derived_loads(case.line, math.inf, (back, carry))
+    return {"tension_min": min(back, carry)} | tension_loads.derived_loads(case.line, math.inf, (back, carry))
 
 
 def _beyond_range(name: str, found: Found, sure: dict[str, float]) -> Found:
@@ -344,9 +345,9 @@ def _loads(case: StartCase, motion: loop.Motion, bars: _Bars) -> dict[str, Found
         "tension_min": Found(smallest, bottom),
     }
     states = (
-        bounds.derived_loads(line, largest.value, tuple(part.value for part in lows)),
-        bounds.derived_loads(line, largest.high, tuple(part.low for part in lows)),
-        bounds.derived_loads(line, largest.low, tuple(part.high for part in lows)),
+        tension_loads.derived_loads(line, largest.value, tuple(part.value for part in lows)),
+        tension_loads.derived_loads(line, largest.high, tuple(part.low for part in lows)),
+        tension_loads.derived_loads(line, largest.low, tuple(part.high for part in lows)),
     )
     for name in states[0]:
         where = top if name == "belt_safety_min" else bottom
@@ -434,7 +435,7 @@ def _drive_force(case: StartCase, motion: loop.Motion, bar: float) -> dict[str, 
     force, when = motion.largest(
         case.line.drive_mass * case.drum_acceleration(motion.times) + motion.run_on - motion.run_off
     )
-    spread = [bounds.drive_loads(case, force + side * bar) for side in (0, -1, 1)]
+    spread = [drive_loads(case, force + side * bar) for side in (0, -1, 1)]
     return {name: Found(_spread(*(part[name] for part in spread)), {"time": when}) for name in spread[0]}
 
 

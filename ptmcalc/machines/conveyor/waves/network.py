@@ -20,19 +20,16 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import moving_mass
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE, SLIPS, ways_of
-from ptmcalc.machines.conveyor.model import (
-    FloatArray,
-    belt_line,
-    belt_travel,
-    delay_lines_do,
-    start_case,
-)
+from ptmcalc.machines.conveyor.model import FloatArray, belt_line
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
+from ptmcalc.machines.conveyor.plain_start import delay_lines_do
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
-from ptmcalc.machines.conveyor.waves import bounds, cell_bars, deep_sag
+from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.waves import cell_bars, deep_sag, start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.after_start import MODES, Ending, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.cell_loads import OneGrid, Values, loads_of
 from ptmcalc.machines.conveyor.waves.cells import Set, rubber_of, set_up
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import belt_travel
 from ptmcalc.machines.conveyor.waves.last_motions import Kept
 from ptmcalc.numerics.belt.march import Drawn, march
 from ptmcalc.numerics.belt.station import Seen
@@ -523,7 +520,7 @@ def _may_slip(spec: Conveyor, scene: ConveyorScene) -> bool:
     """Whether the drive of a plain start may come to the limit of its grip."""
     assert isinstance(scene, Start)
     case = start_case(spec, scene)
-    used = bounds.enclosed_loads(case, bounds.enclose(case, 0.0)).get("slip_utilisation_max")
+    used = start_intervals.enclosed_loads(case, start_enclosure.enclose(case, 0.0)).get("slip_utilisation_max")
     return used is not None and used.high >= 1
 
 

@@ -16,7 +16,7 @@ from ptmcalc.machines.conveyor.spec import (
     Stop,
 )
 from ptmcalc.machines.conveyor.stopping.rigid import GearChange, changing_sides
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, moved_by
 
 GEAR_THRESHOLD = 0.001
@@ -65,7 +65,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     for name, load in loads.items():
         kind = family(name)
         used = loads.get(name.replace(kind, "slip_utilisation_max", 1))
-        if kind in bounds.OF_GRIP and used is not None and used.low >= 1:
+        if kind in load_errors.OF_GRIP and used is not None and used.low >= 1:
             found.pop(name, None)
         if kind in OF_STOP and math.isfinite(load.value):
             by = _GEAR_MARGIN * (change.time if kind == "stop_time" else change.way)
