@@ -18,7 +18,6 @@ from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, loa
 from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.resistances import extra_forces, filled
 from ptmcalc.machines.conveyor.spec import (
-    Backstop,
     Coast,
     Conveyor,
     ConveyorScene,
@@ -137,7 +136,7 @@ def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: i
     found = _exactly({"backstop_torque": torque})
     if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
         return found
-    return replace(found, failures=(runs_back("CNV109", "belt", torque, Backstop.model_fields["reserve"].default),))
+    return replace(found, failures=(runs_back("CNV109", "belt", torque),))
 
 
 def _rest(spec: Conveyor, scene: Hold) -> float:
