@@ -257,6 +257,14 @@ def _is_loaded(scene: ConveyorScene, part: Section) -> bool:
     return {"full": True, "empty": False, "uphill": part.lift > 0, "downhill": part.lift < 0}[scene.load]
 
 
+def special_resistance(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Forces with a name along both strands [N]."""
+    extra = extra_forces(spec, load_line_mass(spec))
+    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
+    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
+    return carry + extra.along("return", loaded=False)
+
+
 def load_line_mass(spec: Conveyor) -> float:
     """Load per length of the full carry strand [kg/m]."""
     if spec.load.mass is not None:

@@ -16,9 +16,9 @@ from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE, ways_of
 from ptmcalc.machines.conveyor.model import loop_masses
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, rounds
+from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration, rigid_stop
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:

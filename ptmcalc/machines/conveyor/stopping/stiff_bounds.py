@@ -49,8 +49,8 @@ from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
+from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Stopping
-from ptmcalc.machines.conveyor.stopping.rigid import rigid_stop
 
 FloatArray = NDArray[np.float64]
 

@@ -14,7 +14,6 @@ from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
-from ptmcalc.machines.conveyor.running.loads import hollows
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.numerics.free_waves import Row, swings
 
@@ -145,7 +144,7 @@ class _After:
         needed = line.tail_pull + self._together((CARRY, -1), (RETURN, 0), (1.0, -1.0))
         worst["starting_force_needed"] = needed
         worst["starting_reserve"] = starting_force(self.spec) / needed if needed > 0 else math.inf
-        for curve in hollows(self.spec):
+        for curve in self.spec.route.hollows:
             touched = np.abs(_X * line.carry.length - curve.place) <= curve.tangent + line.carry.length / len(_X)
             worst[of("tension_curve_max", str(curve.number))] = float(self.most[CARRY, touched].max())
         return worst | dict(self._of_drives())

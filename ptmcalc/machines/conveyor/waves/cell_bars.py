@@ -36,7 +36,7 @@ from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor.loads import GRIP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_RETURN, OneGrid, Values
 from ptmcalc.numerics import peaks

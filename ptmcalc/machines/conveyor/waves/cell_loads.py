@@ -12,7 +12,6 @@ from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
 from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.running.loads import hollows
 from ptmcalc.machines.conveyor.spec import Start
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.numerics import peaks
@@ -106,7 +105,7 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     high, lowest = max(highs), min(lows)
     values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
-    for curve in hollows(case.spec):
+    for curve in case.spec.route.hollows:
         values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
     for name, value in tension_loads.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
         values[name] = value, {}

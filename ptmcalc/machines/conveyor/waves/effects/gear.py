@@ -15,7 +15,7 @@ from ptmcalc.machines.conveyor.spec import (
     EmergencyStop,
     Stop,
 )
-from ptmcalc.machines.conveyor.stopping.rigid import GearChange, changing_sides
+from ptmcalc.machines.conveyor.stopping.gear_losses import GearChange, changing_sides
 from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, moved_by
 
@@ -35,7 +35,7 @@ def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 
     **Range** any stop; 0 where the belt does not stop.
     **Error** that of the integration, below 1e-4.
-    **Source** power through a gear: losses are on the driven side (`stopping.rigid.changing_sides`).
+    **Source** power through a gear: losses are on the driven side (`stopping.gear_losses.changing_sides`).
     """
     meaning = "change of the stopping time by the side of the gear losses"
     return Criterion("dt/t", _gear_change(spec, scene).relative, GEAR_THRESHOLD, meaning, "gear losses")
@@ -55,7 +55,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
     **Range** any stop.
     **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
-    **Source** `stopping.rigid.changing_sides`.
+    **Source** `stopping.gear_losses.changing_sides`.
     """
     change = _gear_change(spec, scene)
     if not change.force:

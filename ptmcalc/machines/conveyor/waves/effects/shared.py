@@ -8,6 +8,7 @@ from ptmcalc.contract.result import family
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
 from ptmcalc.machines.conveyor.model import BeltLine, grips
 from ptmcalc.machines.conveyor.plain_start import slides_at_rest
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     Conveyor,
     ConveyorScene,
@@ -15,7 +16,6 @@ from ptmcalc.machines.conveyor.spec import (
     Stopping,
 )
 from ptmcalc.machines.conveyor.start_case import StartCase, start_case
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
 from ptmcalc.machines.conveyor.waves import load_errors, start_enclosure
 from ptmcalc.machines.conveyor.waves.load_errors import Change
 

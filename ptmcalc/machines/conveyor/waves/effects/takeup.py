@@ -4,6 +4,7 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.machines.conveyor.drives import moving_mass, running
 from ptmcalc.machines.conveyor.model import BeltLine
 from ptmcalc.machines.conveyor.plain_start import inertia_of_weight, takeup_numbers
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
@@ -11,7 +12,6 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
 )
 from ptmcalc.machines.conveyor.start_case import start_case
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, moved_by, slides_first
 from ptmcalc.machines.conveyor.waves.load_errors import Change
 

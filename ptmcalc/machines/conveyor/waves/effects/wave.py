@@ -7,6 +7,7 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.plain_start import is_plain
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
@@ -17,7 +18,6 @@ from ptmcalc.machines.conveyor.spec import (
 )
 from ptmcalc.machines.conveyor.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
 from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.idlers import slides_on, speed_bound
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import travel_bound
