@@ -32,19 +32,14 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.conveyor.model import (
-    DAMPING_THRESHOLD,
-    TRAVEL_THRESHOLD,
-    belt_line,
-    belt_travel,
-    damping_change,
-    starting_force,
-)
+from ptmcalc.machines.conveyor.model import belt_line, starting_force
 from ptmcalc.machines.conveyor.motion import AFTER_START, moving
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.waves import network
+from ptmcalc.machines.conveyor.waves import cell_loads, cell_runs, network
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects import damping, idlers, moving_belt, takeup
+from ptmcalc.machines.conveyor.waves.effects.damping import DAMPING_THRESHOLD, damping_change
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import TRAVEL_THRESHOLD, belt_travel
 
 ON_TRIAL = {"conveyor": ("takeup_mass", "viscous_idlers", "coulomb_idlers", "belt_damping", "moving_belt")}
 KIND = load_kind("conveyor")
@@ -162,7 +157,7 @@ def _machine(name: str, rng: np.random.Generator) -> Conveyor:
             return spec
 
 
-def _exactly(values: network.Values) -> dict[str, Estimate]:
+def _exactly(values: cell_loads.Values) -> dict[str, Estimate]:
     return {name: Estimate.exact(value) for name, (value, _) in values.items()}
 
 
@@ -172,7 +167,7 @@ def trial_of(name: str, number: int) -> Trial:
     (scene,) = spec.all_scenes
     case = moving(spec, scene)
     full = ALWAYS | ({name} if name != "coulomb_idlers" else set())
-    fine, coarse = (network._marched(case, full, cells, True, CELLS).values for cells in (CELLS, CELLS // 2))
+    fine, coarse = (cell_runs.marched(case, full, cells, True, CELLS).values for cells in (CELLS, CELLS // 2))
     apart = {load: 3 * abs(value - coarse[load][0]) for load, (value, _) in fine.items()}
     known = {load: Estimate.within(value, apart[load]) for load, (value, _) in fine.items()}
     if name == "coulomb_idlers":
@@ -180,7 +175,7 @@ def trial_of(name: str, number: int) -> Trial:
         claims = claim_within(plan, spec, CHARACTERISTICS, CHARACTERISTICS.always | {"tail_jump", "tail_mass"}, 1)
         truth = known
     else:
-        bare = _exactly(network._marched(case, full - {name}, CELLS, True, CELLS).values)
+        bare = _exactly(cell_runs.marched(case, full - {name}, CELLS, True, CELLS).values)
         offsets = SMALL[name].bound(spec, scene, bare)
         claims = {load: one.widened(offsets.get(load, Interval(0.0, 0.0))) for load, one in bare.items()}
         truth = _exactly(fine)

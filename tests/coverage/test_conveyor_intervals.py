@@ -16,8 +16,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.engine.run import Settled, settle
-from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor
+from ptmcalc.machines.conveyor.start_case import start_case
 from ptmcalc.machines.conveyor.starting.rigid import RIGID
 from ptmcalc.machines.conveyor.waves.two_interval import TWO_INTERVAL
 

@@ -16,8 +16,9 @@ from support.machines import loaded
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.registry import load_kind
+from ptmcalc.machines.conveyor.holding.solver import HOLDING
 from ptmcalc.machines.conveyor.running.statics import STATICS
-from ptmcalc.machines.conveyor.stopping.formulas import BRAKING, HOLDING, IDENTIFY
+from ptmcalc.machines.conveyor.stopping.formulas import BRAKING, IDENTIFY
 from ptmcalc.spec.machine import MachineSpec
 
 WITHOUT_BARS = {"conveyor": ("statics", "brake_statics", "holding", "run_out", "gear_losses")}

@@ -12,8 +12,8 @@ import pytest
 from support.belt_scenes import Brake, Drive, Rig
 from support.sagging_scenes import swing
 
-from ptmcalc.machines.conveyor.model import DAMPING_THRESHOLD
 from ptmcalc.machines.conveyor.waves.effects import damping
+from ptmcalc.machines.conveyor.waves.effects.damping import DAMPING_THRESHOLD
 
 ELEMENTS = 160
 PITCHES = (1.2, 3.0)

@@ -14,11 +14,12 @@ import pytest
 from support.conveyors import random_conveyor, text
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.conveyor.model import TRAVEL_THRESHOLD, belt_line, belt_travel
+from ptmcalc.machines.conveyor.model import belt_line
 from ptmcalc.machines.conveyor.motion import moving
 from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.waves import network
+from ptmcalc.machines.conveyor.waves import cell_runs
 from ptmcalc.machines.conveyor.waves.effects import moving_belt
+from ptmcalc.machines.conveyor.waves.effects.moving_belt import TRAVEL_THRESHOLD, belt_travel
 
 CELLS = 240
 MOST_ROUNDS = 16
@@ -66,7 +67,7 @@ def _changes(scene: str, seed: int) -> Iterator[Change]:
     if not 0 < case.window < MOST_ROUNDS * case.line.contour_time:
         return
     still, moves = (
-        network._marched(case, carried, CELLS, True, CELLS).values for carried in (CARRIED, CARRIED | {"moving_belt"})
+        cell_runs.marched(case, carried, CELLS, True, CELLS).values for carried in (CARRIED, CARRIED | {"moving_belt"})
     )
     loads = {name: Estimate.exact(value) for name, (value, _) in still.items()}
     allowed = moving_belt.travel_bound(spec, case.scene, loads)

@@ -16,7 +16,7 @@ from support.machines import spec_of
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.waves import network
+from ptmcalc.machines.conveyor.waves import cell_runs, network
 
 ON_TRIAL = {"conveyor": ("network", "running_network")}
 KIND = load_kind("conveyor")
@@ -67,8 +67,8 @@ def cases_of(seeds: range, most_contours: float) -> list[Case]:
         carried = EFFECTS | ({"takeup_mass"} if "mass" in data["takeup"] else set())
         carried |= {"moving_belt"} if runs else set()
         claims = {name: one.estimate for name, one in network.run(spec, scene, carried, 0).loads.items()}
-        values = network._marched(
-            case, carried, network._grids(scene, 0)[0] * FINER, True, network._grids(scene, 0)[0] * FINER
+        values = cell_runs.marched(
+            case, carried, cell_runs.grids_of(scene, 0)[0] * FINER, True, cell_runs.grids_of(scene, 0)[0] * FINER
         ).values
         fine = {name: value for name, (value, _) in values.items()}
         known = {name: Estimate.exact(value) for name, value in fine.items()}

@@ -30,9 +30,9 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT
-from ptmcalc.machines.conveyor.model import start_case
 from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.waves import start_intervals
 from ptmcalc.machines.conveyor.waves.characteristics import CHARACTERISTICS
 from ptmcalc.machines.conveyor.waves.effects import sag, tail
 
@@ -158,7 +158,7 @@ def _small_sag(data: dict, rng: np.random.Generator) -> dict:
     for _ in range(30):
         data["takeup"]["tension"] = text((low * high) ** 0.5, "N")
         spec = Conveyor.model_validate(data)
-        softening = bounds.largest_softening(start_case(spec, spec.all_scenes[0]))
+        softening = start_intervals.largest_softening(start_case(spec, spec.all_scenes[0]))
         low, high = ((low * high) ** 0.5, high) if softening > target else (low, (low * high) ** 0.5)
     data["takeup"]["tension"] = text(high, "N")
     return data

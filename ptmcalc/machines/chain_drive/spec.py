@@ -8,6 +8,7 @@ from pydantic import Field
 from ptmcalc.base import units
 from ptmcalc.base.memory import kept_for
 from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.laws import chain_selection, sprocket
 from ptmcalc.machines.chain_drive.chain_data import (
@@ -71,7 +72,7 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the sprocket shaft"""
-    reserve: Annotated[FactorFromOne, Limit()] = 1.25
+    reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 

@@ -1,18 +1,51 @@
-"""What the tensions of a chain do to it: safety, pressure in the joints, fatigue."""
+"""Dynamic tension of an evenly running chain, and what tensions do to it: safety, pressure in the joints, fatigue."""
 
 import math
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.laws import chain_fatigue, chain_selection
+from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import ChainLine, breaking_load, ends_at_tail
-from ptmcalc.machines.chain_drive.polygon.excitation import QUIET, Answer
 from ptmcalc.machines.chain_drive.spec import ChainDrive
 
+SAFETY = {ConveyorLayout: (10.0, 7.0), TwoShafts: (7.0, 5.0)}
+"""Required safety factors by default, static and in steady running [1]: for traction chains of the handbook range 7 to
+10, for drives DIN 8195:1977. Larger values require a stronger chain."""
 OF_TENSION = frozenset(
     {"tension_design", "tension_min", "safety_dynamic", "joint_pressure", "stress_amplitude", "fatigue_utilisation"}
 )
 """Loads that move with the dynamic tension."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tail:
+    """Largest and smallest dynamic tension of the working and of the return strand at the tail [N]."""
+
+    working_largest: Estimate
+    working_smallest: Estimate
+    back_largest: Estimate
+    back_smallest: Estimate
+
+
+QUIET = Tail(*(4 * (Estimate.exact(0.0),)))
+"""A tail behind which nothing vibrates, or at which the far end is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """Largest and smallest dynamic tension of steady running at run-on, far end and tail [N], and the most they can
+    be."""
+
+    largest: Estimate
+    smallest: Estimate
+    far_largest: Estimate
+    far_smallest: Estimate
+    tail: Tail
+    bound: float
+    place: float | None
+
 
 AT_REST = Answer(*(4 * (Estimate.exact(0.0),)), tail=QUIET, bound=0.0, place=None)
 """A chain that runs evenly."""

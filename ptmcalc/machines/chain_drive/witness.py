@@ -18,10 +18,7 @@ from ptmcalc.machines.chain_drive.model import FloatArray, chain_line, ends_at_t
 from ptmcalc.machines.chain_drive.polygon.excitation import (
     FAR,
     POLYGON,
-    QUIET,
     WEAK,
-    Answer,
-    Tail,
     excites_far,
     far_place,
     mass_of_drive,
@@ -29,7 +26,7 @@ from ptmcalc.machines.chain_drive.polygon.excitation import (
     undamped,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
+from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
 from ptmcalc.numerics.harmonic.parts import FREE, KELVIN_VOIGT, ON_SPROCKET, Chain, Line
 
 _PIECES = (30, 60, 120)

@@ -5,21 +5,18 @@ along it by the idlers' resistance, by the lift of belt and load, and at the tai
 these are given as a force.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.base.memory import kept_for, remembered
-from ptmcalc.contract.effect import Criterion
-from ptmcalc.laws import belt_modes, capstan, inertia, loop_bounds, motor, start_profile, wave
+from ptmcalc.base.memory import kept_for
+from ptmcalc.laws import inertia, motor, wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
 from ptmcalc.machines.conveyor.brakes import braked_shafts
 from ptmcalc.machines.conveyor.keys.route import Section
-from ptmcalc.machines.conveyor.loads import FREQUENCIES
-from ptmcalc.machines.conveyor.resistances import extra_forces, filled, idler_friction
+from ptmcalc.machines.conveyor.resistances import Extra, extra_forces, filled, idler_friction
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Drive, Start, Stopping
 from ptmcalc.numerics import lanes
 
@@ -174,59 +171,17 @@ def belt_line(spec: Conveyor, scene: ConveyorScene) -> BeltLine:
 
 def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[bool]) -> BeltLine:
     """The conveyor in a scene with the sections of `filling` loaded."""
-    g, route = spec.gravity, spec.route
-    flat = route.inclination == "small_angle"
     given = spec.resistance
-    grown = 1.0
-    if isinstance(scene, Start):
-        grown = filled(given.start_factor)
-    elif isinstance(scene, Stopping):
-        grown = stop_factor(spec)
-
-    parts = route.parts
-    cosines = [1.0 if flat else part.cosine for part in parts]
     loads = [load_line_mass(spec) if full else 0.0 for full in filling]
-    extra, span = extra_forces(spec, load_line_mass(spec)), route.span
-
-    def strand(carries: bool) -> Strand:
-        uphill = 1 if carries else -1
-        row, over = (spec.idlers.carry, "carry") if carries else (spec.idlers.back, "return")
-        marks, friction, climb, masses, goes, spans = [0.0], [0.0], [0.0], [], [], []
-        for part, cosine, load in zip(parts[::uphill], cosines[::uphill], loads[::uphill], strict=True):
-            on_it = spec.belt.mass + (load if carries else 0.0)
-            pitch = (part.carry_pitch if carries else None) or row.pitch
-            idlers = row.mass_at(pitch)
-            main = idler_friction(spec, grown, carries, on_it, idlers, cosine, pitch)
-            marks.append(marks[-1] + part.length)
-            special = extra.along(over, carries and load > 0) / span
-            friction.append(friction[-1] + (main + special) * part.length)
-            climb.append(climb[-1] + uphill * on_it * g * part.lift)
-            masses.append(on_it + idlers)
-            goes.append(on_it / (on_it + idlers))
-            if pitch is not None:
-                spans.append(on_it * cosine * g * pitch)
-        mean = sum(mass * part.length for mass, part in zip(masses, parts[::uphill], strict=True)) / marks[-1]
-        known = len(spans) == len(parts)
-        masses_all_one = lanes.alike(masses)
-        return Strand(
-            masses[0] if masses_all_one else mean,
-            max(spans) if known else None,
-            tuple(marks),
-            tuple(friction),
-            tuple(climb),
-            tuple(masses),
-            tuple(goes),
-            tuple(spans) if known else (),
-        )
-
-    drum, shafts = spec.main_drive.drum, braked_shafts(spec, scene)
+    extra, drum = extra_forces(spec, load_line_mass(spec)), spec.main_drive.drum
+    shafts = braked_shafts(spec, scene)
     return BeltLine(
-        gravity=g,
+        gravity=spec.gravity,
         speed=spec.speed,
         stiffness=belt_stiffness(spec),
         belt_line_mass=spec.belt.mass,
-        carry=strand(carries=True),
-        back=strand(carries=False),
+        carry=_strand(spec, scene, loads, extra, carries=True),
+        back=_strand(spec, scene, loads, extra, carries=False),
         tail_force=(given.secondary_force or 0.0) + extra.at_tail(filling[0]),
         drive_mass=sum(drive_mass(drive, driven=name in shafts) for name, drive in spec.all_drives.items()),
         tail_mass=filled(spec.tail_drum.inertia) * 4 / (spec.tail_drum.diameter or drum.diameter) ** 2,
@@ -239,148 +194,57 @@ def belt_line_filled(spec: Conveyor, scene: ConveyorScene, filling: Sequence[boo
     )
 
 
+def _strand(spec: Conveyor, scene: ConveyorScene, loads: Sequence[float], extra: Extra, *, carries: bool) -> Strand:
+    """The carrying or the return strand with the load of each section [kg/m], summed up section by section."""
+    route, grown = spec.route, _scene_factor(spec, scene)
+    uphill = 1 if carries else -1
+    row, over = (spec.idlers.carry, "carry") if carries else (spec.idlers.back, "return")
+    marks, friction, climb, masses, goes, spans = [0.0], [0.0], [0.0], [], [], []
+    for part, load in zip(route.parts[::uphill], loads[::uphill], strict=True):
+        cosine = 1.0 if route.inclination == "small_angle" else part.cosine
+        on_it = spec.belt.mass + (load if carries else 0.0)
+        pitch = (part.carry_pitch if carries else None) or row.pitch
+        idlers = row.mass_at(pitch)
+        main = idler_friction(spec, grown, carries, on_it, idlers, cosine, pitch)
+        marks.append(marks[-1] + part.length)
+        special = extra.along(over, carries and load > 0) / route.span
+        friction.append(friction[-1] + (main + special) * part.length)
+        climb.append(climb[-1] + uphill * on_it * spec.gravity * part.lift)
+        masses.append(on_it + idlers)
+        goes.append(on_it / (on_it + idlers))
+        if pitch is not None:
+            spans.append(on_it * cosine * spec.gravity * pitch)
+    mean = sum(mass * part.length for mass, part in zip(masses, route.parts[::uphill], strict=True)) / marks[-1]
+    known = len(spans) == len(route.parts)
+    return Strand(
+        masses[0] if lanes.alike(masses) else mean,
+        max(spans) if known else None,
+        tuple(marks),
+        tuple(friction),
+        tuple(climb),
+        tuple(masses),
+        tuple(goes),
+        tuple(spans) if known else (),
+    )
+
+
+def _scene_factor(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Idler resistance in a scene relative to that in steady running."""
+    if isinstance(scene, Start):
+        return filled(spec.resistance.start_factor)
+    return stop_factor(spec) if isinstance(scene, Stopping) else 1.0
+
+
 def stop_factor(spec: Conveyor) -> float:
     """Resistance during a stop relative to that in motion; the assumption fills it in where a file has stops."""
     given = spec.resistance.stop_factor
     return 1.0 if given is None else given
 
 
-def is_plain(spec: Conveyor, scene: ConveyorScene) -> bool:
-    """Whether a scene is a start of a uniform belt on one slope by one drive."""
-    return not plainness(spec, scene).exceeded
-
-
-SPEED_SHARE_THRESHOLD = 0.05
-"""Share of the idler resistance that is proportional to the speed [1] from which on it is simulated. An engineering
-choice. Below it the error bar is at most 15 % of the idler resistance in a start; in other scenes it is 60 %, and 10 %
-of the lowest tensions and the worst traction of a stop."""
-
-
-def delay_lines_do(spec: Conveyor, scene: Start) -> bool:
-    """Whether strands that are pure delays carry all of a start: nothing sticks, turns back or damps on the way, and no
-    weight swings."""
-    steady = spec.resistance.speed_share < SPEED_SHARE_THRESHOLD
-    damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
-    slides = scene.belt == "frozen" and not (spec.effects.get("coulomb_idlers") != "off" and thrown_back(spec, scene))
-    light = not spec.takeup_weight or takeup_inertia(spec, scene) < 1
-    return is_plain(spec, scene) and slides and light and steady and not damped
-
-
-def takeup_inertia(spec: Conveyor, scene: Start) -> float:
-    """Inertia of the take-up weight in a start relative to the threshold of its effect.
-
-        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive
-
-    **Range** a gravity take-up with the weight that its tension requires.
-    **Error** an estimate: w_1 is a lower bound of the lowest natural frequency.
-    **Source** take-up weight on two falls; thresholds are an engineering choice.
-    """
-    line = belt_line(spec, scene)
-    return inertia_of_weight(spec, line, start_case(spec, scene).excess)
-
-
-def inertia_of_weight(spec: Conveyor, line: BeltLine, force: float) -> float:
-    """`takeup_inertia` for a force on the drive drum alone [N]."""
-    kappa, drum = takeup_numbers(spec, line, force)
-    return max(kappa / 0.1, drum / spec.gravity / 0.03)
-
-
-def takeup_numbers(spec: Conveyor, line: BeltLine, force: float) -> tuple[float, float]:
-    """kappa [1], and the acceleration of the drum alone under a force [m/s^2]."""
-    slowest = math.pi / (2 * line.contour_time)
-    kappa = line.takeup_tension * slowest / (2 * spec.gravity * line.impedance(RETURN))
-    return kappa, force / line.drive_mass
-
-
-_SHARP = 0.75
-"""Rise of an imposed speed relative to the longest period of the waves [1] from which on no part of the belt turns
-back. Calibrated: none of 600 random belts turned back above 0.57. A larger value simulates stick-slip more often; a
-smaller one loses the safety."""
-
-
 def grips(spec: Conveyor) -> dict[str, float]:
     """mu alpha of every drum whose friction is given [1]."""
     drums = {name: drive.drum for name, drive in spec.all_drives.items()}
     return {name: drum.friction * drum.wrap for name, drum in drums.items() if drum.friction is not None}
-
-
-def thrown_back(spec: Conveyor, scene: Start) -> bool:
-    """Whether an imposed speed rises so sharply that waves may turn some of the belt back.
-
-        t_rise w_1/(2 pi) < 0.75
-
-    **Range** one drive; a force never turns the belt back that it starts.
-    **Error** w_1 is a lower bound. A uniform loop turns back below 0.39 (ramp), 0.5 (cosine); of 600 random ones none
-    did above 0.57.
-    **Source** residual of a rise at the free end of a quarter-wave, 4/pi times that of an oscillator.
-    """
-    case = start_case(spec, scene)
-    if not case.imposed_speed:
-        return False
-    return case.rise_time * lowest_frequency(case) < _SHARP * 2 * math.pi
-
-
-DAMPING_THRESHOLD = 0.001
-"""Change of the complex frequency of the slowest wave [1] from which on damping is simulated. An engineering choice: an
-oscillation loses 0.3 %, the fifth echo 3 %. Below it the error bar is at most 19 % of the amplitude times (1 + n)^(1/2)
-for n contour times."""
-
-
-TRAVEL_THRESHOLD = 0.03
-"""Belt speed relative to that of its slowest wave [1] from which on convection is simulated. An engineering choice;
-theory of moving strings requires no smaller one. Below it the error bar is at most 12 % of half the tension range in a
-start, 30 % in a stop and 60 % in a jam."""
-
-
-def belt_travel(line: BeltLine) -> float:
-    """Speed of the belt over that of its slowest wave, v/c."""
-    return line.speed / wave.wave_speed(line.stiffness, max(*line.carry.masses, *line.back.masses))
-
-
-def damping_change(spec: Conveyor, line: BeltLine) -> float:
-    """Change by damping of the frequency of a wave as slow as the slowest of a uniform loop, w = pi/(2 T)."""
-    return spec.belt.damping.change(math.pi / (2 * line.contour_time)) if spec.belt.damping else 0.0
-
-
-@kept_for(64)
-def slides_at_rest(spec: Conveyor, scene: Start) -> Criterion:
-    """Whether the drum cannot hold the belt that lies with the friction of its running frozen in it.
-
-        U_0 = S_tight/(S_slack exp(mu alpha)),   0 without friction given, or where slip is forced off
-
-    Such a belt slides back on its drum before it starts, and the friction of its idlers turns round.
-
-    **Range** one drive.
-    **Error** exact.
-    **Source** Euler-Eytelwein.
-    """
-    line = belt_line(spec, scene)
-    used = 0.0
-    if line.grip_exponent is not None and spec.effects.get("slip") != "off":
-        tight, slack = max(line.run_on, line.run_off), min(line.run_on, line.run_off)
-        used = float(capstan.slip_utilisation(tight, slack, 0.0, line.grip_exponent))
-    meaning = "traction utilisation at standstill: at 1 the belt slips on its pulley before it starts"
-    return Criterion("U_0", used, 1.0, meaning, "laws.capstan")
-
-
-@kept_for(64)
-def plainness(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Whether a solver of the plain start can take the machine.
-
-        n = slopes and loads along a strand + drives + 1 for an aborted start, + 1 for a motor's curve or a table
-
-    A relaxed belt is taken as one with the running friction frozen in it; the effect `coulomb_idlers` says by how much.
-
-    **Range** any start.
-    **Error** exact: a count.
-    **Source** the plain start has one of each, n = 2.
-    """
-    line = belt_line(spec, scene)
-    parts = max(1 if strand.even else len(strand.masses) for strand in (line.carry, line.back))
-    unusual = isinstance(scene, Start) and (scene.aborted is not None) + (scene.profile.shape in ("curve", "table"))
-    count = parts + len(spec.all_drives) + unusual
-    meaning = "slopes, drives, aborted starts, curves and tables: 2 for one slope and one drive"
-    return Criterion("n", count, 3, meaning, "count")
 
 
 def filling_of(spec: Conveyor, scene: ConveyorScene) -> list[bool]:
@@ -391,6 +255,14 @@ def filling_of(spec: Conveyor, scene: ConveyorScene) -> list[bool]:
 def _is_loaded(scene: ConveyorScene, part: Section) -> bool:
     """Whether a section carries load in a scene."""
     return {"full": True, "empty": False, "uphill": part.lift > 0, "downhill": part.lift < 0}[scene.load]
+
+
+def special_resistance(spec: Conveyor, scene: ConveyorScene) -> float:
+    """Forces with a name along both strands [N]."""
+    extra = extra_forces(spec, load_line_mass(spec))
+    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
+    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
+    return carry + extra.along("return", loaded=False)
 
 
 def load_line_mass(spec: Conveyor) -> float:
@@ -447,79 +319,6 @@ def starting_force(spec: Conveyor) -> float:
     return sum(drive_force(drive) for drive in spec.all_drives.values())
 
 
-@dataclass(frozen=True, slots=True)
-class StartCase:
-    """A start as numbers: the line, what the drive imposes, and the rigid body's answer.
-
-    The drum is held (by friction, brake or backstop) until the drive's force exceeds the static resistance, so the
-    force over it, `excess`, starts from 0 under a ramp and at once under a step.
-    """
-
-    line: BeltLine
-    masses: LoopMasses
-    shape: start_profile.Shape
-    rise_time: float
-    imposed_speed: bool
-    available_force: float
-    acceleration: float
-    held: float
-    window: float
-    damped: bool = False
-    """whether the belt damps: its waves are those of an elastic one at most, and may be less"""
-
-    @property
-    def rise(self) -> float:
-        """How long force or speed still rise after the belt is released, within the window [s]."""
-        return min(self.rise_time - self.held, self.window)
-
-    @property
-    def moves(self) -> bool:
-        """Whether the drive can move the belt at all."""
-        return self.imposed_speed or self.available_force > self.line.static_resistance
-
-    @property
-    def excess(self) -> float:
-        """Largest force of the drive over the static resistance that comes to act [N], M a."""
-        return self.acceleration * self.masses.total_mass
-
-    def force(self, time: FloatArray) -> FloatArray:
-        """Force over the static resistance at times after the belt is released [N]."""
-        full = start_profile.rise(self.shape, self.rise_time, time + self.held)
-        return np.maximum(self.available_force * full - self.line.static_resistance, 0.0)
-
-    def drum_speed(self, time: FloatArray) -> FloatArray:
-        """Imposed speed of the drum [m/s]."""
-        return self.line.speed * start_profile.rise(self.shape, self.rise_time, time)
-
-    def drum_acceleration(self, time: FloatArray) -> FloatArray:
-        """Rate of the imposed speed of the drum [m/s^2]."""
-        return self.line.speed * start_profile.rise_rate(self.shape, self.rise_time, time)
-
-    def phases(self, lowest_frequency: float) -> tuple[start_profile.Phase, ...]:
-        """Bounds on the answer of every mode of at least this frequency [rad/s], relative to the plateau's.
-
-        Of a torque that rises through the static resistance only the part above it acts, and only until the rated
-        speed is reached: a part of a ramp is a ramp, a part of anything else is only known to rise. A resistance that
-        drives acts at once, as a step.
-        """
-        if not self.moves:
-            return (start_profile.Phase(0.0, 0.0, 0.0),)
-        if self.imposed_speed or self.shape == start_profile.STEP:
-            return start_profile.phases(self.shape, self.imposed_speed, self.rise_time, lowest_frequency)
-        if self.shape not in (start_profile.STEP, start_profile.RAMP) and self.rise < self.rise_time:
-            return (start_profile.Phase(0.0, 1.0, 1.0),)
-        at_once = max(-self.line.static_resistance / self.excess, 0.0)
-        rising = start_profile.phases(self.shape, False, self.rise, lowest_frequency)
-        return tuple(
-            start_profile.Phase(
-                at_once + (1 - at_once) * phase.low,
-                at_once + (1 - at_once) * phase.high,
-                at_once + (1 - at_once) * phase.stray,
-            )
-            for phase in rising
-        )
-
-
 def loop_masses(line: BeltLine, imposed: bool) -> LoopMasses:
     """The loop as masses on a line, its drum driven by a force or at an imposed speed."""
     return LoopMasses(
@@ -532,52 +331,3 @@ def loop_masses(line: BeltLine, imposed: bool) -> LoopMasses:
         fixed_length=line.fixed_length,
         imposed_speed=imposed,
     )
-
-
-@kept_for(64)
-def start_case(spec: Conveyor, scene: Start) -> StartCase:
-    """A start of this conveyor.
-
-    The window of a torque start ends when the rigid body reaches the rated speed; that of an imposed speed four
-    contour times after the end of the profile, which is a period of the lowest mode of a uniform loop.
-    """
-    line = belt_line(spec, scene)
-    profile = scene.profile
-    imposed = profile.imposes_speed
-    masses = loop_masses(line, imposed)
-    rise_time = profile.rise_time
-    available = starting_force(spec)
-    if imposed:
-        acceleration = line.speed * start_profile.peak_rate(profile.rise, rise_time)
-        window = rise_time + 4 * line.contour_time
-        held = 0.0
-    else:
-        acceleration = held = window = 0.0
-        if available > line.static_resistance:
-            rise, resistance = profile.rise, line.static_resistance
-            held = float(start_profile.time_of_share(rise, rise_time, resistance / available))
-            needed = masses.total_mass * line.speed
-            window = float(start_profile.time_to_momentum(rise, rise_time, available, resistance, held, needed))
-            reached = available * float(start_profile.rise(profile.rise, rise_time, held + window))
-            acceleration = (reached - line.static_resistance) / masses.total_mass
-    damped = spec.belt.damping is not None and spec.effects.get("belt_damping") != "off"
-    return StartCase(line, masses, profile.rise, rise_time, imposed, available, acceleration, held, window, damped)
-
-
-@kept_for(64)
-def lowest_frequency(case: StartCase) -> float:
-    """Lower bound of every natural frequency of the belt in a start [rad/s]."""
-    return loop_bounds.lowest_frequency_bound(case.masses)
-
-
-@remembered(64)
-def natural_frequencies(masses: LoopMasses, takeup_mass: float) -> tuple[float, ...]:
-    """The lowest natural frequencies of a belt [rad/s], which no tension and no resistance changes."""
-    return tuple(belt_modes.natural_frequencies(masses, takeup_mass, FREQUENCIES).tolist())
-
-
-def start_duration(case: StartCase) -> float:
-    """Duration of the start of the rigid body, from switching on [s]; infinite when it cannot move."""
-    if case.imposed_speed:
-        return case.rise_time
-    return case.held + case.window if case.moves else math.inf

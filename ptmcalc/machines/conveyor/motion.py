@@ -9,8 +9,8 @@ import numpy as np
 from ptmcalc.laws import capstan, start_profile
 from ptmcalc.machines.conveyor.drives import along_curve, at_rest, pull, rigid_curve_start, rigid_start, running, share
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force
+from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Start, Stop, Stopping
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration, rigid_stop
 from ptmcalc.numerics.belt.station import Torque
 
 _CONTOURS = 2.0

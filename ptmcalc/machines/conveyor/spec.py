@@ -8,6 +8,7 @@ from pydantic import Field
 from ptmcalc.base.memory import kept_for
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.drive import Gear, Motor
+from ptmcalc.components.run_back import USUAL_RESERVE
 from ptmcalc.components.start import Profile
 from ptmcalc.laws.sag import DEEPEST
 from ptmcalc.machines.conveyor.keys.belt import Belt, Idlers, Load, Transitions
@@ -93,7 +94,7 @@ class Backstop(Fragment):
 
     torque: PositiveTorque
     """what it holds, on the drum shaft of the head"""
-    reserve: Annotated[FactorFromOne, Limit()] = 1.25
+    reserve: Annotated[FactorFromOne, Limit()] = USUAL_RESERVE
     """rated torque over the torque it must hold; 1.25 to 1.75 in practice"""
 
 

@@ -15,12 +15,12 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.brakes import braked_shafts, brakes_of, braking
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_NETWORK, PER_DRIVE
 from ptmcalc.machines.conveyor.model import FloatArray, Strand, drive_force, drive_mass
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, Moving, moving
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Start
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.network import CELLS
 from ptmcalc.witness import belt
 from ptmcalc.witness.belt import Length, Motion, Plan, Roller
@@ -228,7 +228,7 @@ def _readings(case: Moving, motion: Motion) -> Readings:
     between = [np.array(spot.between) for spot in (head, motion.tail)]
     high = max(*map(float, highs), float(tail_off.max()), *(float(one.max()) for one in between))
     found |= {"tension_max": high, "tension_min": min(*lows, *(float(one.min()) for one in between))}
-    found |= bounds.derived_loads(line, high, lows)
+    found |= tension_loads.derived_loads(line, high, lows)
     for at, tensions, spot in (("head", between[0], head), ("tail", between[1], motion.tail)):
         names = [name for name, drive in case.spec.all_drives.items() if drive.at == at]
         for j, name in enumerate(names):

@@ -1,6 +1,6 @@
 """Scenes in which a loaded chain that climbs can run back."""
 
-from ptmcalc.contract.effect import Criterion
+from ptmcalc.components.run_back import checked_elsewhere, rollback_scene
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import ChainDrive, ChainScene, Hold, Run, Start, Stopping
 
@@ -11,12 +11,11 @@ def asks_for_hold(spec: ChainDrive, scene: ChainScene) -> bool:
     Each `backstop` scene is. Without one it is, of a conveyor that climbs, the first loaded scene that ends at rest or
     begins with less than the full torque; of a file without scenes, the loaded run.
     """
-    loaded = [one for one in spec.all_scenes if one.load == "full"]
-    if isinstance(scene, Hold) or any(isinstance(one, Hold) for one in loaded):
-        return isinstance(scene, Hold)
+    if isinstance(scene, Hold):
+        return True
     if not isinstance(spec.layout, ConveyorLayout) or spec.layout.lift <= 0:
         return False
-    return scene == next((one for one in loaded if _can_run_back(spec, one)), None)
+    return scene == rollback_scene(spec.all_scenes, ("full",), Hold, lambda one: _can_run_back(spec, one))
 
 
 def _can_run_back(spec: ChainDrive, scene: ChainScene) -> bool:
@@ -25,12 +24,4 @@ def _can_run_back(spec: ChainDrive, scene: ChainScene) -> bool:
     return isinstance(scene, Stopping) or (spec.scenes is None and isinstance(scene, Run))
 
 
-def elsewhere(spec: ChainDrive, scene: ChainScene) -> Criterion:
-    """Whether the rollback torque is checked in other scenes only: 1, else 0.
-
-    **Range** any scene.
-    **Error** exact.
-    **Source** `asks_for_hold`.
-    """
-    meaning = "0 in the scene in which the rollback torque is checked, else 1"
-    return Criterion("rollback", float(not asks_for_hold(spec, scene)), 1.0, meaning, "the scenes of the file")
+elsewhere = checked_elsewhere(asks_for_hold)

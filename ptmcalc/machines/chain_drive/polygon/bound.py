@@ -6,9 +6,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.chain_drive.model import chain_line, ends_at_tail
-from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, QUIET, WEAK, Answer, Tail, answer_bound
+from ptmcalc.machines.chain_drive.polygon.excitation import FAR, POLYGON, WEAK, answer_bound
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
-from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
+from ptmcalc.machines.chain_drive.strength import OF_TENSION, QUIET, Answer, Tail, loads_of_tension
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:

@@ -9,8 +9,8 @@ from ptmcalc.contract.check import Check, LimitState, Sense, at, blames, no_need
 from ptmcalc.machines.chain_drive.model import tension_key
 from ptmcalc.machines.chain_drive.polygon.excitation import POLYGON, WEAK
 from ptmcalc.machines.chain_drive.polygon.resonances import resonances
-from ptmcalc.machines.chain_drive.selection.checks import SAFETY
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.strength import SAFETY
 
 Loads = Mapping[str, Estimate]
 RUNNING = frozenset({Run})

@@ -25,6 +25,7 @@ from ptmcalc.machines.chain_drive.model import (
     vibrating,
 )
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.strength import QUIET, Answer, Tail
 from ptmcalc.numerics.harmonic import parts
 from ptmcalc.numerics.harmonic.inside import Extremes, joint_forces, joint_response
 from ptmcalc.numerics.harmonic.parts import Chain, Excitation
@@ -39,35 +40,6 @@ _EXACT = 1e-5
 """Relative difference of a tooth harmonic and a natural frequency [1] below which an undamped chain is in resonance. A
 numerical choice. A larger value reports more speeds without a bound; a smaller one gives very large tensions
 instead."""
-
-
-@dataclass(frozen=True, slots=True)
-class Tail:
-    """Largest and smallest dynamic tension of the working and of the return strand at the tail [N]."""
-
-    working_largest: Estimate
-    working_smallest: Estimate
-    back_largest: Estimate
-    back_smallest: Estimate
-
-
-_NONE = Estimate.exact(0.0)
-QUIET = Tail(_NONE, _NONE, _NONE, _NONE)
-"""A tail behind which nothing vibrates, or at which the far end is."""
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """Largest and smallest dynamic tension of steady running at run-on, far end and tail [N], and the most they can
-    be."""
-
-    largest: Estimate
-    smallest: Estimate
-    far_largest: Estimate
-    far_smallest: Estimate
-    tail: "Tail"
-    bound: float
-    place: float | None
 
 
 def residual(spec: ChainDrive) -> float:
@@ -199,8 +171,8 @@ def answer(spec: ChainDrive, scene: Run, carried: frozenset[str], count: int) ->
     return Answer(
         _estimate(on.largest, on.largest_low, on.largest_high),
         _estimate(on.smallest, on.smallest_low, on.smallest_high),
-        _estimate(far.largest, far.largest_low, far.largest_high) if far else _NONE,
-        _estimate(far.smallest, far.smallest_low, far.smallest_high) if far else _NONE,
+        _estimate(far.largest, far.largest_low, far.largest_high) if far else Estimate.exact(0.0),
+        _estimate(far.smallest, far.smallest_low, far.smallest_high) if far else Estimate.exact(0.0),
         Tail(*(one for side in inside for one in _of_joint(side))) if inside else QUIET,
         float(max(bound[0] for bound in bounds)),
         float(on.place[0]) if on.place is not None else None,

@@ -9,14 +9,12 @@ from ptmcalc.contract.check import Check, Sense, at, blames, no_needs, no_repair
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout, TwoShafts
 from ptmcalc.machines.chain_drive.model import tail_teeth
 from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
+from ptmcalc.machines.chain_drive.strength import SAFETY
 
 Loads = Mapping[str, Estimate]
 RUNNING = frozenset({Run})
 
 _BREAKING = ("chain", "breaking_load")
-SAFETY = {ConveyorLayout: (10.0, 7.0), TwoShafts: (7.0, 5.0)}
-"""Required safety factors by default, static and in steady running [1]: for traction chains of the handbook range 7 to
-10, for drives DIN 8195:1977. Larger values require a stronger chain."""
 _TEETH = {ConveyorLayout: 6, TwoShafts: 17}
 """Minimum number of teeth by default: 6 for conveyor chains (ISO 1977:2006), 17 for drives (ISO 10823:2004). A smaller
 number accepts a larger polygon effect."""

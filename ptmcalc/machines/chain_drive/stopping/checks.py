@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
+from ptmcalc.components.run_back import held_torque, rollback_check
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
 from ptmcalc.machines.chain_drive.holding.scenes import asks_for_hold
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.spec import (
-    Backstop,
     ChainDrive,
     ChainScene,
     Coast,
@@ -253,9 +253,7 @@ def _hold_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
     **Error** none: a chosen reserve; the losses of the gear, which help to hold, are left out.
     **Source** practice: reserve 1.25 to 1.75.
     """
-    if spec.backstop is None:
-        return Estimate.exact(_closed(spec) / Backstop.model_fields["reserve"].default)
-    return Estimate.exact((spec.backstop.torque + _closed(spec)) / spec.backstop.reserve)
+    return held_torque(spec.backstop, _closed(spec))
 
 
 def _closed(spec: ChainDrive) -> float:
@@ -274,25 +272,17 @@ def _hold_key(spec: ChainDrive) -> KeyPath:
     return ("brake", "torque") if _closed(spec) > 0 else ("backstop",)
 
 
-HELD: Check[ChainDrive, ChainScene] = Check(
-    code="CHN129",
-    title="chain rollback torque",
-    question="Is the rollback torque of the stopped loaded chain held by friction or the backstop?",
-    failure="rollback torque exceeds what the backstop may hold",
-    limit_state=LimitState("loaded chain runs back"),
-    scenes=_STOPS | {Hold, Start, Run},
-    each=lambda spec, scene: (replace(HELD, each=None),) if asks_for_hold(spec, scene) else (),
-    loads=("backstop_torque",),
-    sense=Sense.AT_MOST,
-    limit=_hold_limit,
-    needs=no_needs,
-    blame=lambda spec, scene, loads: _hold_key(spec),
-    repair=lambda spec, scene: _hold_key(spec) if len(_hold_key(spec)) > 1 else (),
+HELD = rollback_check(
+    "CHN129",
+    "chain",
+    _STOPS | {Hold, Start, Run},
+    asks_for_hold,
+    _hold_limit,
+    _hold_key,
     what="Friction, the backstop and the closed brake hold the rollback torque of the loaded chain with the reserve of"
     " the backstop, 1.25 by default.",
     why="A conveyor that rolls back buries its tail, drives the motors backward and breaks off its flights.",
     formula="(q_G g H - W_friction at its lowest) R <= (M_backstop + M_brake i)/reserve",
-    source="lecture notes Kramatorsk 2007",
 )
 
 CHECKS_OF_STOPS: tuple[AnyCheck, ...] = (WAY, TIME, TORQUE, SLACK, STRENGTH, HELD)

@@ -15,7 +15,6 @@ from ptmcalc.machines.chain_drive.holding.scenes import elsewhere
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import ChainLine, FloatArray, chain_line, mean_arm, natural_frequencies, radius
 from ptmcalc.machines.chain_drive.spec import (
-    Backstop,
     ChainDrive,
     ChainScene,
     Coast,
@@ -247,7 +246,7 @@ def hold(spec: ChainDrive, scene: ChainScene, carried: frozenset[str], level: in
     force = line.back.weight + line.working.weight - friction
     torque = float(stopping.backstop_torque(force, 2 * mean_arm(spec), 1.0))
     loose = torque > 0 and spec.backstop is None and spec.brake is None
-    failures = (runs_back("CHN129", "chain", torque, Backstop.model_fields["reserve"].default),) if loose else ()
+    failures = (runs_back("CHN129", "chain", torque),) if loose else ()
     return Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1, failures=failures)
 
 

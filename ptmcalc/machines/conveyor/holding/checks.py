@@ -1,15 +1,11 @@
 """Check of the rollback torque of the stopped belt."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
-
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs
+from ptmcalc.components.run_back import held_torque, rollback_check
 from ptmcalc.machines.conveyor.brakes import braking
 from ptmcalc.machines.conveyor.holding.scenes import asks_for_hold
 from ptmcalc.machines.conveyor.spec import (
-    Backstop,
     Coast,
     Conveyor,
     ConveyorScene,
@@ -19,9 +15,6 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stop,
 )
-
-Loads = Mapping[str, Estimate]
-Checks = Iterable[AnyCheck]
 
 
 def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
@@ -35,9 +28,7 @@ def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
     """
     closed = sum(braking(spec, brake).force for brake in spec.brakes.values() if brake.at == "head")
     held = closed * spec.main_drive.drum.diameter / 2
-    if spec.backstop is None:
-        return Estimate.exact(held / Backstop.model_fields["reserve"].default)
-    return Estimate.exact((held + spec.backstop.torque) / spec.backstop.reserve)
+    return held_torque(spec.backstop, held)
 
 
 def _holding_key(spec: Conveyor) -> KeyPath:
@@ -48,23 +39,15 @@ def _holding_key(spec: Conveyor) -> KeyPath:
     return ("backstop", "torque") if spec.backstop else ("backstop",)
 
 
-BACKSTOP: Check[Conveyor, ConveyorScene] = Check(
-    code="CNV109",
-    title="belt rollback torque",
-    question="Is the rollback torque of the stopped loaded belt held by friction or the backstop?",
-    failure="rollback torque exceeds what the backstop may hold",
-    limit_state=LimitState("loaded belt runs back"),
-    scenes=frozenset({Hold, Stop, EmergencyStop, Coast, Start, Run}),
-    loads=("backstop_torque",),
-    sense=Sense.AT_MOST,
-    limit=_backstop_limit,
-    needs=no_needs,
-    each=lambda spec, scene: (replace(BACKSTOP, each=None),) if asks_for_hold(spec, scene) else (),
-    blame=lambda spec, scene, loads: _holding_key(spec),
-    repair=lambda spec, scene: _holding_key(spec) if spec.backstop or spec.brakes else (),
+BACKSTOP = rollback_check(
+    "CNV109",
+    "belt",
+    frozenset({Hold, Stop, EmergencyStop, Coast, Start, Run}),
+    asks_for_hold,
+    _backstop_limit,
+    _holding_key,
     what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"
     " torque is at most the torque of backstop and brakes, divided by the reserve.",
     why="A belt that rolls back buries its tail and drives the motors backward.",
     formula="(climb of the load - idler friction at rest) D/2 <= (M_backstop + M_brakes)/reserve",
-    source="lecture notes Kramatorsk 2007",
 )

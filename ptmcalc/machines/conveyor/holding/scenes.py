@@ -1,7 +1,7 @@
 """Scenes in which a loaded belt that climbs can run back."""
 
 from ptmcalc.base.memory import kept_for
-from ptmcalc.contract.effect import Criterion
+from ptmcalc.components.run_back import checked_elsewhere, rollback_scene
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Hold, Run, Start, Stopping
 
 AT_REST = 0.5
@@ -22,19 +22,10 @@ def asks_for_hold(spec: Conveyor, scene: ConveyorScene) -> bool:
 
 @kept_for(64)
 def _asked_in(spec: Conveyor) -> ConveyorScene | None:
-    """The scene in which the rollback torque is checked without a `backstop` scene.
-
-    Of a belt that climbs, it is the first loaded scene that ends at rest or begins with less than the full torque; of a
-    file without scenes, the loaded run.
-    """
-    loaded = [one for one in spec.all_scenes if one.load in ("full", "uphill")]
-    for one in loaded:
-        if isinstance(one, Hold):
-            return None
-    for part in spec.route.parts:
-        if part.lift > 0:
-            return next((one for one in loaded if _can_run_back(spec, one)), None)
-    return None
+    """The scene in which the rollback torque of a belt that climbs is checked without a `backstop` scene."""
+    if not any(part.lift > 0 for part in spec.route.parts):
+        return None
+    return rollback_scene(spec.all_scenes, ("full", "uphill"), Hold, lambda scene: _can_run_back(spec, scene))
 
 
 def _can_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:
@@ -44,12 +35,4 @@ def _can_run_back(spec: Conveyor, scene: ConveyorScene) -> bool:
     return isinstance(scene, Stopping) or (spec.scenes is None and isinstance(scene, Run))
 
 
-def elsewhere(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Whether the rollback torque is checked in other scenes only: 1, else 0.
-
-    **Range** any scene.
-    **Error** exact.
-    **Source** `asks_for_hold`.
-    """
-    meaning = "0 in the scene in which the rollback torque is checked, else 1"
-    return Criterion("rollback", float(not asks_for_hold(spec, scene)), 1.0, meaning, "the scenes of the file")
+elsewhere = checked_elsewhere(asks_for_hold)

@@ -4,8 +4,8 @@ from ptmcalc.base import units
 from ptmcalc.contract.result import LoadInfo
 from ptmcalc.contract.topic import Topic
 from ptmcalc.machines.conveyor.holding.checks import BACKSTOP
+from ptmcalc.machines.conveyor.holding.solver import HOLDING
 from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.stopping.formulas import HOLDING
 
 LOADS = (LoadInfo("backstop_torque", "rollback torque, drive pulley shaft", units.TORQUE, governing=True),)
 

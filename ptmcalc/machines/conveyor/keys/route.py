@@ -120,6 +120,11 @@ class Route(Fragment):
             if part.curve_radius is not None and part.slope != before.slope
         )
 
+    @property
+    def hollows(self) -> list[Curve]:
+        """The concave curves whose radius is given."""
+        return [curve for curve in self.curves if curve.hollow]
+
 
 @kept_for(64)
 def _one_slope(route: Route) -> tuple[Section, ...]:

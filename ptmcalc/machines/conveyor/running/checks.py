@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, no_needs, only
-from ptmcalc.machines.conveyor.keys.takeup import blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.governing_keys import blame_tension, takeup_tension
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs, strength_key
 from ptmcalc.machines.conveyor.spec import (
     ANY_MOTION,

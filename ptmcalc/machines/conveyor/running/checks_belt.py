@@ -11,7 +11,7 @@ from ptmcalc.machines.conveyor.keys.belt import Transition
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import breaking_force
 from ptmcalc.machines.conveyor.running.belt_safety import safety_limit, safety_needs
-from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data, hollows
+from ptmcalc.machines.conveyor.running.loads import bent, has_drum_data
 from ptmcalc.machines.conveyor.spec import IN_MOTION, Conveyor, ConveyorScene, Jam, Run
 from ptmcalc.numerics.lanes import value
 
@@ -225,7 +225,7 @@ def _lift_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
     **Error** a belt without bending stiffness.
     **Source** `laws.vertical_curve.lift_off_tension`.
     """
-    return Estimate.exact(min((_lift_off(spec, curve) for curve in hollows(spec)), default=math.inf))
+    return Estimate.exact(min((_lift_off(spec, curve) for curve in spec.route.hollows), default=math.inf))
 
 
 def _lift_off(spec: Conveyor, curve: Curve) -> float:
@@ -235,7 +235,7 @@ def _lift_off(spec: Conveyor, curve: Curve) -> float:
 
 
 def _lift_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
-    for curve in hollows(spec):
+    for curve in spec.route.hollows:
         key = curve_key(curve)
         yield LIFT.of(str(curve.number), _given(_lift_off(spec, curve)), key, repair=key)
 

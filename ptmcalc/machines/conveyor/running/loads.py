@@ -42,7 +42,7 @@ def static_parts(spec: Conveyor) -> Iterator[LoadInfo]:
         "drum_diameter_required": list(spec.all_drives),
         "sag_carry": sections,
         "sag_return": sections,
-        "tension_curve_max": [str(curve.number) for curve in hollows(spec)],
+        "tension_curve_max": [str(curve.number) for curve in spec.route.hollows],
         "fibre_tension_max": across,
         "fibre_tension_min": across,
     }
@@ -123,11 +123,6 @@ def _sags(spec: Conveyor, line: BeltLine) -> dict[str, float]:
 # -- over all fillings of the belt ----------------------------------------------------------------------------------
 
 
-def hollows(spec: Conveyor) -> list[Curve]:
-    """The concave curves whose radius is given."""
-    return [curve for curve in spec.route.curves if curve.hollow]
-
-
 @dataclass(frozen=True, slots=True)
 class Fillings:
     """The carry strand over all choices of loaded sections: the empty belt, what the load of each section adds to the
@@ -182,7 +177,7 @@ def _places(spec: Conveyor, place: Curve | Transition, name: str) -> FloatArray:
 def _curves(spec: Conveyor, loads: Fillings) -> dict[str, float]:
     """Largest tension in each hollow, whatever is loaded."""
     found = {}
-    for curve in hollows(spec):
+    for curve in spec.route.hollows:
         _, most = loads.at(_places(spec, curve, ""))
         found[of("tension_curve_max", str(curve.number))] = number(most.max())
     return found

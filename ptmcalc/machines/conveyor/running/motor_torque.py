@@ -1,11 +1,10 @@
 """Steady running on the torque curves of the motors: reserve of all drives, torque of each motor over its rated one."""
 
-from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.memory import kept_for
-from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
-from ptmcalc.contract.effect import Criterion
-from ptmcalc.contract.result import Found, Result, of
-from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.base.span import KeyPath
+from ptmcalc.components.steady_drive import Motors
+from ptmcalc.components.steady_drive_checks import SteadyMotors, steady_loads, steady_solver
+from ptmcalc.contract.result import Result
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Run, Start
@@ -39,37 +38,21 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
     **Error** exact; with different curves one part in a million.
     **Source** derived: equilibrium on the torque curves (`components.steady_drive`).
     """
-    motors = motors_of(spec)
     line = running(spec, Run(load=scene.load))
-    resistance = line.static_resistance + line.tail_pull
-    loads = {"steady_reserve": steady_reserve(list(motors.values()), resistance, spec.speed)}
-    torques = motor_torques(list(motors.values()), resistance, spec.speed)
-    for (name, one), torque in zip(motors.items(), torques, strict=True):
-        if one.curve.rated is not None:
-            loads[of("motor_utilisation", name)] = abs(torque) / one.curve.rated
-    return Result({name: Found(Estimate.exact(value)) for name, value in loads.items()}, work=1)
+    return steady_loads(motors_of(spec), line.static_resistance + line.tail_pull, spec.speed)
 
 
-def has_curve(spec: Conveyor, scene: ConveyorScene) -> Criterion:
-    """Whether each motor has a curve: 0 where it has, else 1.
-
-    **Range** any machine.
-    **Error** exact.
-    **Source** the file.
-    """
-    lacks = not motors_of(spec)
-    return Criterion("curve", float(lacks), 1.0, "0 where the file gives each motor a curve, else 1", "the file")
+def _curve_key(spec: Conveyor, name: str) -> KeyPath:
+    path = spec.drive_path(name) if name else spec.main_path
+    return (*path, "motor", "curve")
 
 
-STEADY_DRIVE: Solver[Conveyor, ConveyorScene] = Solver(
-    name="steady_drive",
-    title="steady running on the motor curves",
-    fidelity=Fidelity.FORMULA,
-    scenes=frozenset({Run, Start}),
-    represents=frozenset(),
-    gives=frozenset({"steady_reserve", "motor_utilisation"}),
-    run=run,
-    cost=lambda spec, scene, carried, level: 5e-3,
-    valid=has_curve,
-    source="equilibrium on the torque curves",
+MOTORS: SteadyMotors[Conveyor, ConveyorScene] = SteadyMotors(
+    pulled="belt",
+    several=True,
+    motors=motors_of,
+    curve_key=_curve_key,
+    run=Run,
+    start=Start,
 )
+STEADY_DRIVE = steady_solver("steady_drive", MOTORS, run)

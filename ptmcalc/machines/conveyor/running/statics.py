@@ -11,13 +11,13 @@ from ptmcalc.contract.result import Found, History, Result, family, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import belt_resistance, sag, strand_tension
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.drives import running, same_drives, share
 from ptmcalc.machines.conveyor.loads import GRIP, OF_BELT, PER_DRIVE, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.running.loads import OF_STATICS, static_loads
 from ptmcalc.machines.conveyor.spec import Conveyor, Run
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.numerics.lanes import exp, expm1, number, value
 
 _OF_RUNNING = frozenset(
@@ -61,7 +61,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
     }
     back = len(line.back.marks)
     lows = number(tensions[:back].min()), number(tensions[back:].min())
-    loads |= bounds.derived_loads(line, number(tensions[high]), lows)
+    loads |= tension_loads.derived_loads(line, number(tensions[high]), lows)
     loads |= _of_drives(spec, line)
     loads |= _of_running(spec, scene, line, places, tensions)
     loads |= static_loads(spec, scene, line)
@@ -107,8 +107,8 @@ def _of_drives(spec: Conveyor, line: BeltLine) -> dict[str, float]:
             above = behind + shares[name] * whole
             loads[of("tension_run_on_max", name)], loads[of("tension_run_off_min", name)] = above, behind
             if drive.drum.friction is not None:
-                sides = [bounds.Sides(above, behind, line.centrifugal_at_speed)]
-                worst.append(bounds.slip_loads(drive.drum.friction * drive.drum.wrap, sides))
+                sides = [tension_loads.Sides(above, behind, line.centrifugal_at_speed)]
+                worst.append(tension_loads.slip_loads(drive.drum.friction * drive.drum.wrap, sides))
                 loads |= {of(load, name): value for load, value in worst[-1].items()}
             behind = above
     if len(worst) == len(spec.all_drives):

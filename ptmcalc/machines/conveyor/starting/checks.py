@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs, no_repair
+from ptmcalc.machines.conveyor.governing_keys import starting_torque_key
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
 from ptmcalc.machines.conveyor.starting.loads import allowed_acceleration
 
@@ -21,14 +22,6 @@ def _profile_key(key: str = "") -> Callable[[Conveyor, Start], KeyPath]:
         "profile",
         key or scene.profile.time_key,
     )
-
-
-def starting_torque_key(spec: Conveyor, path: KeyPath = ()) -> KeyPath:
-    """The key of the starting torque the file uses."""
-    path = path or spec.main_path
-    one = spec.value_at(path).motor
-    keys = ("mean_starting_torque", "largest_starting_torque", "curve")
-    return (*path, "motor", next(key for key in keys if getattr(one, key) is not None))
 
 
 _time_key, _ripple_key = _profile_key(), _profile_key("ripple")

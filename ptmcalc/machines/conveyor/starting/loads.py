@@ -12,11 +12,12 @@ from ptmcalc.contract.result import Found, LoadInfo, of
 from ptmcalc.laws import loop_bounds, sag, slip_heat, start_profile
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import moving_mass
-from ptmcalc.machines.conveyor.model import FloatArray, StartCase, lowest_frequency, natural_frequencies, start_case
+from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import Moving, moving
 from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import Conveyor, PlacedDrive, Start
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import StartCase, lowest_frequency, natural_frequencies, start_case
+from ptmcalc.machines.conveyor.waves import start_enclosure
 
 START_LOADS = (
     LoadInfo("motor_start_heat", "rotor heat per start, one motor", units.ENERGY, headline=False),
@@ -204,7 +205,7 @@ def allowed_acceleration(spec: Conveyor, scene: Start) -> float | None:
         span = line.strand(strand).span_weight
         slack = sag.tension_at_sag(span, line.slack_sag) if span is not None else 0.0
         static = line.static(strand, _X)
-        swing = bounds.once_held(case, phases, strand, _X)
+        swing = start_enclosure.once_held(case, phases, strand, _X)
         falls, rises = np.maximum(-low, swing), np.maximum(high, swing)
         ends[strand] = static, falls, rises
         if (falls > 0).any():

@@ -3,16 +3,23 @@
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import wave
+from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import least_pull
 from ptmcalc.machines.conveyor.loads import DRIVE, OF_BELT, OF_START, PER_DRIVE, SLIPS
-from ptmcalc.machines.conveyor.model import is_plain, natural_frequencies, start_case
+from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.plain_start import is_plain
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
+from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads, natural_frequencies, start_case, start_duration
 from ptmcalc.machines.conveyor.starting.loads import OF_STARTING, start_loads
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.tension_loads import Sides, derived_loads, slip_loads
+from ptmcalc.machines.conveyor.waves.start_enclosure import along
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -27,11 +34,11 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
     **Source** Newton's law; the split of a fixed loop from constant elongation (`laws.loop_bounds.quasi_static`).
     """
     case = start_case(spec, scene)
-    loads = bounds.scalar_loads(case) | bounds.rigid_loads(case)
+    loads = _closed_forms(case) | _rigid_loads(case)
     if not is_plain(spec, scene):
         loads["start_time_rigid"] = moving(spec, scene).rigid_time if case.moves else math.inf
     if scene.profile.shape == "curve":  # the weakest moment of the motors decides whether they start
-        loads |= bounds.drive_loads(replace(case, available_force=least_pull(spec, scene)), case.line.static_resistance)
+        loads |= drive_loads(replace(case, available_force=least_pull(spec, scene)), case.line.static_resistance)
         if loads["starting_reserve"] < 1:
             loads["start_time_rigid"] = math.inf
     loads["start_time"] = loads["start_time_rigid"]
@@ -50,6 +57,55 @@ def _of_the_drive(name: str, loads: dict[str, float]) -> dict[str, float]:
     if "slip_utilisation_max" in loads:
         found |= {of(load, name): 0.0 for load in SLIPS}
     return found
+
+
+def _rigid_tension(case: StartCase, strand: int) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest tension of the rigid body at both ends of a strand [N]."""
+    part, ends = along(case), (strand, [0, -1])
+    static, swing = part.static[ends], case.acceleration * part.rigid[ends]
+    return static + np.minimum(swing, 0), static + np.maximum(swing, 0)
+
+
+def _rigid_loads(case: StartCase) -> dict[str, float]:
+    """Loads of the rigid body during a start, SI."""
+    line = case.line
+    ranges = [_rigid_tension(case, strand) for strand in (RETURN, CARRY)]
+    on, off = float(ranges[CARRY][1][1]), float(ranges[RETURN][0][0])
+    loads = {
+        "tension_dynamic_run_on_max": on - line.run_on,
+        "tension_run_on_max": on,
+        "tension_run_off_min": off,
+        "tension_max": float(max(high.max() for _, high in ranges)),
+        "tension_min": float(min(low.min() for low, _ in ranges)),
+    }
+    loads |= drive_loads(case, case.line.static_resistance + (case.excess if case.imposed_speed else 0.0))
+    loads |= derived_loads(
+        line,
+        tension_max=loads["tension_max"],
+        smallest=(float(ranges[RETURN][0].min()), float(ranges[CARRY][0].min())),
+    )
+    if line.grip_exponent is not None:
+        worst = [Sides(on, off, line.centrifugal_at_speed), Sides(line.run_on, line.run_off, 0.0)]
+        loads |= slip_loads(line.grip_exponent, worst)
+    return loads
+
+
+def _closed_forms(case: StartCase) -> dict[str, float]:
+    """Closed forms of a start that no wave can change."""
+    line = case.line
+    return {
+        "wave_speed_carry": line.wave_speed(CARRY),
+        "wave_speed_return": line.wave_speed(RETURN),
+        "impedance_carry": line.impedance(CARRY),
+        "impedance_return": line.impedance(RETURN),
+        "reduced_drive_mass": line.drive_mass,
+        "static_resistance": line.static_resistance,
+        "starting_force": case.available_force,
+        "rim_force_excess": case.excess if case.moves else case.available_force - line.static_resistance,
+        "acceleration_rigid": case.acceleration,
+        "start_time_rigid": start_duration(case),
+        "first_wave_time_max": wave.first_wave_time(line.transit(CARRY), line.transit(RETURN)),
+    }
 
 
 RIGID: Solver[Conveyor, Start] = Solver(

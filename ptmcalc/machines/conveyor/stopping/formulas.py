@@ -1,31 +1,29 @@
-"""Stops and standstill of the rigid conveyor: what the brakes and the backstop have to hold, what a run-out tells."""
+"""Stops of the rigid conveyor: what the brakes have to hold, what a run-out tells."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.components.run_back import runs_back
 from ptmcalc.components.run_out import too_long_a_way
-from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
-from ptmcalc.contract.solver import AnySolver, Fidelity, Solver, always_valid
+from ptmcalc.contract.solver import AnySolver, Fidelity, Solver
 from ptmcalc.laws import stopping
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
 from ptmcalc.machines.conveyor.loads import OF_STOP, ways_of
-from ptmcalc.machines.conveyor.model import BeltLine, belt_line, filling_of, load_line_mass, stop_factor
+from ptmcalc.machines.conveyor.model import (
+    BeltLine,
+    belt_line,
+    special_resistance,
+    stop_factor,
+)
 from ptmcalc.machines.conveyor.motion import moving
-from ptmcalc.machines.conveyor.resistances import extra_forces, filled
+from ptmcalc.machines.conveyor.resistances import filled
 from ptmcalc.machines.conveyor.spec import (
-    Backstop,
     Coast,
     Conveyor,
     ConveyorScene,
     EmergencyStop,
-    Hold,
-    Run,
-    Start,
     Stop,
 )
 from ptmcalc.spec.scene import Scene
@@ -105,46 +103,9 @@ def identify(spec: Conveyor, scene: Coast, carried: frozenset[str], level: int) 
 def _friction_per_coefficient(spec: Conveyor, scene: Coast, line: BeltLine) -> tuple[float, float]:
     """Idler friction for a coefficient of 1, and what gravity and secondary forces take [N]."""
     used = filled(spec.resistance.coefficient) * stop_factor(spec)
-    along = _special(spec, scene)
+    along = special_resistance(spec, scene)
     friction = line.back.friction[-1] + line.carry.friction[-1] - along
     return friction / used, line.back.climb[-1] + line.carry.climb[-1] + line.tail_force + along
-
-
-def _special(spec: Conveyor, scene: ConveyorScene) -> float:
-    """Forces with a name along both strands [N]."""
-    extra = extra_forces(spec, load_line_mass(spec))
-    loaded = zip(spec.route.parts, filling_of(spec, scene), strict=True)
-    carry = sum(extra.along("carry", full) * part.length for part, full in loaded) / spec.route.span
-    return carry + extra.along("return", loaded=False)
-
-
-def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
-    """Torque on the head's drum shaft with which the stopped belt wants to run back.
-
-        M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
-
-    Only climbing sections are loaded (the worst part). Of the resistance only that of the idlers counts at standstill:
-    loading points, skirt plates and cleaners do not act for certain.
-
-    **Range** standstill; not the blow of a backstop that engages with play.
-    **Error** exact but for the coefficient.
-    **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
-    """
-    force = max(
-        -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
-    )
-    torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
-    found = _exactly({"backstop_torque": torque})
-    if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
-        return found
-    return replace(found, failures=(runs_back("CNV109", "belt", torque, Backstop.model_fields["reserve"].default),))
-
-
-def _rest(spec: Conveyor, scene: Hold) -> float:
-    """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
-    line = belt_line(spec, scene)
-    friction = line.back.friction[-1] + line.carry.friction[-1] - _special(spec, scene)
-    return rest_factor(spec) * friction - line.back.climb[-1] - line.carry.climb[-1]
 
 
 def rigid_stop(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -170,7 +131,6 @@ def _formula(
     source: str,
     *,
     decides: bool = True,
-    valid: Callable[[Conveyor, ConveyorScene], Criterion | None] = always_valid,
 ) -> AnySolver:
     """A closed form of the rigid conveyor, which represents no effect."""
     return Solver(
@@ -184,7 +144,6 @@ def _formula(
         cost=lambda spec, scene, carried, level: 2e-4,
         source=source,
         decides=decides,
-        valid=valid,
     )
 
 
@@ -213,15 +172,6 @@ IDENTIFY = _formula(
     {Coast},
     {"resistance_coefficient_identified"},
     _NOTES,
-)
-HOLDING = _formula(
-    "holding",
-    "rollback torque of the stopped belt",
-    hold,
-    {Hold, Stop, EmergencyStop, Coast, Start, Run},
-    {"backstop_torque"},
-    _NOTES,
-    valid=elsewhere,
 )
 RIGID_STOP = _formula(
     "rigid_stop",

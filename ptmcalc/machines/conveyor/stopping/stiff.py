@@ -11,14 +11,14 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import loop_bounds
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.loads import OF_BELT, OF_STOP, PER_DRIVE, ways_of
 from ptmcalc.machines.conveyor.model import loop_masses
 from ptmcalc.machines.conveyor.motion import MOST_ROUNDS, rounds
+from ptmcalc.machines.conveyor.rigid_stop import deceleration, rigid_stop
 from ptmcalc.machines.conveyor.spec import Coast, Conveyor, ConveyorScene, EmergencyStop, Jam, Stop
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration, rigid_stop
-from ptmcalc.machines.conveyor.waves import bounds
 
 
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
@@ -62,7 +62,10 @@ def rigid_loads(spec: Conveyor, scene: ConveyorScene) -> dict[str, float]:
         slowed = static - most * loop_bounds.quasi_static(masses, which, places)
         lows.append(float(np.minimum(static, slowed).min()))
         highs.append(float(np.maximum(static, slowed).max()))
-    found = bounds.derived_loads(line, max(highs), tuple(lows)) | {"tension_max": max(highs), "tension_min": min(lows)}
+    found = tension_loads.derived_loads(line, max(highs), tuple(lows)) | {
+        "tension_max": max(highs),
+        "tension_min": min(lows),
+    }
     return found | {"stop_time": time} | dict.fromkeys(ways_of(scene), way)
 
 

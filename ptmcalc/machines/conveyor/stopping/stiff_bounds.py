@@ -44,13 +44,13 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family, of
 from ptmcalc.laws import loop_bounds, sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN, LoopMasses
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
 from ptmcalc.machines.conveyor.drives import running
 from ptmcalc.machines.conveyor.loads import PER_DRIVE, SLIPS, ways_of
 from ptmcalc.machines.conveyor.model import BeltLine, loop_masses
+from ptmcalc.machines.conveyor.rigid_stop import rigid_stop
 from ptmcalc.machines.conveyor.spec import Conveyor, ConveyorScene, Stopping
-from ptmcalc.machines.conveyor.stopping.rigid import rigid_stop
-from ptmcalc.machines.conveyor.waves import bounds
 
 FloatArray = NDArray[np.float64]
 
@@ -170,23 +170,23 @@ class ShortStop:
             "tension_max": max(high for _, high in strands),
             "tension_min": min(low for low, _ in strands),
         }
-        found |= bounds.derived_loads(line, found["tension_max"], tuple(low for low, _ in strands))
+        found |= tension_loads.derived_loads(line, found["tension_max"], tuple(low for low, _ in strands))
         if line.grip_exponent is not None:
             lift = line.centrifugal_at_speed
-            states = [bounds.Sides(on[1], off[0], lift), bounds.Sides(on[0], off[1], lift), self._before]
-            found |= bounds.slip_loads(line.grip_exponent, states)
+            states = [tension_loads.Sides(on[1], off[0], lift), tension_loads.Sides(on[0], off[1], lift), self._before]
+            found |= tension_loads.slip_loads(line.grip_exponent, states)
         return found
 
     @property
-    def _before(self) -> bounds.Sides:
-        return bounds.Sides(self.line.run_on, self.line.run_off, self.line.centrifugal_at_speed)
+    def _before(self) -> tension_loads.Sides:
+        return tension_loads.Sides(self.line.run_on, self.line.run_off, self.line.centrifugal_at_speed)
 
     def held(self) -> dict[str, Interval]:
         """Intervals of the loads: from those of the belt that still runs evenly to the worst."""
         line, worst = self.line, self.loads(strays=True)
-        least = bounds.even_loads(line)
+        least = tension_loads.even_loads(line)
         if line.grip_exponent is not None:
-            least |= bounds.slip_loads(line.grip_exponent, [self._before])
+            least |= tension_loads.slip_loads(line.grip_exponent, [self._before])
         return {name: Interval(min(least[name], worst[name]), max(least[name], worst[name])) for name in least}
 
     def rest(self) -> tuple[Interval, Interval]:

@@ -9,7 +9,7 @@ from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, needs, no_needs, no_repair
 from ptmcalc.contract.result import of
 from ptmcalc.machines.conveyor.brakes import brakes_of, braking
-from ptmcalc.machines.conveyor.keys.takeup import TENSION, blame_tension, takeup_tension
+from ptmcalc.machines.conveyor.governing_keys import TENSION, blame_tension, starting_torque_key, takeup_tension
 from ptmcalc.machines.conveyor.model import belt_line, starting_force
 from ptmcalc.machines.conveyor.spec import (
     ANY_MOTION,
@@ -22,7 +22,6 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stop,
 )
-from ptmcalc.machines.conveyor.starting.checks import starting_torque_key
 
 Loads = Mapping[str, Estimate]
 Checks = Iterable[AnyCheck]

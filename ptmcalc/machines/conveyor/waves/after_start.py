@@ -11,17 +11,16 @@ from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.result import Found, family, of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.loads import LOWEST, SLIPS
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, drive_force, grips, starting_force
-from ptmcalc.machines.conveyor.running.loads import hollows
 from ptmcalc.machines.conveyor.spec import Conveyor
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.numerics.free_waves import Row, swings
 
 _STRANDS = (RETURN, CARRY)
 _X = np.linspace(0.0, 1.0, 129)
-"""Points of a strand as fractions of its length [1] at which tensions are bounded, as in `bounds`; a numerical choice.
-More points find the extreme more closely and take longer."""
+"""Points of a strand as fractions of its length [1] at which tensions are bounded, as in `start_enclosure`; a
+numerical choice. More points find the extreme more closely and take longer."""
 _ALL, _HALVINGS = 8.0, 40
 """Traction in use after a start; numerical choices. `_ALL`: utilisation above which it counts as infinite [1].
 `_HALVINGS`: bisections, which resolve it to 7e-12. A larger `_ALL` reports larger numbers of a slipping pulley; fewer
@@ -141,11 +140,11 @@ class _After:
             "tension_max": high,
             "tension_min": min(lows),
         }
-        worst |= bounds.derived_loads(line, high, lows)
+        worst |= tension_loads.derived_loads(line, high, lows)
         needed = line.tail_pull + self._together((CARRY, -1), (RETURN, 0), (1.0, -1.0))
         worst["starting_force_needed"] = needed
         worst["starting_reserve"] = starting_force(self.spec) / needed if needed > 0 else math.inf
-        for curve in hollows(self.spec):
+        for curve in self.spec.route.hollows:
             touched = np.abs(_X * line.carry.length - curve.place) <= curve.tangent + line.carry.length / len(_X)
             worst[of("tension_curve_max", str(curve.number))] = float(self.most[CARRY, touched].max())
         return worst | dict(self._of_drives())

@@ -36,8 +36,8 @@ from ptmcalc.laws import capstan
 from ptmcalc.machines.conveyor.loads import GRIP, SLIPS, TENSIONS
 from ptmcalc.machines.conveyor.model import grips
 from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
+from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.cell_loads import LOW_CARRY, LOW_RETURN, OneGrid, Values
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn
@@ -77,7 +77,7 @@ def bars(case: Moving, grids: Grids, front: float) -> dict[str, Interval]:
     found |= _of_grip(case, grids, found, moved)
     for name, (value, _) in fine.items():
         if family(name) in SLIPS and value == 0 and not _holds(fine, found, name):
-            found[name] = bounds.anything(name, Estimate.exact(value))
+            found[name] = load_errors.anything(name, Estimate.exact(value))
         elif name not in found:
             found[name] = _either(max(_still_to_come(grids, name), moved.get(name, NOTHING).high))
     return {name: _rounded(one, name, fine) for name, one in found.items()}
@@ -139,7 +139,9 @@ def _moved(case: Moving, fine: Values, change: float) -> dict[str, Interval]:
     loads = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     slowing = deceleration(case.spec, case.scene, case.line)
     heavy = case.spec.takeup_weight > 0
-    return bounds.moved(case.line, loads, bounds.Change.any_time(change), slowing, grips(case.spec), off=heavy)
+    return load_errors.moved(
+        case.line, loads, load_errors.Change.any_time(change), slowing, grips(case.spec), off=heavy
+    )
 
 
 def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: float) -> dict[str, Interval]:
@@ -148,12 +150,14 @@ def _of_laws(case: Moving, grids: Grids, found: Mapping[str, Interval], front: f
     loads = {name: Estimate.exact(value) for name, (value, _) in fine.items()}
     made: dict[str, Interval] = {}
     if "belt_safety_min" in fine:
-        made |= bounds.moved_safety(line, loads, found["tension_max"].high)
+        made |= load_errors.moved_safety(line, loads, found["tension_max"].high)
     if "sag_relative_max" in fine:
         strands = max(_of_trace(grids, name) for name in (LOW_RETURN, LOW_CARRY))
-        made["sag_relative_max"] = bounds.moved_sag(line, loads, max(strands, front))
+        made["sag_relative_max"] = load_errors.moved_sag(line, loads, max(strands, front))
     if "starting_reserve" in fine:
-        made["starting_reserve"] = bounds.moved_drive(loads, found["starting_force_needed"].high)["starting_reserve"]
+        made["starting_reserve"] = load_errors.moved_drive(loads, found["starting_force_needed"].high)[
+            "starting_reserve"
+        ]
     return made
 
 
@@ -196,7 +200,7 @@ def _of_grip(
         if kind in fine and ends:
             worst = max if kind == "slip_utilisation_max" else min
             low, high = (worst(end) for end in zip(*ends, strict=True))
-            made[kind] = bounds.around(fine[kind][0], [low, high])
+            made[kind] = load_errors.around(fine[kind][0], [low, high])
     return made
 
 
@@ -206,7 +210,7 @@ def _of_ratio(grids: Grids, name: str, exponent: float) -> Interval:
     if family(name) == "slip_utilisation_max" or not math.isfinite(ratio):
         return _either(bar)
     ends = [capstan.slip_reserve_ratio(ratio + part, exponent) for part in (bar, -bar)]
-    return bounds.around(grids[-1].values[name][0], ends)
+    return load_errors.around(grids[-1].values[name][0], ends)
 
 
 def _holds(fine: Values, found: Mapping[str, Interval], name: str) -> bool:

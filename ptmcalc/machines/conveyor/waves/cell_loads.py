@@ -8,12 +8,11 @@ import numpy as np
 from ptmcalc.contract.result import of
 from ptmcalc.laws import capstan
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.keys.route import Curve
 from ptmcalc.machines.conveyor.model import BeltLine, FloatArray, starting_force
 from ptmcalc.machines.conveyor.motion import Moving
-from ptmcalc.machines.conveyor.running.loads import hollows
 from ptmcalc.machines.conveyor.spec import Start
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.cells import Set
 from ptmcalc.numerics import peaks
 from ptmcalc.numerics.belt.march import Drawn
@@ -106,15 +105,15 @@ def _of_belt(found: OneGrid, case: Moving, drawn: Drawn, ready: Set) -> None:
     high, lowest = max(highs), min(lows)
     values["tension_max"] = high[0], {"time": high[1], "position": high[2]}
     values["tension_min"] = lowest[0], {"time": lowest[1], "position": lowest[2]}
-    for curve in hollows(case.spec):
+    for curve in case.spec.route.hollows:
         values[of("tension_curve_max", str(curve.number))] = _in_curve(line, drawn, ready, curve), {}
-    for name, value in bounds.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
+    for name, value in tension_loads.derived_loads(line, high[0], tuple(one[0] for one in lows)).items():
         values[name] = value, {}
     traces = found.traces
     traces |= {
         "tension_max": Trace(drawn.highest, 1 / len(drawn.highest)),
         "tension_min": Trace(drawn.lows.min(axis=1), step, -1),
-        "slack_margin_min": Trace((drawn.lows - bounds.slack_limits(line)).min(axis=1), step, -1),
+        "slack_margin_min": Trace((drawn.lows - tension_loads.slack_limits(line)).min(axis=1), step, -1),
         LOW_RETURN: Trace(drawn.lows[:, RETURN], step, -1),
         LOW_CARRY: Trace(drawn.lows[:, CARRY], step, -1),
     }

@@ -13,10 +13,10 @@ import numpy as np
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, family
 from ptmcalc.laws import sag
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.loads import OF_STOP, SLIPS
 from ptmcalc.machines.conveyor.motion import Moving
 from ptmcalc.machines.conveyor.spec import Start
-from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.numerics.belt.march import Drawn, Extreme
 
 _FRONT_STEPS = 12
@@ -66,7 +66,7 @@ def certain(case: Moving, whole: Mapping[str, Found], early: Mapping[str, Found]
 
     A stop or a jam begins with even running: its loads are at least as bad as there.
     """
-    even = {} if isinstance(case.scene, Start) else bounds.even_loads(case.line)
+    even = {} if isinstance(case.scene, Start) else tension_loads.even_loads(case.line)
     kept = not case.line.fixed_length and not case.spec.takeup_weight  # a tension that the take-up keeps
     found = {}
     for name, one in whole.items():
@@ -107,7 +107,7 @@ def slack(case: Moving, grids: Iterable[Drawn]) -> Iterator[Failure]:
     """
     doubtless = [limit / 2 for limit in limits(case)]
     lows = [(one.back_min, one.carry_min) for one in grids]
-    for strand, (limit, kept) in enumerate(zip(doubtless, bounds.slack_limits(case.line), strict=True)):
+    for strand, (limit, kept) in enumerate(zip(doubtless, tension_loads.slack_limits(case.line), strict=True)):
         if limit > 0 and lows and all(low[strand].value < min(limit, kept) for low in lows):
             low = lows[-1][strand]
             does = f"at {low.time:.3g} s its tension is lowest, {low.place:.4g} m behind the drive pulley"

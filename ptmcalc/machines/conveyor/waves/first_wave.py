@@ -6,10 +6,11 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import wave
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
+from ptmcalc.machines.conveyor import tension_loads
 from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.model import plainness, start_case
+from ptmcalc.machines.conveyor.plain_start import plainness
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import start_case
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
@@ -39,7 +40,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
         "tension_run_off_min": off,
     }
     if line.grip_exponent is not None:
-        loads |= bounds.slip_loads(line.grip_exponent, [bounds.Sides(on, off, 0.0)])
+        loads |= tension_loads.slip_loads(line.grip_exponent, [tension_loads.Sides(on, off, 0.0)])
     return Result({name: Found(Estimate.unknown(value)) for name, value in loads.items()}, work=1, window=(0.0, time))
 
 

@@ -9,9 +9,10 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import capstan, wave
 from ptmcalc.laws.loop_bounds import CARRY
 from ptmcalc.machines.conveyor.loads import AT_DRUM
-from ptmcalc.machines.conveyor.model import StartCase, plainness, start_case
+from ptmcalc.machines.conveyor.plain_start import plainness
 from ptmcalc.machines.conveyor.spec import Conveyor, Start
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects import tail
 
 
@@ -56,7 +57,7 @@ def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Re
 def _once_held(case: StartCase, loads: dict[str, Found]) -> dict[str, Interval]:
     """Offsets of a drum that has its speed before the rigid body has, and of the waves that the fall of the torque then
     leaves: the loads stay within the enclosure of the whole start."""
-    enclosed = bounds.enclosed_loads(case, bounds.enclose(case, 0.0))
+    enclosed = start_intervals.enclosed_loads(case, start_enclosure.enclose(case, 0.0))
     return {
         name: Interval(
             min(enclosed[name].low - found.estimate.low, 0.0), max(enclosed[name].high - found.estimate.high, 0.0)

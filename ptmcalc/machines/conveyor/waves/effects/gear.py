@@ -15,8 +15,8 @@ from ptmcalc.machines.conveyor.spec import (
     EmergencyStop,
     Stop,
 )
-from ptmcalc.machines.conveyor.stopping.rigid import GearChange, changing_sides
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.stopping.gear_losses import GearChange, changing_sides
+from ptmcalc.machines.conveyor.waves import load_errors
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, moved_by
 
 GEAR_THRESHOLD = 0.001
@@ -35,7 +35,7 @@ def gear_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 
     **Range** any stop; 0 where the belt does not stop.
     **Error** that of the integration, below 1e-4.
-    **Source** power through a gear: losses are on the driven side (`stopping.rigid.changing_sides`).
+    **Source** power through a gear: losses are on the driven side (`stopping.gear_losses.changing_sides`).
     """
     meaning = "change of the stopping time by the side of the gear losses"
     return Criterion("dt/t", _gear_change(spec, scene).relative, GEAR_THRESHOLD, meaning, "gear losses")
@@ -55,7 +55,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
     **Range** any stop.
     **Error** a bound of the waves; the belt at the head follows the rigid body within a fifth of the change.
-    **Source** `stopping.rigid.changing_sides`.
+    **Source** `stopping.gear_losses.changing_sides`.
     """
     change = _gear_change(spec, scene)
     if not change.force:
@@ -65,7 +65,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     for name, load in loads.items():
         kind = family(name)
         used = loads.get(name.replace(kind, "slip_utilisation_max", 1))
-        if kind in bounds.OF_GRIP and used is not None and used.low >= 1:
+        if kind in load_errors.OF_GRIP and used is not None and used.low >= 1:
             found.pop(name, None)
         if kind in OF_STOP and math.isfinite(load.value):
             by = _GEAR_MARGIN * (change.time if kind == "stop_time" else change.way)

@@ -3,12 +3,9 @@
 import math
 
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.conveyor.model import (
-    SPEED_SHARE_THRESHOLD,
-    belt_line,
-    start_case,
-    thrown_back,
-)
+from ptmcalc.machines.conveyor.model import belt_line
+from ptmcalc.machines.conveyor.plain_start import SPEED_SHARE_THRESHOLD, thrown_back
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
@@ -16,9 +13,9 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stopping,
 )
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
-from ptmcalc.machines.conveyor.waves.bounds import Change
+from ptmcalc.machines.conveyor.start_case import start_case
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, belt_mass, moved_by, slides_first
+from ptmcalc.machines.conveyor.waves.load_errors import Change
 
 COULOMB_THRESHOLD = 0.1
 """Idler friction relative to the accelerating force of the belt [1] from which on stick-slip on the idlers is

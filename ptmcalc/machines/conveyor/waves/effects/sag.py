@@ -6,20 +6,17 @@ from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws import sag
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.model import (
-    BeltLine,
-    belt_line,
-    delay_lines_do,
-    start_case,
-)
+from ptmcalc.machines.conveyor.model import BeltLine, belt_line
 from ptmcalc.machines.conveyor.motion import moving
+from ptmcalc.machines.conveyor.plain_start import delay_lines_do
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
     ConveyorScene,
     Start,
 )
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.waves import load_errors, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, grown, moved_by
 
 SAG_THRESHOLD = 0.05
@@ -48,7 +45,7 @@ def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     **Source** Ernst (`laws.sag.softening`); the threshold of 5 % is an engineering choice.
     """
     if isinstance(scene, Start):
-        value = bounds.largest_softening(start_case(spec, scene))
+        value = start_intervals.largest_softening(start_case(spec, scene))
     else:
         line = running(spec, scene)
         value = _softening(line, float(min((*line.static_ends(RETURN), *line.static_ends(CARRY)))))
@@ -87,7 +84,7 @@ def sag_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
         return anything(spec, scene, loads)
     if isinstance(scene, Start) and plain:
         case = start_case(spec, scene)
-        return bounds.spread(case, loads, grown(case, _SAG_FACTOR * softest))
+        return load_errors.spread(case, loads, grown(case, _SAG_FACTOR * softest))
     contours = moving(spec, scene).window / line.contour_time
     swing = (loads["tension_max"].value - loads["tension_min"].value) / 2
     return moved_by(spec, scene, line, loads, min(_SCENE_SAG_FACTOR * softest * math.sqrt(1 + contours), 2.0) * swing)

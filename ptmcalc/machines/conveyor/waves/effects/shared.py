@@ -6,22 +6,18 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.result import family
 from ptmcalc.machines.conveyor.loads import CHANGED_BY_MOTION, DRIVE, OF_STOP
-from ptmcalc.machines.conveyor.model import (
-    BeltLine,
-    StartCase,
-    grips,
-    slides_at_rest,
-    start_case,
-)
+from ptmcalc.machines.conveyor.model import BeltLine, grips
+from ptmcalc.machines.conveyor.plain_start import slides_at_rest
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     Conveyor,
     ConveyorScene,
     Start,
     Stopping,
 )
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
-from ptmcalc.machines.conveyor.waves import bounds
-from ptmcalc.machines.conveyor.waves.bounds import Change
+from ptmcalc.machines.conveyor.start_case import StartCase, start_case
+from ptmcalc.machines.conveyor.waves import load_errors, start_enclosure
+from ptmcalc.machines.conveyor.waves.load_errors import Change
 
 Loads = Mapping[str, Estimate]
 Offsets = Mapping[str, Interval]
@@ -32,7 +28,7 @@ def anything(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     are."""
     drives = isinstance(scene, Start) and scene.profile.imposes_speed
     return {
-        name: bounds.anything(name, load)
+        name: load_errors.anything(name, load)
         for name, load in loads.items()
         if (family(name) in CHANGED_BY_MOTION and not (family(name) in OF_STOP and load.low == math.inf))
         or (drives and name in DRIVE)
@@ -50,7 +46,7 @@ def moved_by(
     if isinstance(scene, Start) and scene.profile.imposes_speed:
         asked = len({drive.at for drive in spec.all_drives.values()})
     parts = change if isinstance(change, Change) else Change.any_time(change)
-    return bounds.moved(line, loads, parts, slowing, grips(spec), off, asked)
+    return load_errors.moved(line, loads, parts, slowing, grips(spec), off, asked)
 
 
 def small_change(
@@ -62,13 +58,13 @@ def small_change(
         return {}
     case = start_case(spec, scene)
     change = share * case.acceleration * case.masses.belt_mass + grown(case, factor * share)
-    return bounds.spread(case, loads, change)
+    return load_errors.spread(case, loads, change)
 
 
 def grown(case: StartCase, share: float) -> float:
     """A share of the largest stray that grows with the root of the echoes, capped by two strays [N]."""
     contours = case.window / case.line.contour_time
-    return min(share * math.sqrt(1 + contours), 2.0) * bounds.largest_stray(case)
+    return min(share * math.sqrt(1 + contours), 2.0) * start_enclosure.largest_stray(case)
 
 
 def belt_mass(line: BeltLine) -> float:

@@ -1,18 +1,16 @@
 """Belt slip at the drive pulleys."""
 
 from ptmcalc.contract.effect import Criterion, Effect
-from ptmcalc.machines.conveyor.model import (
-    is_plain,
-    start_case,
-)
 from ptmcalc.machines.conveyor.motion import rough_utilisation
+from ptmcalc.machines.conveyor.plain_start import is_plain
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
     ConveyorScene,
     Start,
 )
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.start_case import start_case
+from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything
 
 
@@ -30,7 +28,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
         return None
     if isinstance(scene, Start) and is_plain(spec, scene):
         case = start_case(spec, scene)
-        value = bounds.enclosed_loads(case, bounds.enclose(case, 0.0))["slip_utilisation_max"].high
+        value = start_intervals.enclosed_loads(case, start_enclosure.enclose(case, 0.0))["slip_utilisation_max"].high
     else:
         value = rough_utilisation(spec, scene)
     limit = 1 / spec.checks.slip.reserve

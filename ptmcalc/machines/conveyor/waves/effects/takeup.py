@@ -2,21 +2,18 @@
 
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.machines.conveyor.drives import moving_mass, running
-from ptmcalc.machines.conveyor.model import (
-    BeltLine,
-    inertia_of_weight,
-    start_case,
-    takeup_numbers,
-)
+from ptmcalc.machines.conveyor.model import BeltLine
+from ptmcalc.machines.conveyor.plain_start import inertia_of_weight, takeup_numbers
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
     ConveyorScene,
     Start,
 )
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
-from ptmcalc.machines.conveyor.waves.bounds import Change
+from ptmcalc.machines.conveyor.start_case import start_case
 from ptmcalc.machines.conveyor.waves.effects.shared import Loads, Offsets, anything, moved_by, slides_first
+from ptmcalc.machines.conveyor.waves.load_errors import Change
 
 _TAKEUP_FACTOR, _TAKEUP_OF_GRIP = 9.0, 3.0
 """Changes of tension by the inertia of the take-up weight, relative to T_0 a_0/(2 g) [1]: anywhere, and at a pulley

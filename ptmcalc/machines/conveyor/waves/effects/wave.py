@@ -6,11 +6,8 @@ from ptmcalc.base.estimate import NOTHING
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.laws.loop_bounds import CARRY, RETURN
 from ptmcalc.machines.conveyor.drives import running
-from ptmcalc.machines.conveyor.model import (
-    StartCase,
-    is_plain,
-    start_case,
-)
+from ptmcalc.machines.conveyor.plain_start import is_plain
+from ptmcalc.machines.conveyor.rigid_stop import deceleration
 from ptmcalc.machines.conveyor.spec import (
     IN_MOTION,
     Conveyor,
@@ -19,9 +16,9 @@ from ptmcalc.machines.conveyor.spec import (
     Start,
     Stopping,
 )
+from ptmcalc.machines.conveyor.start_case import StartCase, start_case
 from ptmcalc.machines.conveyor.stopping import stiff_bounds
-from ptmcalc.machines.conveyor.stopping.rigid import deceleration
-from ptmcalc.machines.conveyor.waves import bounds
+from ptmcalc.machines.conveyor.waves import start_enclosure, start_intervals
 from ptmcalc.machines.conveyor.waves.effects.idlers import slides_on, speed_bound
 from ptmcalc.machines.conveyor.waves.effects.moving_belt import travel_bound
 from ptmcalc.machines.conveyor.waves.effects.sag import SAG_THRESHOLD
@@ -48,7 +45,7 @@ def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Error** an upper bound of the ratio.
     **Source** derived in `laws.loop_bounds`; the threshold of 5 % is an engineering choice.
     """
-    value = bounds.stray_ratio(start_case(spec, scene)) if isinstance(scene, Start) else _shock(spec, scene)
+    value = start_enclosure.stray_ratio(start_case(spec, scene)) if isinstance(scene, Start) else _shock(spec, scene)
     return Criterion(
         "E", value, WAVE_THRESHOLD, "tension the belt's waves can add, over the static tension", "laws.loop_bounds"
     )
@@ -90,7 +87,7 @@ def wave_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     enclosure = _enclosed(spec, start_case(spec, scene))
     if enclosure is None:
         return anything(spec, scene, loads)
-    found: Offsets = bounds.offsets(start_case(spec, scene), enclosure, loads)
+    found: Offsets = start_intervals.offsets(start_case(spec, scene), enclosure, loads)
     for name, bound in (("takeup_mass", takeup_bound), ("viscous_idlers", speed_bound)):
         if spec.effects.get(name) != "off":
             found = _both(found, bound(spec, scene, loads))
@@ -110,19 +107,19 @@ def _both(one: Offsets, other: Offsets) -> Offsets:
     return {name: one.get(name, NOTHING) + other.get(name, NOTHING) for name in one.keys() | other.keys()}
 
 
-def _enclosed(spec: Conveyor, case: StartCase) -> bounds.Enclosure | None:
-    softening = None if spec.effects.get("sag") == "off" else bounds.largest_softening(case)
+def _enclosed(spec: Conveyor, case: StartCase) -> start_enclosure.Enclosure | None:
+    softening = None if spec.effects.get("sag") == "off" else start_intervals.largest_softening(case)
     if softening is None or softening < SAG_THRESHOLD:
-        return bounds.enclose(case, softening or 0.0)
+        return start_enclosure.enclose(case, softening or 0.0)
     return _gently_sagging(case)
 
 
-def _gently_sagging(case: StartCase) -> bounds.Enclosure | None:
+def _gently_sagging(case: StartCase) -> start_enclosure.Enclosure | None:
     """The enclosure of a belt that sags, if its stiffness hardly changes over the swing of any section."""
-    softest = bounds.largest_softening(case)
+    softest = start_intervals.largest_softening(case)
     if softest is None or not math.isfinite(softest):
         return None
-    enclosure = bounds.enclose(case, softest)
+    enclosure = start_enclosure.enclose(case, softest)
     for which, part in ((RETURN, enclosure.strands[0]), (CARRY, enclosure.strands[1])):
         lowest = float(min(case.line.static_ends(which)))
         if lowest <= 0 or 3 * softest / (1 + softest) * (lowest - part.smallest.low) / lowest > SAG_THRESHOLD:

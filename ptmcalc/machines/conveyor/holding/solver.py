@@ -1,0 +1,67 @@
+"""Rollback torque of the stopped belt."""
+
+from dataclasses import replace
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.components.run_back import runs_back
+from ptmcalc.contract.result import Found, Result
+from ptmcalc.contract.solver import Fidelity, Solver
+from ptmcalc.laws import stopping
+from ptmcalc.machines.conveyor.holding.scenes import elsewhere, rest_factor
+from ptmcalc.machines.conveyor.model import (
+    belt_line,
+    special_resistance,
+)
+from ptmcalc.machines.conveyor.spec import (
+    Coast,
+    Conveyor,
+    ConveyorScene,
+    EmergencyStop,
+    Hold,
+    Run,
+    Start,
+    Stop,
+)
+
+
+def hold(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
+    """Torque on the head's drum shaft with which the stopped belt wants to run back.
+
+        M = (H - r W_idlers) D/2,  not below 0;   r = `rest_factor`
+
+    Only climbing sections are loaded (the worst part). Of the resistance only that of the idlers counts at standstill:
+    loading points, skirt plates and cleaners do not act for certain.
+
+    **Range** standstill; not the blow of a backstop that engages with play.
+    **Error** exact but for the coefficient.
+    **Source** lecture notes Kramatorsk 2007; only rising sections loaded is the worst case of ISO 5048 practice.
+    """
+    force = max(
+        -_rest(spec, Hold(load=load)) for load in (scene.load, "uphill" if scene.load == "full" else scene.load)
+    )
+    torque = float(stopping.backstop_torque(force, spec.main_drive.drum.diameter, 1.0))
+    found = Result({"backstop_torque": Found(Estimate.exact(torque))}, work=1)
+    if torque <= 0 or spec.backstop is not None or any(brake.at == "head" for brake in spec.brakes.values()):
+        return found
+    return replace(found, failures=(runs_back("CNV109", "belt", torque),))
+
+
+def _rest(spec: Conveyor, scene: Hold) -> float:
+    """What friction holds beyond what gravity pulls [N]; negative where the belt runs back."""
+    line = belt_line(spec, scene)
+    friction = line.back.friction[-1] + line.carry.friction[-1] - special_resistance(spec, scene)
+    return rest_factor(spec) * friction - line.back.climb[-1] - line.carry.climb[-1]
+
+
+HOLDING: Solver[Conveyor, ConveyorScene] = Solver(
+    name="holding",
+    title="rollback torque of the stopped belt",
+    fidelity=Fidelity.FORMULA,
+    scenes=frozenset({Hold, Stop, EmergencyStop, Coast, Start, Run}),
+    represents=frozenset(),
+    gives=frozenset({"backstop_torque"}),
+    run=hold,
+    cost=lambda spec, scene, carried, level: 2e-4,
+    source="lecture notes Kramatorsk 2007",
+    valid=elsewhere,
+)

@@ -1,0 +1,79 @@
+"""Histories, events and findings of a belt in cells."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ptmcalc.base import units
+from ptmcalc.contract.result import Event, Finding, History, of
+from ptmcalc.laws import capstan
+from ptmcalc.machines.conveyor.model import FloatArray
+from ptmcalc.machines.conveyor.motion import Moving
+from ptmcalc.machines.conveyor.waves.cells import Set
+from ptmcalc.numerics.belt.march import Drawn
+
+
+def histories(case: Moving, drawn: Drawn, ready: Set) -> dict[str, History]:
+    """Tensions and grip of every drive over time, and the extreme tensions over the way round the loop."""
+    times = drawn.times.tolist()
+
+    def over_time(values: FloatArray, quantity: units.Quantity = units.FORCE) -> History:
+        return History(quantity, times, np.asarray(values, float).tolist())
+
+    found = {
+        "tension_run_on_max": over_time(np.array([seen.tensions[0] for seen in drawn.head])),
+        "tension_run_off_min": over_time(np.array([seen.tensions[-1] for seen in drawn.head])),
+    }
+    names, grips = case.spec.all_drives, []
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        belt = np.array([seen.belt for seen in history])
+        for index, drum in enumerate(station.drums):
+            if drum.name not in names:
+                continue
+            on, off = (np.array([seen.tensions[index + end] for seen in history]) for end in (0, 1))
+            found[of("tension_run_on_max", drum.name)] = over_time(on)
+            found[of("tension_run_off_min", drum.name)] = over_time(off)
+            given = names[drum.name].drum
+            if given.friction is not None:
+                lift = case.line.belt_line_mass * belt**2
+                used = capstan.slip_utilisation(
+                    np.maximum(on, off), np.minimum(on, off), lift, given.friction * given.wrap
+                )
+                slips = np.array([bool(seen.slips[index]) for seen in history])
+                used = np.where(slips, np.maximum(used, 1.0), used)
+                found[of("slip_utilisation_max", drum.name)] = over_time(used, units.RATIO)
+                grips.append(used)
+    if grips:
+        found["slip_utilisation_max"] = over_time(np.max(grips, axis=0), units.RATIO)
+    middle = (ready.course.places[1:] + ready.course.places[:-1]) / 2
+    found["tension_max"] = History(units.FORCE, middle.tolist(), drawn.highest.tolist(), units.SPAN)
+    found["tension_min"] = History(units.FORCE, middle.tolist(), drawn.lowest.tolist(), units.SPAN)
+    return found
+
+
+def findings_of(case: Moving, drawn: Drawn) -> Iterator[Finding]:
+    """A belt without idler pitches that goes slack; of one with them, the run with its spans tells more."""
+    sags = case.spec.effects.get("sag") != "off"
+    for low, strand in ((drawn.back_min, case.line.back), (drawn.carry_min, case.line.carry)):
+        if low.value < 0 and not (sags and strand.span_weight):
+            yield Finding(
+                "NUM102",
+                f"the belt goes slack at {low.time:.3g} s, {low.place:.4g} m behind the drive pulley; the results of"
+                " the time after that are not reliable",
+                ("takeup", "tension"),
+                "a higher `tension` keeps the belt taut",
+            )
+
+
+def events_of(drawn: Drawn, ready: Set) -> Iterator[Event]:
+    """When the drums at head and tail begin and cease to slip."""
+    words = {0: "sticks", 1: "slips, ahead of the belt", -1: "slips, behind the belt"}
+    found = []
+    for station, history in ((ready.head, drawn.head), (ready.tail, drawn.tail)):
+        for index, drum in enumerate(station.drums):
+            before = 0
+            for k, seen in enumerate(history):
+                if seen.slips[index] != before:
+                    found.append(Event(float(drawn.times[k]), drum.name, words[before], words[seen.slips[index]]))
+                    before = seen.slips[index]
+    yield from sorted(found, key=lambda event: event.time)
