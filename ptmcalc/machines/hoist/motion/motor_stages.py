@@ -6,13 +6,7 @@ import numpy as np
 
 from ptmcalc.components.motor import AnyMotor, ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
-from ptmcalc.numerics.train.parts import (
-    Governed,
-    Law,
-    Smooth,
-    Stage,
-    Straight,
-)
+from ptmcalc.numerics.train.parts import Governed, Law, Smooth, Stage, Straight
 from ptmcalc.numerics.train.signals import Signal
 
 _SLOPES = 2.5

@@ -9,10 +9,7 @@ from dataclasses import dataclass
 
 from ptmcalc.base.memory import remembered
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
-from ptmcalc.numerics.train.parts import (
-    Smooth,
-    Train,
-)
+from ptmcalc.numerics.train.parts import Smooth, Train
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
 """Largest remainder of a smooth torque curve by level, relative to its size [1]. A numerical choice: a smaller value

@@ -49,18 +49,7 @@ from ptmcalc.machines.hoist.motion.train import (
 )
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.modes import frequencies
-from ptmcalc.numerics.train.parts import (
-    CLAMPED,
-    NO_PULL,
-    RIGID,
-    Body,
-    Drive,
-    Grip,
-    Guide,
-    Mesh,
-    Spring,
-    Train,
-)
+from ptmcalc.numerics.train.parts import CLAMPED, NO_PULL, RIGID, Body, Drive, Grip, Guide, Mesh, Spring, Train
 from ptmcalc.numerics.train.signals import ONE, Signal, Trigger
 
 _STEEL = 7850.0
