@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics.strand import weights
+from ptmcalc.numerics.exponential_step import weights
 
 Torque = Callable[[float, float], tuple[float, float]]
 """Force of a drive at the rim by time [s] and rim speed [m/s]: the force [N] and its slope over the speed [N*s/m]."""

@@ -22,7 +22,7 @@ from ptmcalc.machines.conveyor.traction.slip import slip_loads
 from ptmcalc.machines.conveyor.waves import bounds
 from ptmcalc.machines.conveyor.waves.after_start import MODES, ending, still_to_come
 from ptmcalc.machines.conveyor.waves.last_motions import Kept
-from ptmcalc.numerics import loop, peaks, sagging, strand
+from ptmcalc.numerics import loop, peaks, sagging, strand, strand_envelopes
 
 FloatArray = NDArray[np.float64]
 
@@ -423,7 +423,7 @@ def _histories(case: StartCase, drive: str, motion: loop.Motion, sagging_spans: 
         found["slip_utilisation_max"] = History(units.RATIO, times, np.asarray(used).tolist())
     found |= {of(name, drive): history for name, history in found.items()}
     if not sagging_spans:
-        places, highest, lowest = strand.envelopes(_loop(case, frozenset({"belt_wave"})), motion, case.window)
+        places, highest, lowest = strand_envelopes.envelopes(_loop(case, frozenset({"belt_wave"})), motion, case.window)
         found["tension_max"] = History(units.FORCE, places.tolist(), highest.tolist(), units.SPAN)
         found["tension_min"] = History(units.FORCE, places.tolist(), lowest.tolist(), units.SPAN)
     return found
