@@ -29,7 +29,8 @@ from ptmcalc.numerics.pendulum.parts import Smooth as Curve
 from ptmcalc.numerics.pendulum.parts import Straight as Knotted
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import swing
-from ptmcalc.numerics.rope.march import ZD, Hauled, March, Rod, S, U, V, W, X, Z, energy
+from ptmcalc.numerics.rope.equations import ZD, Hauled, Rod, S, U, V, W, X, Z
+from ptmcalc.numerics.rope.march import March, energy
 from ptmcalc.numerics.rope.parts import Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train.parts import Body, Drive, Grip, Impulse, Mesh, Spring, Straight, Train
 from ptmcalc.numerics.train.signals import Signal, Sine, Trigger

@@ -16,7 +16,8 @@ from ptmcalc.machines.hoist.motion.reduced import travel
 from ptmcalc.machines.hoist.motion.train import Case, Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, Release
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy
+from ptmcalc.numerics.rope.equations import ZD, Hauled, Rod, U, W, Z
+from ptmcalc.numerics.rope.march import March, Panel, Played, energy
 from ptmcalc.numerics.rope.parts import Haul
 from ptmcalc.numerics.rope.rule import FloatArray
 
