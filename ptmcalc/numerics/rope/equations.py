@@ -1,4 +1,4 @@
-"""Equations of a load hauled on a rope, between two events: forces of rope and drive, derivatives of the states, and guards.
+"""Equations of a load hauled on a rope between two events: forces, derivatives of the states, guards.
 
 The derivation is that of `numerics.rope.march`.
 """

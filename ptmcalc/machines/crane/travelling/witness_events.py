@@ -26,7 +26,7 @@ from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Collision, RailStep, Skew, Storm
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.effects import RAIL
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]
 _SOURCE = "Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I"
@@ -80,14 +80,14 @@ def collide(spec: Travelling, scene: Collision, carried: frozenset[str], level: 
             run["buffer_deceleration"] *= struck / mass
         left = runs[-1].pop("left")
         before = runs[0].pop("left")
-        loads |= lumped.compared(*runs)
+        loads |= two_runs.compared(*runs)
         for name in ("buffer_force", "buffer_stroke", "buffer_deceleration"):
             loads[name] = _loosened(loads[name].estimate, given.type == "constant" and name != "buffer_force")
         if left > 0:  # whatever stands behind the buffers has the rest
             for name in ("buffer_force", "buffer_deceleration"):
                 one = loads[name].estimate
                 loads[name] = Found(Estimate(one.value, one.low, math.inf, one.numerical, math.inf))
-        loads["buffer_speed_left"] = Found(_wide(lumped.estimate(before, left), 1e-4 * start))
+        loads["buffer_speed_left"] = Found(_wide(two_runs.estimate(before, left), 1e-4 * start))
     share = given.shape if given.shape is not None else _share(given, struck)
     factor = buffer.buffer_factor(min(share, 1.0), spec.classes.buffer_edition)
     loads["phi7"] = Found(Estimate.within(factor, 1e-8))
@@ -219,7 +219,7 @@ def climb(spec: Travelling, scene: RailStep, carried: frozenset[str], level: int
     **Source** Newton's law; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     found = [_on_the_rail(spec, scene, tolerance) for tolerance in lumped.TOLERANCES[-2:]]
-    return Result(lumped.compared(*found), work=2)
+    return Result(two_runs.compared(*found), work=2)
 
 
 def _places(spec: Travelling) -> Iterator[tuple[float, float, float]]:
@@ -274,7 +274,7 @@ def _top(felt: Path, way: int, times: FloatArray) -> float:
         values = way * felt(times)
         top = min(max(int(values.argmax()), 1), len(values) - 2)
         times = np.linspace(times[top - 1], times[top + 1], _LOOKS)
-    return max(float(values.max()), lumped.summit(values[top - 1 : top + 2]))
+    return max(float(values.max()), lumped_history.summit(values[top - 1 : top + 2]))
 
 
 def turns_of(spec: Travelling, scene: RailStep) -> Criterion:
@@ -339,7 +339,7 @@ def lean(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> 
         for name, law in laws.items():
             loads[name] = max(_guided(wheels, law, angle, tolerance) for wheels in _cranes(spec, scene))
         found.append(loads)
-    return Result(lumped.compared(*found), work=2)
+    return Result(two_runs.compared(*found), work=2)
 
 
 def _cranes(spec: Travelling, scene: Skew) -> Iterator[list[_Wheel]]:
@@ -425,7 +425,7 @@ def stand(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -
         "wheel_load_max": max(max(found) for found in corners) / each,
         "wheel_load_min": min(min(found) for found in corners) / each,
     }
-    return Result({name: Found(lumped.estimate(value, value)) for name, value in loads.items()}, work=len(corners))
+    return Result({name: Found(two_runs.estimate(value, value)) for name, value in loads.items()}, work=len(corners))
 
 
 def _corners(spec: Travelling, scene: Storm, hook: float, blown: float) -> list[float]:
