@@ -20,10 +20,10 @@ from ptmcalc.numerics.belt.travel import Travel
 from ptmcalc.numerics.mast.base import Base, Guide, Obstacle
 from ptmcalc.numerics.mast.base import Grip as Slips
 from ptmcalc.numerics.mast.base import Signal as Force
+from ptmcalc.numerics.mast.case import Case as Followed
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import play
-from ptmcalc.numerics.mast.system import Case as Followed
 from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail
 from ptmcalc.numerics.pendulum.parts import Smooth as Curve
 from ptmcalc.numerics.pendulum.parts import Straight as Knotted
