@@ -1,21 +1,43 @@
 """`ptmcalc`: the commands and their options."""
 
-import copy
 import os
 import sys
-from collections.abc import Sequence
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 
 from ptmcalc import __version__
 from ptmcalc.base.diagnostic import Severity
 from ptmcalc.base.errors import UsageError
-from ptmcalc.base.words import shown
 from ptmcalc.cli.decode import decode
-from ptmcalc.cli.output import is_full, let_go_of_all, say, say_all, steady_streams
+from ptmcalc.cli.options import (
+    AccuracyOption,
+    BudgetOption,
+    CheckFormat,
+    CostFormat,
+    EffectsOption,
+    ExcludeOption,
+    ExecutorOption,
+    ExplainFormat,
+    GitignoreOption,
+    JobsOption,
+    Law,
+    ListFormat,
+    ListOption,
+    RepairsOption,
+    Sample,
+    ScenesOption,
+    ShardOption,
+    StoreOption,
+    StudyBudgetOption,
+    StudyFormat,
+    effects_of,
+    format_and_file,
+    history_files,
+    seconds_of,
+)
+from ptmcalc.cli.output import say, say_all
 from ptmcalc.cli.policy import (
     BaselineOption,
     ExitZeroOption,
@@ -35,172 +57,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 120},
 )
 
+
 app.command()(decode)
-
-EXIT_USAGE, EXIT_BUG = 2, 4
-_IN_JSON = "json"
-
-
-class CheckFormat(StrEnum):
-    """Formats of `check`."""
-
-    TABLE = "table"
-    PLAIN = "plain"
-    JSON = "json"
-    JUNIT = "junit"
-    SARIF = "sarif"
-    GITHUB = "github"
-    MARKDOWN = "markdown"
-    SUMMARY = "summary"
-    CSV = "csv"
-
-
-class ListFormat(StrEnum):
-    """Formats of the commands that answer with rows."""
-
-    TABLE = "table"
-    JSON = "json"
-
-
-class CostFormat(StrEnum):
-    """Formats of `cost`."""
-
-    TABLE = "table"
-    JSON = "json"
-    MARKDOWN = "markdown"
-
-
-class StudyFormat(StrEnum):
-    """Formats of the commands that compute many points."""
-
-    TABLE = "table"
-    JSON = "json"
-    CSV = "csv"
-
-
-class Sample(StrEnum):
-    """How the points of a sweep are chosen."""
-
-    GRID = "grid"
-    LHS = "lhs"
-
-
-class ExplainFormat(StrEnum):
-    """Formats of `explain`."""
-
-    TEXT = "text"
-    MARKDOWN = "markdown"
-
-
-class Law(StrEnum):
-    """Laws of similarity of `scale`."""
-
-    FULL = "full"
-    GEOMETRIC = "geometric"
-    BALLAST = "ballast"
-
-
-ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
-AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
-BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
-EffectsOption = Annotated[
-    list[str] | None,
-    typer.Option("--effects", help="NAME=on|off|auto, replaces the setting of the file; may be repeated."),
-]
-ExcludeOption = Annotated[
-    list[str] | None,
-    typer.Option("--exclude", metavar="PATTERN", help="Leave out of folders, as .gitignore writes it; repeatable."),
-]
-GitignoreOption = Annotated[
-    bool, typer.Option("--gitignore/--no-gitignore", help="Leave out of folders what their .gitignore leaves out.")
-]
-JobsOption = Annotated[
-    str, typer.Option("--jobs", "-j", metavar="auto|N", help="Processes; auto: all cores where the work is worth it.")
-]
-ShardOption = Annotated[
-    str, typer.Option("--shard", metavar="I/N", help="Every N-th file from the I-th; `merge` unites the reports.")
-]
-StoreOption = Annotated[
-    str,
-    typer.Option(
-        "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
-    ),
-]
-ExecutorOption = Annotated[
-    str,
-    typer.Option(
-        "--executor",
-        metavar="local|dask://HOST:PORT",
-        help="Workers: local processes, or a cluster of dask.",
-    ),
-]
-StudyBudgetOption = Annotated[
-    str, typer.Option("--budget", help="Predicted time of all points that need a run of their own, e.g. 5min.")
-]
-RepairsOption = Annotated[
-    bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
-]
-ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
-
-
-def main() -> None:
-    """Entry point: maps what can go wrong to exit statuses."""
-    try:
-        steady_streams()
-        sys.argv[1:] = history_with_its_value(sys.argv[1:])
-        _with_one_command(sys.argv[1:])()
-    except UsageError as error:
-        _fail(error)
-    except KeyboardInterrupt:
-        sys.exit(130)
-    except Exception as error:
-        if isinstance(error, OSError) and is_full(error):  # help and usage are printed by typer
-            say(f"ptmcalc: cannot write: {error.strerror}\n", err=True)
-            let_go_of_all()
-            sys.exit(EXIT_USAGE)
-        if os.environ.get("PTMCALC_TRACEBACK"):
-            raise
-        say(
-            f"ptmcalc: internal error: {type(error).__name__}: {shown(str(error))}\n"
-            "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
-            " command under PTMCALC_TRACEBACK=1.\n",
-            err=True,
-        )
-        sys.exit(EXIT_BUG)
-
-
-def _with_one_command(words: Sequence[str]) -> typer.Typer:
-    """The command line with the command that is called alone: typer reads the options of every one it has."""
-    called = [one for one in app.registered_commands if one.callback and [one.callback.__name__] == list(words[:1])]
-    if not called:
-        return app
-    alone = copy.copy(app)
-    alone.registered_commands = called
-    return alone
-
-
-def history_with_its_value(words: list[str]) -> list[str]:
-    """The words of a command line in which `--history`, whose value may be left out, always has one.
-
-    A word behind it that ends in .csv is the file to write; anything else is a path to check. Behind `--` no word is
-    an option.
-    """
-    rewritten: list[str] = []
-    options, alone = True, False
-    for word in words:
-        options = options and word != "--"
-        if options and alone and is_csv(word):
-            rewritten[-1] = f"--history={word}"
-            alone = False
-        else:
-            alone = options and word == "--history"
-            rewritten.append(f"--history={_IN_JSON}" if alone else word)
-    return rewritten
-
-
-def _fail(error: UsageError) -> NoReturn:
-    say(f"ptmcalc: {shown(error.message)}" + (f" ({shown(error.hint)})" if error.hint else "") + "\n", err=True)
-    sys.exit(EXIT_USAGE)
 
 
 def _version(wanted: bool) -> None:
@@ -295,8 +153,8 @@ def check(
     from ptmcalc.report import Format
     from ptmcalc.report.json import RunInfo
 
-    files = [_target(text) for text in output or ()]
-    courses = _history_files(history)
+    files = [format_and_file(text) for text in output or ()]
+    courses = history_files(history)
     if html:
         from ptmcalc.cli.pages import begin, write_pages
 
@@ -306,9 +164,9 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
-    asked = (tuple(scene or ()), accuracy, _effects(effects), bool(history), shapes, bool(html))
+    asked = (tuple(scene or ()), accuracy, effects_of(effects), bool(history), shapes, bool(html))
     sought = ANY if store else choice  # what is kept serves every choice
-    options = Options(*asked, _budget(budget), repairs, sought, run=not validate_only)
+    options = Options(*asked, seconds_of(budget), repairs, sought, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}
     in_json, counts_all = Format.JSON in forms, not (select or ignore or baseline or write_baseline)
     whole = forms != {Format.JSON} or bool(courses or html) or not counts_all
@@ -340,48 +198,6 @@ def check(
     if run.interrupted:
         raise typer.Exit(130)
     raise typer.Exit(0 if exit_zero and status in (1, 3) else status)
-
-
-def _target(text: str) -> tuple[str, str]:
-    form, separator, name = text.partition("=")
-    if not separator or not name or form not in list(CheckFormat):
-        raise UsageError(f"`{text}` is not FORMAT=FILE", f"formats: {', '.join(CheckFormat)}")
-    return form, name
-
-
-def _history_files(given: list[str] | None) -> list[str]:
-    for text in given or ():
-        if text != _IN_JSON and not is_csv(text):
-            raise UsageError(f"`--history={text}` names no .csv file", "write `--history`, or `--history FILE.csv`")
-    return [text for text in given or () if text != _IN_JSON]
-
-
-def is_csv(name: str) -> bool:
-    """Whether a word names a CSV file."""
-    return name.lower().endswith(".csv")
-
-
-def _effects(given: list[str] | None) -> dict[str, str]:
-    chosen = {}
-    for text in given or ():
-        name, separator, wish = text.partition("=")
-        if not separator or wish not in ("on", "off", "auto"):
-            raise UsageError(f"`{text}` is not NAME=on|off|auto", "e.g. --effects sag=off")
-        chosen[name] = wish
-    return chosen
-
-
-def _budget(text: str) -> float:
-    """Seconds of a budget."""
-    from ptmcalc.base import units
-
-    try:
-        seconds = units.read(text, units.TIME)
-    except units.UnitError as error:
-        raise UsageError(f"--budget: {error.reason}", error.hint) from None
-    if seconds < 0:
-        raise UsageError(f"--budget: `{text}` is less than no time", "e.g. --budget 2s")
-    return seconds
 
 
 @app.command()
@@ -421,7 +237,7 @@ def diff(
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
+    options = Options(tuple(scene or ()), accuracy, effects_of(effects), repairs=False)
     raise typer.Exit(show_diff(old, new, options, jobs, store, form.value, repairs=repairs))
 
 
@@ -438,7 +254,7 @@ def plan(
     from ptmcalc.engine.check import Options
 
     raise typer.Exit(
-        show_plan(paths, Options(tuple(scene or ()), accuracy, _effects(effects)), form == ListFormat.JSON)
+        show_plan(paths, Options(tuple(scene or ()), accuracy, effects_of(effects)), form == ListFormat.JSON)
     )
 
 
@@ -470,7 +286,7 @@ def cost(
     from ptmcalc.cli.cost import show_cost
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), "", _effects(effects), budget=_budget(budget))
+    options = Options(tuple(scene or ()), "", effects_of(effects), budget=seconds_of(budget))
     raise typer.Exit(show_cost(paths or [], options, accuracy or [], form=form.value, plot=plot, summary=all_files))
 
 
@@ -601,8 +417,8 @@ def sweep(
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
-    means = Means(jobs, store, executor, _budget(budget))
+    options = Options(tuple(scene or ()), accuracy, effects_of(effects), repairs=False)
+    means = Means(jobs, store, executor, seconds_of(budget))
     raise typer.Exit(show_sweep(path, options, means, vary or [], sample.value, points, seed, form.value))
 
 
@@ -632,8 +448,8 @@ def tolerances(
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options
 
-    options = Options(tuple(scene or ()), accuracy, _effects(effects), repairs=False)
-    means = Means(jobs, store, executor, _budget(budget))
+    options = Options(tuple(scene or ()), accuracy, effects_of(effects), repairs=False)
+    means = Means(jobs, store, executor, seconds_of(budget))
     raise typer.Exit(show_tolerances(path, options, means, samples, seed, confidence, form.value))
 
 

@@ -17,7 +17,7 @@ from ptmcalc.contract.report import FileReport, Tally, tally, total
 from ptmcalc.engine import check as engine
 from ptmcalc.engine.check import Options
 from ptmcalc.engine.files import Chosen, Excludes, chosen_files, part
-from ptmcalc.report import Format, csv, json, render
+from ptmcalc.report import Format, json, render
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -184,6 +184,8 @@ def rendered(
     if form is Format.JSON:
         return json.pieces(total(tallies_of(reports)), _parts(reports), run)
     if form is Format.CSV:
+        from ptmcalc.report import csv
+
         return csv.pieces(reports)
     if not to_terminal:
         return iter([render(form, reports, verbose=verbose)])

@@ -14,10 +14,10 @@ from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.report import FileReport, exit_status
 from ptmcalc.engine.check import Options, chosen_scenes
+from ptmcalc.engine.forecast import Foreseen, foresee
 from ptmcalc.engine.load import Loaded, load_file, load_text
 from ptmcalc.engine.plan import ScenePlan, plan
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.engine.run import Foreseen, foresee
 from ptmcalc.report import Format, json, render, words
 from ptmcalc.report.table import listing
 from ptmcalc.spec.shape import did_you_mean

@@ -57,7 +57,7 @@ def _context(kinds: Iterable[str]) -> BaseContext:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     ours = [f"{machines.__name__}.{kind}" for kind in kinds]  # those that are not, it passes over
-    context.set_forkserver_preload(["ptmcalc.cli.served", "ptmcalc.cli.app", "ptmcalc.cli.worker", *ours])
+    context.set_forkserver_preload(["ptmcalc.cli.served", "ptmcalc.cli.main", "ptmcalc.cli.worker", *ours])
     return context
 
 

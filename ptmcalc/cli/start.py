@@ -17,7 +17,7 @@ def main() -> None:
     """The command line."""
     gc.set_threshold(ALLOCATIONS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    from ptmcalc.cli.app import main as run
+    from ptmcalc.cli.main import main as run
 
     try:
         run()

@@ -6,7 +6,8 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from ptmcalc.components.motor import AnyMotor, ratings_that_differ
+from ptmcalc.components.motor import AnyMotor
+from ptmcalc.components.motor_rating import ratings_that_differ
 from ptmcalc.laws import motor
 from ptmcalc.spec.fields import (
     Efficiency,

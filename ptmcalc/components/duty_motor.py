@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components import drive
-from ptmcalc.components.motor import rated_torque_of, rating_key
+from ptmcalc.components.motor_rating import rated_torque_of, rating_key
 from ptmcalc.spec.fields import HourlyRate, Inertia, PositivePower, PositiveShare, PositiveTorque
 from ptmcalc.spec.fragment import Conflict, Given, at_most_one, together
 from ptmcalc.spec.optional import Assumed, Limit

@@ -1,9 +1,8 @@
 """The motor of a machine: what a file says of it, and its torque over speed and time."""
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +10,6 @@ from pydantic import Field
 from pydantic_core import PydanticCustomError
 
 from ptmcalc.base import units
-from ptmcalc.base.span import KeyPath
 from ptmcalc.laws import motor
 from ptmcalc.spec.fields import (
     Measure,
@@ -27,11 +25,9 @@ from ptmcalc.spec.fields import (
 )
 from ptmcalc.spec.fragment import Conflict, Fragment, Given, exactly_one
 from ptmcalc.spec.optional import Limit, OneOf, Setting
-from ptmcalc.spec.shape import keys_of
 
 FloatArray = NDArray[np.float64]
 Curve = Callable[[FloatArray], FloatArray]
-
 _ABOVE_ONE, _DURATION = Measure(units.OVERLOAD, above=1), Measure(units.TIME, above=0)
 RatioAboveOne = Annotated[float, _ABOVE_ONE]
 RatedSlip = Annotated[float, Measure(units.SLIP, above=0, at_most=1)]
@@ -448,140 +444,6 @@ AnyMotor = Annotated[
     Field(discriminator="type"),
 ]
 """A motor, told by its `type`."""
-
-_LOOKS = 1025
-"""Even steps of the speed at which a curve is looked at, from rest on."""
-
-
-def torques_up_to(curve: AnyMotor, speed: float) -> FloatArray:
-    """Torque of a motor over even steps from rest to a speed [rad/s], shape (n,) [N*m].
-
-    Where stages are switched by time, the best of them at each speed: which one it is, a run tells. Of a converter its
-    limit, which it gives at any speed.
-    """
-    if isinstance(curve, ConverterMotor):
-        return np.full(_LOOKS, curve.limit)
-    speeds = np.linspace(0.0, speed, _LOOKS)
-    if any(stage.until_time is not None for stage in curve.stages):
-        return np.asarray(np.max([stage.torque(speeds) for stage in curve.stages], axis=0))
-    return curve.torque(speeds, np.inf)
-
-
-def overhauled_torque(curve: AnyMotor) -> float:
-    """The most with which a motor brakes a load that drives it above its no-load speed, once its start is over [N*m].
-
-    Infinite where the torque grows with the speed without end (`linear`), 0 where the motor never brakes.
-    """
-    if isinstance(curve, ConverterMotor):
-        return curve.limit
-    last = curve.stages[-1]
-    if isinstance(curve, InductionBase):
-        slip = np.array([-curve.breakdown_slip])
-        return -float(last.torque((1 - slip) * curve.synchronous_speed)[0])
-    assert last.pieces is not None
-    if last.extends:
-        return np.inf
-    return max(0.0, -min(torque for speed, torque in last.pieces if speed >= 0 or torque >= 0))
-
-
-def overhauling_reserve(curve: AnyMotor, count: int, torque: float) -> float:
-    """Largest braking torque of equal motors above their no-load speed over the torque of a load that drives them.
-
-        reserve = n M_b/M_o,   infinite where the load does not drive the motors (M_o <= 0)
-
-    Args:
-        curve: of one motor.
-        count: n, the number of motors.
-        torque: M_o, of the load on the motor shaft, losses of the gear taken off [N*m].
-
-    Returns:
-        The reserve [1].
-
-    **Range** steady motion; a motor whose start is over.
-    **Error** exact for the curve. Below 1 no speed exists at which the motors hold the load.
-    **Source** balance of torques on the motor shaft.
-    """
-    return count * overhauled_torque(curve) / torque if torque > 0 else math.inf
-
-
-def number_at(path: KeyPath, curve: AnyMotor | None, *, rated: bool = False) -> KeyPath:
-    """The number that a key stands for: where it names the curve of a motor, the one all its torques grow with; none
-    where there is no such number. The power of a motor that the file gives besides the curve (`rated`) is none: it
-    cannot change in one place alone.
-    """
-    if path[-1] != "curve":
-        return path
-    if curve is None or not curve.size_key or (rated and curve.size_key == "power"):
-        return ()
-    return (*path, curve.size_key)
-
-
-def braking_number_at(path: KeyPath, curve: AnyMotor | None, *, rated: bool = False) -> KeyPath:
-    """The number that the braking torque of a motor's curve at `path` grows with, as `number_at`; of an induction motor
-    with a given power the overload, with which its breakdown torque grows."""
-    if rated and isinstance(curve, InductionBase):
-        return (*path, "overload")
-    return number_at(path, curve, rated=rated)
-
-
-def rated_torque_of(given: float | None, curve: AnyMotor | None) -> float | None:
-    """Rated torque of a motor: as given, else that of its curve; None where neither is known [N*m]."""
-    return given if given is not None or curve is None else curve.rated
-
-
-def rating_key(power: float | None, rated_torque: float | None, curve: AnyMotor | None) -> KeyPath:
-    """The key below a motor that states its rating; `rated_torque` where nothing does."""
-    if power is not None:
-        return ("power",)
-    if rated_torque is not None or curve is None or curve.rated is None:
-        return ("rated_torque",)
-    return ("curve", "power" if getattr(curve, "power", None) is not None else "rated_torque")
-
-
-_AGREES = 0.01
-"""Difference of two ratings of one motor up to which they agree: catalogues round power and speed to three digits."""
-
-
-def ratings_that_differ(given: Given) -> Iterator[Conflict]:
-    """The rating of a motor and that of its curve are those of one motor: power, rated torque, rated speed.
-
-    The speed of a converter's curve is not compared: it is the speed asked for, not a rated one.
-    """
-    known = keys_of(given.model)
-    curve = given.block("curve") if "curve" in given else None
-    if curve is None:
-        return
-    kind, own = curve.raw.get("type"), {key: _told(given, known, key) for key in ("power", "speed", "rated_torque")}
-    induction = kind in ("induction", "rheostat")
-    pairs = [("power", units.POWER)] if induction or kind == "converter" else []
-    pairs += [("speed", units.ANGULAR_SPEED)] if induction else []
-    for key, quantity in pairs:
-        yield from _differs(key, own[key], curve.number(key), quantity)
-    rated = _rated_by(curve)
-    yield from _differs("rated_torque", own["rated_torque"], rated, units.TORQUE)
-    if kind in ("constant", "linear", "table") and own["power"] is not None and own["speed"] is not None:
-        torque = motor.rated_torque(own["power"], own["speed"])
-        if rated is not None and abs(rated / torque - 1) > _AGREES:
-            shown = units.show(torque, units.TORQUE)
-            reason = f"it differs from the rated torque by `power` and `speed`, {shown}"
-            yield Conflict(("curve", kind, "rated_torque"), reason, f"write `rated_torque: {shown}`, or delete it")
-
-
-def _told(given: Given, known: Mapping[str, Any], key: str) -> float | None:
-    return given.number(key) if key in known and key in given else None
-
-
-def _rated_by(curve: Given) -> float | None:
-    """Rated torque of a curve, as far as it can be read."""
-    return curve.model.rated_by(curve) if issubclass(curve.model, Motor) else None
-
-
-def _differs(key: str, own: float | None, of_curve: float | None, quantity: units.Quantity) -> Iterator[Conflict]:
-    if own is None or of_curve is None or abs(own / of_curve - 1) <= _AGREES:
-        return
-    shown = units.show(of_curve, quantity)
-    reason = f"the `curve` is that of a motor with {shown}"
-    yield Conflict((key,), reason, f"write `{key}: {shown}`, or correct the `curve`")
 
 
 def _natural_curve(given: Given) -> tuple[float, float, float] | None:

@@ -8,7 +8,8 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import AnyMotor, rated_torque_of, rating_key, ratings_that_differ
+from ptmcalc.components.motor import AnyMotor
+from ptmcalc.components.motor_rating import rated_torque_of, rating_key, ratings_that_differ
 from ptmcalc.laws import gearing, motor
 from ptmcalc.spec.fields import (
     Efficiency,

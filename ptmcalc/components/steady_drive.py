@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import AnyMotor, InductionBase, overhauled_torque
+from ptmcalc.components.motor import AnyMotor, InductionBase
+from ptmcalc.components.motor_torque import overhauled_torque
 
 FloatArray = NDArray[np.float64]
 

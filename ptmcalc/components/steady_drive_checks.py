@@ -6,7 +6,7 @@ from typing import Any, Generic
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
+from ptmcalc.components.motor_rating import number_at
 from ptmcalc.components.steady_drive import Motors, motor_torques, steady_reserve
 from ptmcalc.contract.check import Check, Sense, no_needs
 from ptmcalc.contract.effect import C, Criterion, S

@@ -25,9 +25,10 @@ from ptmcalc.contract.report import FileReport, Tally, tally
 from ptmcalc.engine.agenda import Agenda
 from ptmcalc.engine.check import Options, broken, check, check_file, guarded, planned_for
 from ptmcalc.engine.files import machine_in
+from ptmcalc.engine.forecast import foresee
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import Plan
-from ptmcalc.engine.run import NO_MEMORY, foresee
+from ptmcalc.engine.run import NO_MEMORY
 from ptmcalc.engine.store import Record, Store, packed
 from ptmcalc.text.document import MAX_BYTES
 from ptmcalc.text.source import beginning_of

@@ -30,19 +30,18 @@ from ptmcalc.contract.report import (
     SolverReport,
 )
 from ptmcalc.contract.result import Finding, History
-from ptmcalc.engine.forced import refused
 from ptmcalc.engine.judge import Ruling
 from ptmcalc.engine.load import Loaded, load_file
 from ptmcalc.engine.plan import Plan, PlannedEffect, plan
 from ptmcalc.engine.policy import ANY, Choice
 from ptmcalc.engine.purse import FilePurse
 from ptmcalc.engine.repair import Repairs
-from ptmcalc.engine.run import NO_MEMORY, WORK_BUDGET, Run, Settled, sensitive, without
+from ptmcalc.engine.run import NO_MEMORY, WORK_BUDGET
+from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.engine.solve import variants
 from ptmcalc.engine.textbook import OF_TEXTBOOKS, far_from_textbook
-from ptmcalc.engine.unknown import why_open
 from ptmcalc.engine.waive import about_waivers, waived
-from ptmcalc.spec.alias import as_written, said_as_written
+from ptmcalc.spec.alias import said_as_written
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 from ptmcalc.text.document import Document
@@ -142,7 +141,7 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     made = planned or planned_for(loaded, options)
     if made is None:
         return FileReport(name, kind.name, spec.name, loaded.diagnostics, loaded.assumed, computed=False)
-    conflicts = tuple(refused(kind, spec, made.scenes, loaded.document, whole=not options.scenes))
+    conflicts = _conflicts(loaded, kind, spec, made, options)
     if any(one.severity is Severity.ERROR for one in conflicts):
         named = tuple(said_as_written(one, loaded.document) for one in conflicts)
         return FileReport(name, kind.name, spec.name, loaded.diagnostics + named, loaded.assumed)
@@ -167,26 +166,22 @@ def check(loaded: Loaded, options: Options, planned: Plan | None = None) -> File
     diagnostics += tuple(_nothing_checked(loaded, judged))
     tables = kind.tables_of(spec, judged)
     report = FileReport(name, kind.name, spec.name, diagnostics, loaded.assumed, judged, tables)
-    return _as_written(report, loaded.document) if loaded.document.aliased else report
+    if not loaded.document.aliased:
+        return report
+    from ptmcalc.engine.report_keys import as_written_in_file
+
+    return as_written_in_file(report, loaded.document)
 
 
-def _as_written(report: FileReport, document: Document) -> FileReport:
-    """A report that names keys as the file does."""
+def _conflicts(
+    loaded: Loaded, kind: AnyKind, spec: MachineSpec, made: Plan, options: Options
+) -> tuple[Diagnostic, ...]:
+    """Effects forced on that no solver can simulate."""
+    if "on" not in spec.effects.values():
+        return ()
+    from ptmcalc.engine.forced import refused
 
-    def judgement(one: Judgement) -> Judgement:
-        repair = replace(one.repair, path=document.as_written(one.repair.path)) if one.repair else None
-        path = one.blame.path
-        reason, tried = (as_written(text, document, path) for text in (one.reason, one.tried))
-        return replace(
-            one, blame=replace(one.blame, path=document.as_written(path)), repair=repair, reason=reason, tried=tried
-        )
-
-    return replace(
-        report,
-        diagnostics=tuple(said_as_written(one, document) for one in report.diagnostics),
-        assumed=tuple(replace(one, path=document.as_written(one.path)) for one in report.assumed),
-        scenes=tuple(replace(scene, checks=tuple(map(judgement, scene.checks))) for scene in report.scenes),
-    )
+    return tuple(refused(kind, spec, made.scenes, loaded.document, whole=not options.scenes))
 
 
 def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:
@@ -334,7 +329,7 @@ class _Assembly:
         return replace(report, figures=tuple(figures_of(self.kind, report, self.spec, histories, self._textbooks())))
 
     def _effects(self) -> Iterator[EffectReport]:
-        near = {planned.effect.name for planned in sensitive(self.settled)}
+        near = {planned.effect.name for planned in self.settled.near}
         carried = self.settled.carried
         for planned in self.settled.plan.effects:
             name = planned.effect.name
@@ -350,6 +345,8 @@ class _Assembly:
 
     def _change(self, name: str) -> Change | None:
         """The load of a check that leaving the effect out changes most; one whose change is clear goes first."""
+        from ptmcalc.engine.sensitivity import without
+
         pair = without(self.settled, self.spec, name)
         if pair is None:
             return None
@@ -429,6 +426,8 @@ class _Assembly:
         verdict, reason = ruling.verdict, ruling.reason
         blame = ruling.blame
         if verdict is Verdict.UNDECIDED and not (ruling.value is not None and ruling.value.bounded):
+            from ptmcalc.engine.unknown import why_open
+
             reason = why_open(self.kind, self.spec, self.settled, check.loads) or reason
         flip = self.flips.get((scene.label, check.code, check.element))
         if flip and verdict in (Verdict.PASS, Verdict.FAIL):

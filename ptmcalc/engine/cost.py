@@ -17,7 +17,7 @@ from ptmcalc.contract.result import Result, family
 from ptmcalc.contract.solver import AnySolver, Fidelity
 from ptmcalc.engine.judge import Ruling, judge
 from ptmcalc.engine.plan import Plan, Rung, ScenePlan, plan
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.widen import widen
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 

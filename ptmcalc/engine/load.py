@@ -24,7 +24,6 @@ from ptmcalc.spec.alias import said_as_written, with_keys
 from ptmcalc.spec.fields import Measure, describe
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.optional import constants_of
-from ptmcalc.spec.problems import problems_of
 from ptmcalc.spec.scene import type_of
 from ptmcalc.spec.shape import did_you_mean, keys_at, keys_of, meant, measure_of, unknown_key
 from ptmcalc.text.document import MAX_BYTES, MAX_FAULTS, Document, Unread, parse
@@ -160,6 +159,8 @@ def _read(
     try:
         spec = kind.spec.model_validate(data)
     except ValidationError as error:
+        from ptmcalc.spec.problems import problems_of
+
         faults = problems_of(error, kind.spec, document)
         found = chain(found, (fault for fault in faults if fault.path[:2] not in open_keys))
     return document, kind, spec, list(_as_many_as_are_read(found))

@@ -31,7 +31,7 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.judge import checks_of, sides
 from ptmcalc.engine.load import Loaded, fill, load_text, measure_at, with_key, written
 from ptmcalc.engine.plan import ScenePlan, plan_scene
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.widen import widen
 from ptmcalc.numerics import lanes
 from ptmcalc.numerics.lanes import Lanes, LanesError, SplitError
 from ptmcalc.spec.alias import key_of

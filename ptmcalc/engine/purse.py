@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from ptmcalc.base.diagnostic import Diagnostic, Severity
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.plan import ScenePlan
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.text.document import Document
 

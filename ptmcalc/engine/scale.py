@@ -27,7 +27,8 @@ from ptmcalc.contract.result import Finding, LoadInfo
 from ptmcalc.engine.check import chosen_scenes
 from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.plan import plan
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 from ptmcalc.laws import similarity
 from ptmcalc.laws.similarity import FULL, Scales
 from ptmcalc.spec.machine import MachineSpec

@@ -7,7 +7,7 @@ from ptmcalc.base.estimate import NOTHING
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.contract.result import family
 from ptmcalc.contract.solver import AnySolver
-from ptmcalc.engine.run import Best, Settled
+from ptmcalc.engine.settled import Best, Settled
 from ptmcalc.spec.machine import MachineSpec
 
 _NAMED = 3

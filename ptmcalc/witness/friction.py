@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.witness.mechanism import OPEN, Branch, Equations, FloatArray, Mechanism, State, shares_at_rest
+from ptmcalc.witness.mechanism import Equations, Mechanism, shares_at_rest
+from ptmcalc.witness.mechanism_coordinates import OPEN, Branch, FloatArray, State
 
 _SMALL = 1e-9
 

@@ -5,21 +5,21 @@ What differs between a run and one of a hundredth of its tolerance is the larger
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.base.estimate import Estimate
-from ptmcalc.contract.result import Found
-from ptmcalc.numerics.train.parts import Governed, Train
+from ptmcalc.numerics.train.parts import Train
 from ptmcalc.witness.friction import Friction, Rest
-from ptmcalc.witness.mechanism import OPEN, Equations, FloatArray, Inputs, Mechanism, State, piece_of
+from ptmcalc.witness.law_pieces import piece_of
+from ptmcalc.witness.lumped_history import Happened, History, summit, turns
+from ptmcalc.witness.mechanism import Equations, Mechanism
+from ptmcalc.witness.mechanism_coordinates import OPEN, FloatArray, State
+from ptmcalc.witness.mechanism_inputs import Inputs
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
-_MARGIN = 3.0
 _SAMPLES = np.linspace(0.0, 1.0, 9)
 _CLOSER = 41
 _BOOLE = np.array([7, 32, 12, 32, 14, 32, 12, 32, 7]) * 4 / 45 / 8 / 2
@@ -27,45 +27,7 @@ _MOST_EVENTS = 400
 _MOST_STEPS = 12_000
 _MOST_AT_ONCE = 60
 """Events at one time, after which something chatters."""
-_ROUNDING = 1e-9
 _STICKS = 1e-9
-_A_STEP, _FOLLOWED, _STABLE, _FADES = 6e-4, 1.2, 5.0, 20.0
-"""Seconds of a step with what is looked for in it; its largest product with an eigenvalue, as long as that component is
-seen, and once it has faded; the time constants in which it fades."""
-
-
-@dataclass(frozen=True, slots=True)
-class Happened:
-    """An event: a part of one kind, and the state it goes to."""
-
-    time: float
-    kind: str
-    index: int
-    to: object
-
-
-@dataclass
-class History:
-    """What a run found; extremes by (what, index), with their times."""
-
-    mechanism: Mechanism
-    time: float = 0.0
-    last: dict[tuple[str, int], float] = field(default_factory=dict)
-    first: dict[tuple[str, int], float] = field(default_factory=dict)
-    highest: dict[tuple[str, int], float] = field(default_factory=dict)
-    lowest: dict[tuple[str, int], float] = field(default_factory=dict)
-    squares: FloatArray = field(default_factory=lambda: np.zeros(0))
-    events: list[Happened] = field(default_factory=list)
-    turning: tuple[int | None, ...] = ()
-    steps: int = 0
-
-    def largest(self, what: str, index: int) -> float:
-        """Largest magnitude of what is watched."""
-        return max(self.highest[what, index], -self.lowest[what, index])
-
-    def times(self, kind: str, index: int, fits: Callable[[Any], bool]) -> list[float]:
-        """Times at which a part came to a state."""
-        return [one.time for one in self.events if one.kind == kind and one.index == index and fits(one.to)]
 
 
 def simulate(train: Train, end: float, tolerance: float) -> History:
@@ -80,51 +42,6 @@ def simulate(train: Train, end: float, tolerance: float) -> History:
 def twice(train: Train, end: float, level: int) -> tuple[History, History]:
     """Two runs of a train, the second with a hundredth of the tolerance of the first."""
     return simulate(train, end, TOLERANCES[level]), simulate(train, end, TOLERANCES[level + 1])
-
-
-def seconds(train: Train, end: float, tolerances: Sequence[float]) -> float:
-    """Predicted seconds of runs: steps follow every component until it has faded, and stay stable then."""
-    steps = 20.0
-    for value in eigenvalues(train):
-        size, decay = abs(value), max(-value.real, 0.0)
-        seen = min(end, _FADES / decay) if decay else end
-        steps = max(steps, size * (seen / _FOLLOWED + (end - seen) / _STABLE))
-    return 3e-2 + _A_STEP * steps * sum(map(_finer, tolerances))
-
-
-def _finer(tolerance: float) -> float:
-    """Steps over those of the coarsest tolerance, with the eighth root."""
-    return float((TOLERANCES[0] / tolerance) ** (1 / 8))
-
-
-def eigenvalues(train: Train) -> list[complex]:
-    """Of the train with every play closed and nothing slipping [1/s]."""
-    one = Mechanism(train)
-    stiffness, damping = (np.zeros((one.count, one.count)) for _ in range(2))
-    for row, spring in zip(one.rows, train.springs, strict=True):
-        stiffness += spring.stiffness * np.outer(row, row)
-        damping += spring.damping * np.outer(row, row)
-    for drive in train.drives:
-        row = one.group_row(drive.body, None)
-        steep = max((stage.law.stiffness for stage in drive.stages if isinstance(stage.law, Governed)), default=0.0)
-        damping += steep * np.outer(row, row)
-    inverse = 1 / one.weights[:, None]
-    matrix = np.block([[np.zeros_like(damping), np.eye(one.count)], [-inverse * stiffness, -inverse * damping]])
-    return [complex(value) for value in np.linalg.eigvals(matrix)]
-
-
-def compared(coarse: Mapping[str, float], fine: Mapping[str, float]) -> dict[str, Found]:
-    """Loads that both of two runs tell, by the finer one, each with three times what it differs by from the coarser."""
-    return {name: Found(estimate(coarse[name], value)) for name, value in fine.items() if name in coarse}
-
-
-def estimate(coarse: float, fine: float, margin: float = _MARGIN) -> Estimate:
-    """A load of the finer of two runs, with some times what they differ by, and rounding."""
-    if not math.isfinite(fine):
-        return Estimate.exact(fine) if coarse == fine else Estimate.unknown(fine)
-    if not math.isfinite(coarse):
-        return Estimate.unknown(fine)
-    return Estimate.within(fine, margin * abs(fine - coarse) + _ROUNDING * abs(fine))
 
 
 class _Run:
@@ -544,7 +461,7 @@ class _Run:
             for k in np.flatnonzero(tops + steep > known):
                 row, top = heights[k], float(tops[k])
                 index = min(max(int(row.argmax()), 1), len(times) - 2)
-                if _turns(row[index - 1 : index + 2]):
+                if turns(row[index - 1 : index + 2]):
                     near = np.linspace(times[index - 1], times[index + 1], _CLOSER)
                     closer = sign * (rows[k] @ inputs.columns(near, dense(near)))
                     middle = min(max(int(closer.argmax()), 1), len(near) - 2)
@@ -561,17 +478,3 @@ def _root(f: Callable[[float], float], left: float, right: float) -> float:
     from scipy.optimize import brentq
 
     return float(brentq(f, left, right, xtol=1e-15, rtol=1e-14))
-
-
-def _turns(heights: FloatArray) -> bool:
-    """Whether the parabola through three equally spaced values has its summit among them."""
-    slope, bend = (heights[2] - heights[0]) / 2, heights[2] - 2 * heights[1] + heights[0]
-    return bool(bend < 0 and abs(slope) <= 1.2 * abs(bend))
-
-
-def summit(heights: FloatArray) -> float:
-    """Summit of the parabola through three equally spaced values; the largest of them where it has none inside."""
-    slope, bend = (heights[2] - heights[0]) / 2, heights[2] - 2 * heights[1] + heights[0]
-    if bend < 0 and abs(slope) <= abs(bend):
-        return float(heights[1] - slope**2 / (2 * bend))
-    return float(heights.max())

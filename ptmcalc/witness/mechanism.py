@@ -7,13 +7,10 @@ Every force is a row over w = (q, v, u): travels and speeds of the groups that g
 1, the signals over time, the smooth torques.
 """
 
-from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.train.parts import (
@@ -23,30 +20,15 @@ from ptmcalc.numerics.train.parts import (
     LINEAR,
     RIGID,
     Governed,
-    Grip,
     Mesh,
     Smooth,
-    Spring,
     Straight,
     Train,
 )
 from ptmcalc.numerics.train.signals import Signal
-
-FloatArray = NDArray[np.float64]
-Branch = tuple[str, int]
-OPEN: Branch = ("open", 0)
-
-
-class State(NamedTuple):
-    """What touches, what turns which way (0 held, None free of friction), what slips, signs of the outer torques of
-    lossy meshes, stage and piece of every drive, and when every signal with a trigger started."""
-
-    branches: tuple[Branch, ...]
-    turning: tuple[int | None, ...]
-    slips: tuple[int, ...]
-    meshes: tuple[int, ...]
-    drives: tuple[tuple[int, int], ...]
-    started: tuple[float | None, ...]
+from ptmcalc.witness.law_pieces import ends, line
+from ptmcalc.witness.mechanism_coordinates import OPEN, Branch, Coordinates, FloatArray, State
+from ptmcalc.witness.mechanism_inputs import Inputs
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,158 +55,15 @@ class Equations:
     exits: list[Exit] = field(default_factory=list)
 
 
-class Mechanism:
+class Mechanism(Coordinates):
     """The equations of a train."""
 
     def __init__(self, train: Train) -> None:
-        self.train = train
-        bodies = train.bodies
-        self.count_bodies = len(bodies)
-        self.of, self.ratio = self._groups()
-        self.count = max(self.of) + 1
-        self.inertia = np.array([body.inertia for body in bodies])
-        self.origin = np.array([body.position for body in bodies])
-        self.weights = np.zeros(self.count)
-        np.add.at(self.weights, self.of, self.inertia * self.ratio**2)
-        self.lossy = [k for k, mesh in enumerate(train.meshes) if mesh.lossy]
-        self.clutches = [k for k, grip in enumerate(train.grips) if self._joins(grip)]
-        self.guided = {self.of[guide.body]: k for k, guide in enumerate(train.guides)}
-        self.rough = [self._is_rough(group) for group in range(self.count)]
-        self.signals = tuple(dict.fromkeys(self._signals()))
-        self.smooth = [k for k, drive in enumerate(train.drives) if _smooth(drive.stages)]
-        self.hertz = [k for k, spring in enumerate(train.springs) if spring.law == HUNT_CROSSLEY]
-        self.first_input = 2 * self.count
-        self.width = self.first_input + 1 + len(self.signals) + len(self.smooth) + len(self.hertz)
-        self.one = self._unit(self.first_input)
-        self.rows = [self._row(spring) for spring in train.springs]
-        self.start_extension = [self._extension(spring) for spring in train.springs]
+        super().__init__(train)
         self._known: dict[State, Equations] = {}
         self._known_at: float = -1.0
 
-    def _groups(self) -> tuple[list[int], FloatArray]:
-        """Group of every body, and its speed over that of the group's first."""
-        count = len(self.train.bodies)
-        of, ratio = [-1] * count, np.ones(count)
-        groups = 0
-        for body in range(count):
-            if of[body] >= 0:
-                continue
-            of[body], waiting = groups, [body]
-            groups += 1
-            while waiting:
-                here = waiting.pop()
-                for mesh in self.train.meshes:
-                    for one, other, factor in (
-                        (mesh.inner, mesh.outer, 1 / mesh.ratio),
-                        (mesh.outer, mesh.inner, mesh.ratio),
-                    ):
-                        if one == here and of[other] < 0:
-                            of[other], ratio[other] = of[here], ratio[here] * factor
-                            waiting.append(other)
-        return of, ratio
-
-    def _joins(self, grip: Grip) -> bool:
-        return grip.second is not None and self.of[grip.first] != self.of[grip.second]
-
-    def _is_rough(self, group: int) -> bool:
-        grips = (grip for k, grip in enumerate(self.train.grips) if k not in self.clutches)
-        return any(self.of[grip.first] == group for grip in grips) or any(
-            self.of[self.train.meshes[k].inner] == group for k in self.lossy
-        )
-
-    def _signals(self) -> Iterator[Signal]:
-        for drive in self.train.drives:
-            yield drive.gate
-            for stage in drive.stages:
-                if isinstance(stage.law, Signal):
-                    yield stage.law
-                elif isinstance(stage.law, Governed):
-                    yield stage.law.reference
-        for grip in self.train.grips:
-            yield from (grip.capacity, grip.gate)
-        for guide in self.train.guides:
-            yield guide.acceleration
-
-    # -- rows ------------------------------------------------------------------------------------------------------
-
-    def _unit(self, index: int) -> FloatArray:
-        row = np.zeros(self.width)
-        row[index] = 1.0
-        return row
-
-    def group_row(self, first: int, second: int | None, over: int | None = None) -> FloatArray:
-        """Relative speed of bodies as a row over the speeds of the groups."""
-        row = np.zeros(self.count)
-        row[self.of[first]] += self.ratio[first]
-        for other in (second, over):
-            if other is not None:
-                row[self.of[other]] -= self.ratio[other]
-        return row
-
-    def _row(self, spring: Spring) -> FloatArray:
-        return self.group_row(spring.first, spring.second, spring.over)
-
-    def _extension(self, spring: Spring) -> float:
-        found = self.origin[spring.first] - spring.rest
-        for other in (spring.second, spring.over):
-            found -= self.origin[other] if other is not None else 0.0
-        return float(found)
-
-    def extension(self, k: int) -> FloatArray:
-        """Extension of a link."""
-        row = self.start_extension[k] * self.one
-        row[: self.count] = self.rows[k]
-        return row
-
-    def speed_of(self, groups: FloatArray) -> FloatArray:
-        """A sum of speeds of groups."""
-        row = np.zeros(self.width)
-        row[self.count : 2 * self.count] = groups
-        return row
-
-    def body_speed(self, body: int) -> FloatArray:
-        """Speed of a body."""
-        return self.speed_of(self.group_row(body, None))
-
-    def body_position(self, body: int) -> FloatArray:
-        """Position of a body."""
-        row: FloatArray = self.origin[body] * self.one
-        row[self.of[body]] += self.ratio[body]
-        return row
-
-    def signal_row(self, signal: Signal) -> FloatArray:
-        """A signal, an input of its own."""
-        return self._unit(self.first_input + 1 + self.signals.index(signal))
-
-    # -- inputs ----------------------------------------------------------------------------------------------------
-
-    def breaks(self, state: State) -> Iterator[float]:
-        """Times at which a signal changes its piece, a stage ends or an impulse strikes."""
-        for signal, start in zip(self.signals, state.started, strict=True):
-            if start is not None:
-                yield from (start + time for time in signal.times[1:])
-                if signal.decay:
-                    yield start + signal.decay_start
-        for drive, (stage, _) in zip(self.train.drives, state.drives, strict=True):
-            until = drive.stages[stage].until_time
-            if until is not None and stage + 1 < len(drive.stages):
-                yield until
-        yield from (impulse.time for impulse in self.train.impulses)
-
-    def level(self, signal: Signal, state: State, inside: float) -> float:
-        """A signal of steps within an interval without breaks."""
-        return float(self.straight(signal, state, inside)[0])
-
-    def straight(self, signal: Signal, state: State, inside: float) -> tuple[float, float]:
-        """(a, b) of its straight line a + b t in the interval around a time."""
-        start = state.started[self.signals.index(signal)]
-        if start is None:
-            return signal.before, 0.0
-        piece = max(bisect_right(signal.times, inside - start) - 1, 0)
-        slope = signal.slopes[piece]
-        return signal.values[piece] - slope * (start + signal.times[piece]), slope
-
-    def inputs(self, state: State, inside: float) -> "Inputs":
+    def inputs(self, state: State, inside: float) -> Inputs:
         """The inputs in an interval without breaks."""
         lines = np.array([self.straight(signal, state, inside) for signal in self.signals]).reshape(-1, 2)
         waves, decays = [], []
@@ -490,142 +329,6 @@ class Mechanism:
                 yield Exit(x - low * self.one, "drive", k, (number, piece - 1))
             if high is not None:
                 yield Exit(high * self.one - x, "drive", k, (number, piece + 1))
-
-
-def _smooth(stages: tuple[object, ...]) -> bool:
-    return any(isinstance(getattr(stage, "law", None), Smooth) for stage in stages)
-
-
-def _pieces(law: Straight) -> tuple[int, int]:
-    """The first piece and the last one: -1 and the last knot where the torque is constant beyond its ends."""
-    last = len(law.knots) - 1
-    return (0, last - 1) if law.extends and last > 0 else (-1, last)
-
-
-def _knot(law: Straight, index: int) -> float:
-    if not law.period:
-        return law.knots[index]
-    turns, index = divmod(index, len(law.knots) - 1)
-    return law.knots[index] + turns * law.period
-
-
-def piece_of(law: object, speed: float, position: float) -> int:
-    """The piece of a law in which a body stands."""
-    if not isinstance(law, Straight):
-        return 0
-    x = speed if law.on == "speed" else position
-    if law.period:
-        turns = int((x - law.knots[0]) // law.period)
-        inside = x - turns * law.period
-        within = min(max(bisect_right(law.knots, inside) - 1, 0), len(law.knots) - 2)
-        return turns * (len(law.knots) - 1) + within
-    first, last = _pieces(law)
-    return min(max(bisect_right(law.knots, x) - 1, first), last)
-
-
-def ends(law: Straight, piece: int) -> tuple[float | None, float | None]:
-    """Where a piece begins and ends."""
-    if law.period:
-        return _knot(law, piece), _knot(law, piece + 1)
-    first, last = _pieces(law)
-    return (law.knots[piece] if piece > first else None), (law.knots[piece + 1] if piece < last else None)
-
-
-def line(law: Straight, piece: int) -> tuple[tuple[float, float], float]:
-    """A point of a piece and its slope."""
-    last = len(law.knots) - 1
-    if law.period:
-        index = piece % last
-        slope = (law.values[index + 1] - law.values[index]) / (law.knots[index + 1] - law.knots[index])
-        return (_knot(law, piece), law.values[index]), slope
-    if 0 <= piece < last:
-        run = law.knots[piece + 1] - law.knots[piece]
-        return (law.knots[piece], law.values[piece]), (law.values[piece + 1] - law.values[piece]) / run
-    index = 0 if piece < 0 else last
-    return (law.knots[index], law.values[index]), 0.0
-
-
-@dataclass
-class Inputs:
-    """The inputs u over time and state, in an interval without breaks."""
-
-    mechanism: Mechanism
-    state: State
-    start: FloatArray
-    slope: FloatArray
-    waves: list[tuple[int, float, float, float]]
-    decays: list[tuple[int, float, float, float]]
-
-    def __post_init__(self) -> None:
-        one = self.mechanism
-        self._curves = []
-        for k in one.smooth:
-            drive, (stage, _) = one.train.drives[k], self.state.drives[k]
-            law = drive.stages[stage].law
-            if isinstance(law, Smooth):
-                place = (one.body_speed if law.on == "speed" else one.body_position)(drive.body)
-                gate = one.level(drive.gate, self.state, 0.0) if not drive.gate.times[1:] else None
-                self._curves.append((one.smooth.index(k), place[: one.first_input + 1], law.value, gate))
-        self._contacts = []
-        for i, k in enumerate(one.hertz):
-            name, side = self.state.branches[k]
-            if name == "full":
-                x, rate = one.extension(k)[: one.first_input + 1], one.speed_of(one.rows[k])[: one.first_input]
-                self._contacts.append((i, one.train.springs[k], side, x, rate))
-
-    def gated(self, inside: float) -> "Inputs":
-        """The same with the gates of smooth torques at their level in the interval."""
-        one = self.mechanism
-        levels = [one.level(one.train.drives[k].gate, self.state, inside) for k in one.smooth]
-        self._curves = [(i, place, value, levels[i]) for i, place, value, _ in self._curves]
-        return self
-
-    def wide(self, t: float, y: FloatArray) -> FloatArray:
-        """w at one time."""
-        return self.columns(np.array([t]), y[:, None])[:, 0] if self.waves or self.decays else self._plain(t, y)
-
-    def _plain(self, t: float, y: FloatArray) -> FloatArray:
-        one = self.mechanism
-        w = np.zeros(one.width)
-        first, count = one.first_input, len(self.start)
-        w[:first], w[first] = y, 1.0
-        w[first + 1 : first + 1 + count] = self.start + t * self.slope
-        at = first + 1 + count
-        for i, place, value, gate in self._curves:
-            if gate:
-                w[at + i] = gate * value(np.array([place @ w[: first + 1]]))[0]
-        at += len(one.smooth)
-        for i, spring, side, x, rate in self._contacts:
-            w[at + i] = _hertz(spring, side, x @ w[: first + 1], rate @ w[:first])
-        return w
-
-    def columns(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """w at several times, in columns."""
-        one = self.mechanism
-        w = np.zeros((one.width, len(times)))
-        first, count = one.first_input, len(self.start)
-        w[:first], w[first] = states, 1.0
-        w[first + 1 : first + 1 + count] = self.start[:, None] + self.slope[:, None] * times
-        for k, size, frequency, phase in self.waves:
-            w[first + 1 + k] += size * np.sin(frequency * times + phase)
-        for k, size, since, constant in self.decays:
-            w[first + 1 + k] += size * np.exp(-(times - since) / constant)
-        at = first + 1 + count
-        for i, place, value, gate in self._curves:
-            if gate:
-                w[at + i] = gate * value(place @ w[: first + 1])
-        at += len(one.smooth)
-        for i, spring, side, x, rate in self._contacts:
-            w[at + i] = _hertz(spring, side, x @ w[: first + 1], rate @ w[:first])
-        return w
-
-
-def _hertz(spring: Spring, side: int, x: FloatArray, rate: FloatArray) -> FloatArray:
-    """Force of a contact of Hunt and Crossley."""
-    depth = np.maximum(side * x - spring.play / 2, 0.0)
-    elastic = spring.stiffness * depth**spring.exponent
-    found: FloatArray = side * elastic * (1 + 1.5 * spring.dissipation * side * rate)
-    return found
 
 
 def shares_at_rest(mesh: Mesh) -> tuple[float, float]:

@@ -52,9 +52,9 @@ from ptmcalc.base.memory import forget
 from ptmcalc.contract.machine import AnyKind
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.files import design_files
+from ptmcalc.engine.forecast import Foreseen, foresee
 from ptmcalc.engine.load import load_file
 from ptmcalc.engine.plan import plan
-from ptmcalc.engine.run import Foreseen, foresee
 
 SPECS = design_files(ROOT / "specs")
 MOST = 3.0

@@ -655,7 +655,7 @@ DRIVER = """
 import os, signal, sys
 from ptmcalc.engine import agenda
 from ptmcalc.engine.store import Store
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 
 add = Store.add
 agenda.MOST_IN_CHUNK = 1

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from support.command import ROOT, Done, ptmcalc, python
 
-from ptmcalc.cli.app import history_with_its_value
+from ptmcalc.cli.options import history_with_its_value
 
 PASSING = Path(__file__).parent / "specs" / "passing.yaml"
 HOIST = ROOT / "specs" / "hoist.yaml"

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from support.command import Done, ptmcalc, unpainted
 
-from ptmcalc.cli.app import Law
+from ptmcalc.cli.options import Law
 from ptmcalc.engine.registry import kind_names, load_kind
 from ptmcalc.laws import similarity
 

@@ -19,11 +19,9 @@ from ptmcalc.components.motor import (
     RheostatMotor,
     Stage,
     TableMotor,
-    braking_number_at,
-    number_at,
-    overhauled_torque,
-    overhauling_reserve,
 )
+from ptmcalc.components.motor_rating import braking_number_at, number_at
+from ptmcalc.components.motor_torque import overhauled_torque, overhauling_reserve
 from ptmcalc.spec.machine import replaced
 from ptmcalc.spec.shape import example_of, keys_of, measure_of
 

@@ -15,7 +15,8 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import ScenePlan, plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 from ptmcalc.machines.conveyor.spec import Conveyor
 from ptmcalc.machines.conveyor.start_case import start_case
 from ptmcalc.machines.conveyor.starting.rigid import RIGID

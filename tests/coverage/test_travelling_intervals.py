@@ -29,7 +29,7 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine.plan import Rung, plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.widen import widen
 from ptmcalc.machines.crane.travelling.sway.effects import IN_PLANE
 from ptmcalc.machines.crane.travelling.sway.sway_exact import SWAY_EXACT
 from ptmcalc.machines.crane.travelling.sway.sway_linear import SWAY_LINEAR

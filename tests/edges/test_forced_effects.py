@@ -19,7 +19,7 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.forced import why_not
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import PlannedEffect, ScenePlan, plan_scene
-from ptmcalc.engine.run import Settled
+from ptmcalc.engine.settled import Settled
 from ptmcalc.engine.unknown import why_open
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene

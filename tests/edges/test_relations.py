@@ -22,7 +22,8 @@ from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan_scene
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 

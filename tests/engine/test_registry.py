@@ -11,7 +11,7 @@ from ptmcalc.engine.registry import begins_a_code, kind_names, load_kind
 
 LOADED = """
 import json, sys
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 try:
     main()
 except SystemExit as stop:

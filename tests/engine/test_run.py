@@ -35,7 +35,8 @@ from ptmcalc.contract.report import FileReport, LoadReport, SceneReport
 from ptmcalc.contract.result import Finding, Found, LoadInfo, Result
 from ptmcalc.contract.solver import AnySolver, Fidelity
 from ptmcalc.engine.plan import plan
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 
 WIDE = Interval(-3 * KN, 3 * KN)
 NARROW = Interval(-0.1 * KN, 0.1 * KN)

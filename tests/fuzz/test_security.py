@@ -35,7 +35,7 @@ WATCHED = """
 import json, sys
 from pathlib import Path
 from ptmcalc.engine.check import Options, check_file
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 
 told, files = [], sorted(Path("in").iterdir())
 check_file(files[0], Options(budget=1e-3, repairs=False))

@@ -15,7 +15,7 @@ from support.command import ROOT, Done, environment, python
 
 DRIVER = """
 import contextlib, io, json, sys
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 done = {}
 for name, arguments in json.loads(sys.argv[1]).items():
     sys.argv = ["ptmcalc", *arguments]

@@ -50,6 +50,7 @@ from ptmcalc.laws import (
     lift_off_standard,
     loop_bounds,
     mast,
+    mast_compliance,
     mast_modes,
     motor,
     obstacle,
@@ -735,11 +736,11 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
         for push in (4e3, 7e3, 3e4, -3e4)
     ],
     skid.slip_motor_torque: [(0.59, 31200.0, 2354.0, 0.2, 20.0, 0.9)],
-    mast.column_bending: [BRIDGE[:3]],
-    mast.bridge_travel_compliance: [
+    mast_compliance.column_bending: [BRIDGE[:3]],
+    mast_compliance.bridge_travel_compliance: [
         (*BRIDGE, 1.6e-4, 2.0, 5.0, ends, wheels) for ends in ENDS for wheels in ("free", "braked")
     ],
-    mast.trolley_travel_compliance: [(*BRIDGE, 5.0, ends) for ends in ENDS],
+    mast_compliance.trolley_travel_compliance: [(*BRIDGE, 5.0, ends) for ends in ENDS],
     mast.mean_shape: [(0.3, 0.1)],
     mast.mass_coefficient: [(0.3, 0.1)],
     mast.tip_shape: [(0.6, 0.3, 0.1)],
@@ -753,7 +754,7 @@ CALLS: dict[Law, list[tuple[Any, ...]]] = {
     mast.root_moment: [(9e3, 7e3, 1800.0, 1200.0, 6.0)],
     mast.leaning: [(1e4, 6.0, 4.2e7, k, 0.8) for k in (3e7, np.inf)],
     mast.gravity_stiffness: [(2e4, 1.2e4, 6.0, 0.3, 0.1, attitude) for attitude in ATTITUDES],
-    mast.weighted_tip_compliance: [
+    mast_compliance.weighted_tip_compliance: [
         (6.0, 4.2e7, 3e7, weight, attitude) for weight in (0.0, 2e4, 9e5) for attitude in ATTITUDES
     ],
     mast_modes.clamped_beam_root: [(0.5, 1), (0.0, 2)],
@@ -825,13 +826,13 @@ REFUSED: dict[Law, list[tuple[type[Exception], tuple[Any, ...]]]] = {
     motor.kloss_slip: [(ValueError, (401.0, 400.0, 0.17)), (ValueError, (-401.0, 400.0, 0.17))],
     resistance.length_factor: [(ValueError, (79.0,))],
     contact_damping.dashpot_ratio: [(ValueError, (1.1,)), (ValueError, (-0.1,))],
-    mast.bridge_travel_compliance: [
+    mast_compliance.bridge_travel_compliance: [
         (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "hinged", "free")),
         (ValueError, (*BRIDGE, 1.6e-4, 2.0, 5.0, "clamped", "locked")),
     ],
-    mast.trolley_travel_compliance: [(ValueError, (*BRIDGE, 5.0, "hinged"))],
+    mast_compliance.trolley_travel_compliance: [(ValueError, (*BRIDGE, 5.0, "hinged"))],
     mast.gravity_stiffness: [(ValueError, (2e4, 1.2e4, 6.0, 0.3, 0.1, "lying"))],
-    mast.weighted_tip_compliance: [
+    mast_compliance.weighted_tip_compliance: [
         (ValueError, (6.0, 4.2e7, np.inf, 2e4, "lying")),
         (ValueError, (6.0, 4.2e7, np.inf, 3e6, "standing")),
         (ValueError, (6.0, 4.2e7, 1e6, 2e5, "standing")),

@@ -13,7 +13,7 @@ from ptmcalc.laws import (
     chain_start,
     chain_wear,
     hoisting,
-    mast,
+    mast_compliance,
     mast_modes,
     polygon,
     reeving,
@@ -54,7 +54,7 @@ def test_ropes_pull_at_the_rim_of_a_drum() -> None:
 
 
 def test_shares_of_what_gives() -> None:
-    gives = mast.Compliance(3.1e-7, 1.7e-7, 0.9e-7)
+    gives = mast_compliance.Compliance(3.1e-7, 1.7e-7, 0.9e-7)
     assert gives.total == pytest.approx(5.7e-7, rel=1e-15)
     assert gives.stiffness == pytest.approx(1 / 5.7e-7, rel=1e-15)
     assert gives.rotation_share == pytest.approx(17 / 57, rel=1e-14)

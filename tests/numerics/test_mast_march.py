@@ -8,10 +8,10 @@ from support.mast_fem import Wall, Witness, run
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import Course, play, ring_of
-from ptmcalc.numerics.mast.system import Case
 
 STIFFNESS, LENGTH = 600e3, 6.0
 BENDING = STIFFNESS * LENGTH**3 / 3

@@ -12,11 +12,12 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast import elements as elementary
 from ptmcalc.numerics.mast.assumed import one_shape
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.elements import elements
 from ptmcalc.numerics.mast.modes import Mast, frequencies, left_out, moment_left_out, speed_left_out, wanted
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import Course, play, ring_of, settled
-from ptmcalc.numerics.mast.system import Case, MastSystem
+from ptmcalc.numerics.mast.system import MastSystem
 
 EPS = float(np.finfo(float).eps)
 

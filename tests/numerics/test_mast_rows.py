@@ -13,9 +13,10 @@ import pytest
 from scipy.linalg import eigh
 
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
+from ptmcalc.numerics.mast.case import FREE, LOOSE, MOVED, TOUCH, Case, State
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
-from ptmcalc.numerics.mast.system import FREE, LOOSE, MOVED, TOUCH, Case, MastSystem, State
+from ptmcalc.numerics.mast.system import MastSystem
 from ptmcalc.numerics.piecewise import JAMMED
 
 ROLLS, BENDING, PROP = 40.0, 3e4, 2e4

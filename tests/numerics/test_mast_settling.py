@@ -9,11 +9,11 @@ from support.mast_fem import Witness
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Signal
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Segment
 from ptmcalc.numerics.mast.run import _swing, play, ring_of, settled
 from ptmcalc.numerics.mast.settling import Ring, settling
-from ptmcalc.numerics.mast.system import Case
 
 ONE = np.ones(1)
 

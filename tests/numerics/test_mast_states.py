@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
+from ptmcalc.numerics.mast.case import MOVED, Case, State
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import Course, play
-from ptmcalc.numerics.mast.system import MOVED, Case, MastSystem, State
+from ptmcalc.numerics.mast.system import MastSystem
 
 LENGTH, BENDING, ROLLS = 6.0, 600e3 * 72, 4000.0
 

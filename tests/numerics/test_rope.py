@@ -9,7 +9,8 @@ from scipy.integrate import solve_ivp
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.march import Hauled, March, Played, Rod, U, W, Z, energy
+from ptmcalc.numerics.rope.equations import Hauled, Rod, U, W, Z
+from ptmcalc.numerics.rope.march import March, Played, energy
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Lines, Smooth, Stage, Structure, Tripped
 
 G = 9.81

@@ -9,7 +9,8 @@ import pytest
 
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.march import ZD, Hauled, March, Mode, Panel, Played, Rod, S, U, V, W, X, Z
+from ptmcalc.numerics.rope.equations import ZD, Hauled, Mode, Rod, S, U, V, W, X, Z
+from ptmcalc.numerics.rope.march import March, Panel, Played
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Lines, Smooth, Stage, Structure, Tripped
 
 G = 9.81

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from support import echoes, fem, slipping
 
 from ptmcalc.base.errors import NumericsError
-from ptmcalc.numerics import sagging, strand
+from ptmcalc.numerics import exponential_step, sagging, strand, strand_delays, strand_drum
 from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Motion, Strand, at_end, match, refined
 from ptmcalc.numerics.strand import march
 
@@ -62,18 +62,18 @@ def test_weights_of_the_exponential_step(x: float) -> None:
     """Of a forcing that falls from 1 to 0, and of one that rises: x times int exp(-x (1 - u)) (1 - u or u) du."""
     terms = [(-x) ** k / math.factorial(k) for k in range(120)]
     new = -sum(term / (k + 1) for k, term in enumerate(terms[1:], 1)) if x <= 1 else 1 + math.expm1(-x) / x
-    decay, old, rising = strand.weights(x)
+    decay, old, rising = exponential_step.weights(x)
     assert decay == pytest.approx(math.exp(-x), rel=1e-14, abs=0)
     assert rising == pytest.approx(new, rel=3e-14 if x < 1e-3 else 2e-12, abs=0)
     assert old == pytest.approx(-math.expm1(-x) - new, rel=1e-11, abs=0)
 
 
 def test_without_mass_a_step_is_over_at_once() -> None:
-    assert strand.weights(math.inf) == (0.0, 0.0, 1.0)
+    assert exponential_step.weights(math.inf) == (0.0, 0.0, 1.0)
 
 
 def test_inside_a_step_waves_forces_and_speeds_are_straight() -> None:
-    cell = strand._Cell((1.0, 3.0), (2.0, 7.0), (4.0, 10.0), (-1.0, 1.0))
+    cell = strand_drum._Cell((1.0, 3.0), (2.0, 7.0), (4.0, 10.0), (-1.0, 1.0))
     assert cell.waves(0.25) == (1.5, 3.25, 5.5)
     assert cell.speed(0.25) == -0.5
 
@@ -101,10 +101,10 @@ def test_what_a_corner_adds_to_the_samples_beside_it(share: float, turn: float) 
     """A wave that changes its slope within a cell: a quarter of step times change, what one in the middle rises."""
     wave = 1.3 + 0.2 * np.arange(12.0) - turn * np.maximum(np.arange(12.0) - 5 - share, 0.0)
     for beside in (5, 6):
-        assert strand._bend(wave, beside) == pytest.approx(abs(turn) / 4, rel=1e-12)
-    assert strand._bend(wave, 2) == pytest.approx(0.0, abs=1e-14)
-    assert strand._bend(wave[4:], 1) == pytest.approx(abs(turn) / 4, rel=1e-12), "at the beginning as well"
-    assert strand._bend(wave[:3], 1) == 0.0
+        assert strand_delays._bend(wave, beside) == pytest.approx(abs(turn) / 4, rel=1e-12)
+    assert strand_delays._bend(wave, 2) == pytest.approx(0.0, abs=1e-14)
+    assert strand_delays._bend(wave[4:], 1) == pytest.approx(abs(turn) / 4, rel=1e-12), "at the beginning as well"
+    assert strand_delays._bend(wave[:3], 1) == 0.0
 
 
 @pytest.mark.parametrize("power", [1, 2, 3, 9])
@@ -116,14 +116,16 @@ def test_an_event_inside_a_step_is_a_root(power: int, sign: float) -> None:
         places.append(x)
         return sign * (x**power - 0.2)
 
-    assert strand._root(distance, 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
+    assert strand_drum._root(distance, 0.0, 1.0) == pytest.approx(0.2 ** (1 / power), rel=1e-12)
     assert len(places) <= 20, "and it is known when it is found"
 
 
 def test_an_event_may_lie_on_a_place_that_is_tried_or_at_the_start() -> None:
-    assert strand._root(lambda x: x - 0.5, 0.0, 1.0) == 0.5
+    assert strand_drum._root(lambda x: x - 0.5, 0.0, 1.0) == 0.5
     for size in (1e-3, 1.0, 1e3):
-        assert strand._root(lambda x, size=size: size * (1.0 + x), 0.25, 1.0) == 0.25, "it does not change its sign"
+        assert strand_drum._root(lambda x, size=size: size * (1.0 + x), 0.25, 1.0) == 0.25, (
+            "it does not change its sign"
+        )
 
 
 class TestMatch:
@@ -560,7 +562,7 @@ def test_a_drum_that_has_caught_the_belt_goes_on_with_the_waves_that_arrive(echo
     """It slips a little at first and is braked; then m v' + Z v = F - N + P, all on the right even."""
     mass, force, off_echo, step_size = 2e3, 5e3, 500.0 if rigid else 0.0, 0.02
     grip = Grip(0.9, 0.0)
-    drum = strand._Drum(
+    drum = strand_drum.Drum(
         loop(rigid=rigid, drum=mass, grip=grip), step(force), step_size * np.arange(4.0), Grid(step_size, 80, 80, 0.0)
     )
     z_off = Z[1] if rigid else 0.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support import echoes
 
-from ptmcalc.numerics import strand
+from ptmcalc.numerics import exponential_step, panel_interpolation, strand, strand_delays, strand_drum, strand_envelopes
 from ptmcalc.numerics.collocation import gauss
 from ptmcalc.numerics.loop import Drive, Grid, Grip, Loop, Strand, at_end, match, panelled, steps_of
 
@@ -85,7 +85,7 @@ def test_blocks_are_the_steps_one_after_the_other(seed: int) -> None:
 def test_a_belt_that_slips_and_sticks_within_a_block_goes_as_step_by_step(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = [drawn(seed, grip=True) for seed in range(30)]
     blocks = [strand.march(*case) for case in cases]
-    monkeypatch.setattr(strand._Drum, "_stuck", lambda *_: 0)
+    monkeypatch.setattr(strand_drum.Drum, "_stuck", lambda *_: 0)
     steps = [strand.march(*case) for case in cases]
     assert 5 < sum(one.slipped for one in steps) < 25
     for one, other in zip(blocks, steps, strict=True):
@@ -144,7 +144,7 @@ def test_extremes_of_waves_of_any_shape_are_those_of_all_pairs(seed: int) -> Non
     cells, steps, share = int(rng.integers(1, 9)), int(rng.integers(1, 30)), float(rng.uniform(0.01, 1.0))
     part = Strand(100.0, 50.0, 1e7, *rng.uniform(-3.0, 3.0, 2))
     loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
-    delays = strand._Delays(loop, Grid(0.01, cells, cells, 0.0), steps, share)
+    delays = strand_delays.Delays(loop, Grid(0.01, cells, cells, 0.0), steps, share)
     waves = delays.carry if seed % 2 else delays.back
     waves[:, cells + 1 :] = rng.normal(size=(2, waves.shape[1] - cells - 1))
     seen = meetings(part, waves[:, : cells + steps + 1], cells, steps, share, 0.01)
@@ -169,7 +169,7 @@ def test_a_tension_that_rests_in_waves_that_grow_apart_is_found_where_it_begins_
     part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
     for cells in (3, 7, 10):
         loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
-        delays = strand._Delays(loop, Grid(0.01, cells, cells, 0.0), 90, 1.0)
+        delays = strand_delays.Delays(loop, Grid(0.01, cells, cells, 0.0), 90, 1.0)
         waves = delays.carry
         waves[0, cells:] = 0.1 * np.arange(waves.shape[1] - cells)
         waves[1, cells:] = -waves[0, cells:]
@@ -185,7 +185,7 @@ def test_waves_that_meet_half_a_step_before_the_last_sample_do_so_within_the_win
 ) -> None:
     part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
     loop = Loop(part, part, 1.0, 0.0, fixed_length=True)
-    delays = strand._Delays(loop, Grid(0.01, 4, 4, 0.0), 6, share)
+    delays = strand_delays.Delays(loop, Grid(0.01, 4, 4, 0.0), 6, share)
     delays.back[0, 8] = delays.back[1, 7] = 1.0  # 4 + 5.5 steps after the strand was empty of both
     top = delays.extremes(part, False)[0]
     assert (top.value == 1.0) == meets
@@ -196,7 +196,7 @@ def test_waves_that_meet_half_a_step_before_the_last_sample_do_so_within_the_win
 def test_what_a_corner_between_samples_adds_is_told() -> None:
     """A wave with a roof between two of them, 1 a step up and down: half a step, of which a tension has half."""
     part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
-    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
+    delays = strand_delays.Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
     for waves in (delays.back[0], delays.back[1]):
         delays.back[:] = 0.0
         waves[4:] = 20.0 - np.abs(np.arange(len(waves) - 4) - 6.5)
@@ -208,7 +208,7 @@ def test_what_a_corner_between_samples_adds_is_told() -> None:
 def test_of_equal_tensions_one_at_an_end_is_told() -> None:
     """Both waves are 1 from a sample on: first in the middle of the strand, later at its ends."""
     part = Strand(100.0, 50.0, 1e7, 0.0, 0.0)
-    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
+    delays = strand_delays.Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, 4, 4, 0.0), 12, 1.0)
     delays.back[:, 8:] = 1.0
     top = delays.extremes(part, False)[0]
     assert top.value == 1.0
@@ -223,7 +223,9 @@ def test_extremes_of_waves_that_cancel_a_steep_static_tension(seed: int) -> None
     cells, steps = 10, 40
     rise, sign = rng.choice([-1e3, 1e3]), 1 if seed % 2 else -1
     part = Strand(100.0, 50.0, 1e7, 500.0, 500.0 + rise)
-    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0)
+    delays = strand_delays.Delays(
+        Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0
+    )
     along, noise = rise / cells * np.arange(steps + 1), rng.normal(size=(2, steps + 1))
     p, n = delays.carry[:, : cells + steps + 1]
     p[cells:], n[cells:] = sign * 2e4 - along + noise[0], sign * 2e4 + along + noise[1]
@@ -238,7 +240,9 @@ def test_extremes_of_waves_that_cancel_a_steep_static_tension(seed: int) -> None
 @pytest.mark.parametrize("rise", [0.0, 40.0])
 def test_what_rests_is_largest_and_smallest_from_the_beginning(cells: int, steps: int, rise: float) -> None:
     part = Strand(100.0, 50.0, 1e7, 500.0, 500.0 + rise)
-    delays = strand._Delays(Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0)
+    delays = strand_delays.Delays(
+        Loop(part, part, 1.0, 0.0, fixed_length=True), Grid(0.01, cells, cells, 0.0), steps, 1.0
+    )
     largest, smallest = delays.extremes(part, True)
     assert (largest.value, smallest.value) == (500.0 + rise, 500.0)
     assert largest.time == smallest.time == 0.0
@@ -254,7 +258,7 @@ def test_largest_and_smallest_tensions_along_the_belt(seed: int, window: float) 
     window *= loop.carry.transit
     motion = strand.march(loop, drive, window, grid)
     steps, share = steps_of(window, grid)
-    places, highest, lowest = strand.envelopes(loop, motion, window)
+    places, highest, lowest = strand_envelopes.envelopes(loop, motion, window)
     middle = int(np.flatnonzero(np.diff(places) == 0)[0]) + 1  # the tail, the end of one and the beginning of the other
     for part, cells, (enter_end, enter_start), ahead, shown in (
         (loop.back, grid.back, motion.waves[2:], 0.0, slice(0, middle)),
@@ -281,8 +285,8 @@ def test_largest_and_smallest_tensions_along_the_belt(seed: int, window: float) 
 def test_a_belt_that_holds_is_never_looked_at_step_by_step(fixed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tensions in the ratio of 2 to 2.4, with a grip of 3: as many steps one by one as without any grip."""
     looked = []
-    one_by_one = strand._Drum._gripped
-    monkeypatch.setattr(strand._Drum, "_gripped", lambda *given: looked.append(1) or one_by_one(*given))
+    one_by_one = strand_drum.Drum._gripped
+    monkeypatch.setattr(strand_drum.Drum, "_gripped", lambda *given: looked.append(1) or one_by_one(*given))
     carry, back = Strand(400.0, 120.0, 2e7, 3e4, 6e4), Strand(400.0, 40.0, 2e7, 3e4, 3e4)
     drive = Drive(force=lambda t: np.full_like(t, 5e3))
     for exponent, steps in ((np.log(3.0), 0), (np.log(2.05), 1)):
@@ -297,7 +301,7 @@ class TestPanels:
     @pytest.mark.parametrize("panel", [1, 4, 12])
     def test_weights_are_exact_for_polynomials(self, x: float, panel: int) -> None:
         """Of (s/n)^m, m to n: y' = x (g - y) over whole panels, against the integral by parts or its series."""
-        weights, nodes = strand.panel_weights(x, panel), np.arange(panel + 1) / panel
+        weights, nodes = exponential_step.panel_weights(x, panel), np.arange(panel + 1) / panel
         for m in range(panel + 1):
             for i in (1, panel):
                 end = i / panel
@@ -348,7 +352,7 @@ class TestPanels:
         when = np.linspace(0.0, 1.3, 77)
         grid = Grid(0.02, 70, 70, 0.0, 7)
         samples = np.sin(3 * np.arange(71) * grid.step)
-        assert strand.between(samples, grid, when) == pytest.approx(np.sin(3 * when), abs=1e-11)
+        assert panel_interpolation.between(samples, grid, when) == pytest.approx(np.sin(3 * when), abs=1e-11)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -357,13 +361,13 @@ def test_the_best_pair_is_that_of_all(seed: int) -> None:
     rng = np.random.default_rng(seed)
     cells, last = int(rng.integers(1, 12)), int(rng.integers(1, 30))
     one, other = rng.normal(size=(2, 2 * cells + last + 3))
-    found = strand.best_pair(one, other, cells, last)
+    found = strand_delays.best_pair(one, other, cells, last)
     u, v = np.meshgrid(np.arange(len(one)), np.arange(len(other)), indexing="ij")
     meet = (np.abs(u - v) <= cells) & (u + v >= cells) & (u + v - cells <= last)
     assert meet[found]
     if seed % 2:  # the best of the pairs after rest
         one[: cells + 1] = other[: cells + 1] = -9.0
-        found = strand.best_pair(one, other, cells, last)
+        found = strand_delays.best_pair(one, other, cells, last)
         meet &= (u > cells) | (v > cells)
         both = np.where(meet, one[:, None] + other, -np.inf)
         if both.max() > -9.0:
@@ -375,13 +379,15 @@ def test_a_history_ends_with_its_last_sample(panel: int) -> None:
     samples = np.arange(6 * panel + 1.0) ** 2
     end = 3.0 * panel
     when = np.array([0.0, 3.5, 5.0, end - 0.25, end])
-    assert strand.between(samples, Grid(0.5, 6 * panel, 6 * panel, 0.0, panel), when) == pytest.approx(
+    assert panel_interpolation.between(samples, Grid(0.5, 6 * panel, 6 * panel, 0.0, panel), when) == pytest.approx(
         (2 * when) ** 2, rel=1e-12, abs=1e-10
     )
 
 
 def test_a_history_of_single_steps_is_straight_between_them() -> None:
-    found = strand.between(np.array([1.0, 5.0, 2.0]), Grid(0.5, 2, 2, 0.0), np.array([0.0, 0.25, 0.75, 1.0]))
+    found = panel_interpolation.between(
+        np.array([1.0, 5.0, 2.0]), Grid(0.5, 2, 2, 0.0), np.array([0.0, 0.25, 0.75, 1.0])
+    )
     assert found == pytest.approx([1.0, 3.0, 3.5, 2.0], rel=1e-14)
 
 
@@ -393,7 +399,7 @@ def test_what_fades_is_advanced_at_once_as_step_by_step(decay: float, count: int
     for one in given.tolist():
         value = decay * value + one
         expected.append(value)
-    found = strand.Fading(decay).run(3.0, given)
+    found = exponential_step.Fading(decay).run(3.0, given)
     assert found == pytest.approx(np.array(expected), rel=1e-12, abs=1e-12 * np.abs(expected).max())
 
 
@@ -402,7 +408,7 @@ def test_a_tension_that_rests_does_so_from_its_first_sample_on(began: int) -> No
     """Both waves are 1 from a sample on. Up to the last half step the first pair at the place counts; beyond it is
     what was read at the end of the window, between two samples, which has no pair."""
     cells, steps = 4, 20
-    delays = strand._Delays.__new__(strand._Delays)
+    delays = strand_delays.Delays.__new__(strand_delays.Delays)
     delays.steps = steps
     wave = np.where(np.arange(cells + steps + 1) < cells + began, 0.0, 1.0)
     last = 2 * steps - 2

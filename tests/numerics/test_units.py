@@ -20,16 +20,17 @@ from ptmcalc.numerics.belt.travel import Travel
 from ptmcalc.numerics.mast.base import Base, Guide, Obstacle
 from ptmcalc.numerics.mast.base import Grip as Slips
 from ptmcalc.numerics.mast.base import Signal as Force
+from ptmcalc.numerics.mast.case import Case as Followed
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
 from ptmcalc.numerics.mast.run import play
-from ptmcalc.numerics.mast.system import Case as Followed
 from ptmcalc.numerics.pendulum.parts import Axis, Buffer, Case, Follow, Gear, Jib, Load, Push, Rail
 from ptmcalc.numerics.pendulum.parts import Smooth as Curve
 from ptmcalc.numerics.pendulum.parts import Straight as Knotted
 from ptmcalc.numerics.pendulum.pieces import Pieces
 from ptmcalc.numerics.pendulum.swing import swing
-from ptmcalc.numerics.rope.march import ZD, Hauled, March, Rod, S, U, V, W, X, Z, energy
+from ptmcalc.numerics.rope.equations import ZD, Hauled, Rod, S, U, V, W, X, Z
+from ptmcalc.numerics.rope.march import March, energy
 from ptmcalc.numerics.rope.parts import Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train.parts import Body, Drive, Grip, Impulse, Mesh, Spring, Straight, Train
 from ptmcalc.numerics.train.signals import Signal, Sine, Trigger

@@ -561,7 +561,7 @@ def test_a_missing_extra_is_told_before_anything_is_computed(monkeypatch: pytest
 
 IMPORTED = """
 import sys
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 sys.argv = ["ptmcalc", "check", "case.yaml", *sys.argv[1:]]
 try:
     main()

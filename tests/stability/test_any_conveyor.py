@@ -13,7 +13,8 @@ from support.machines import spec_of
 
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import Run, Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.machines.conveyor.spec import Conveyor
 
 KIND = load_kind("conveyor")

@@ -17,7 +17,7 @@ from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.widen import widen
 
 SEED = 4711
 KIND = load_kind("chain_drive")

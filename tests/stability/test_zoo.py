@@ -18,7 +18,7 @@ from support.zoo import checked, contradictions, expected, faulty, hard_machines
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.engine import purse as engine_purse
-from ptmcalc.engine.run import Run, Settled
+from ptmcalc.engine.settled import Run, Settled
 
 SPECS = Path(__file__).parent / "specs"
 STUDY_SECONDS = 20.0

@@ -28,7 +28,8 @@ from ptmcalc.contract.result import Result, family
 from ptmcalc.contract.solver import AnySolver
 from ptmcalc.engine.judge import Ruling, judge
 from ptmcalc.engine.plan import Rung, ScenePlan, plan_scene
-from ptmcalc.engine.run import settle, widen
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.widen import widen
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene
 

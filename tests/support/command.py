@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from unittest import mock
 
-from ptmcalc.cli.app import main
+from ptmcalc.cli.main import main
 from ptmcalc.contract.report import FileReport
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_file

@@ -10,10 +10,11 @@ from scipy.integrate import solve_ivp
 
 from ptmcalc.numerics.decay_pulse import DecayPulse
 from ptmcalc.numerics.mast.base import Base, Grip, Obstacle, Signal
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Segment
 from ptmcalc.numerics.mast.run import play
-from ptmcalc.numerics.mast.system import Case, MastSystem
+from ptmcalc.numerics.mast.system import MastSystem
 from ptmcalc.numerics.passes import Passes, Wave
 from ptmcalc.numerics.piecewise import march
 from ptmcalc.numerics.train.system import TrainSystem

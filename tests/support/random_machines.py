@@ -19,7 +19,8 @@ from ptmcalc.engine.forced import why_not
 from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import kind_names, load_kind
-from ptmcalc.engine.run import Settled, settle
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Settled
 from ptmcalc.spec.machine import MachineSpec
 from ptmcalc.spec.scene import Scene, TransientScene
 from support.command import ROOT

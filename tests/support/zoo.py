@@ -40,8 +40,10 @@ from ptmcalc.engine import purse as engine_purse
 from ptmcalc.engine.check import Options
 from ptmcalc.engine.load import Loaded, load_text
 from ptmcalc.engine.plan import Rung, ScenePlan
-from ptmcalc.engine.run import Run, Settled, settle, widen
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.settled import Run, Settled
 from ptmcalc.engine.textbook import OF_TEXTBOOKS
+from ptmcalc.engine.widen import widen
 from ptmcalc.report import json as report_json
 from ptmcalc.spec.machine import MachineSpec
 

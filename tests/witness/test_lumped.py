@@ -9,7 +9,7 @@ from support.trains import train_of
 
 from ptmcalc.numerics.train.parts import Body, Drive, Grip, Mesh, Spring, Train
 from ptmcalc.numerics.train.signals import Signal
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped, two_runs
 
 SEEDS = [0, 3, 7, 10, 16, 22, 1001, *(pytest.param(seed, marks=pytest.mark.study) for seed in range(23, 83))]
 """Trains with springs, play, lossy gears, brakes and clutches; those above 1000 with curved contacts."""
@@ -32,7 +32,7 @@ def test_the_difference_of_two_runs_holds_the_error() -> None:
     train = Train((Body("one", 2.0, 0.0, 3.0),), springs=(Spring("spring", 0, None, 8.0),))
     coarse, fine = lumped.twice(train, 25.0, 0)
     for name, exact in (("speed", 3 * math.cos(50.0)), ("position", 1.5 * math.sin(50.0))):
-        told = lumped.estimate(coarse.last[name, 0], fine.last[name, 0])
+        told = two_runs.estimate(coarse.last[name, 0], fine.last[name, 0])
         assert told.low <= exact <= told.high
         assert told.bar < 1e-4
 

@@ -14,7 +14,8 @@ import numpy as np
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase, overhauled_torque
+from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase
+from ptmcalc.components.motor_torque import overhauled_torque
 from ptmcalc.contract.result import Failure, Found, of
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of
 from ptmcalc.machines.drivetrain.motion import Course

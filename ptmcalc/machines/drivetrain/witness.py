@@ -13,8 +13,8 @@ from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
-from ptmcalc.witness import lumped
-from ptmcalc.witness.lumped import History
+from ptmcalc.witness import lumped, lumped_cost, two_runs
+from ptmcalc.witness.lumped_history import History
 
 _AS_GOOD_AS_STILL = 1e-6
 """Speed relative to the largest of the scene [1] that counts as nearly standstill. A numerical choice: the steps do not
@@ -41,7 +41,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         loads |= {of("torque_peak", name): peak for name, peak in peaks.items()}
         loads |= {of("dynamic_factor", name): peak / plain[name] for name, peak in peaks.items() if plain.get(name)}
         found.append(loads)
-    return Result(lumped.compared(*found), work=sum(history.steps for history in runs), window=(0.0, runs[-1].time))
+    return Result(two_runs.compared(*found), work=sum(history.steps for history in runs), window=(0.0, runs[-1].time))
 
 
 def _peaks(spec: Drivetrain, case: Case, history: History) -> dict[str, float]:
@@ -91,7 +91,7 @@ def _readings(spec: Drivetrain, case: Case, history: History) -> dict[str, float
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
     """Seconds predicted: steps of the fastest component over the window, of two runs."""
     case = case_of(spec, scene, "backlash" in carried)
-    return 0.1 + lumped.seconds(case.train, motion.window(scene, case), lumped.TOLERANCES[level : level + 2])
+    return 0.1 + lumped_cost.seconds(case.train, motion.window(scene, case), lumped.TOLERANCES[level : level + 2])
 
 
 def valid(spec: Drivetrain, scene: TrainScene) -> Criterion | None:

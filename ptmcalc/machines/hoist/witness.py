@@ -33,8 +33,8 @@ from ptmcalc.machines.hoist.motion.train import (
 )
 from ptmcalc.machines.hoist.spec import Hoist, Lift, LowerBrake, Release, Start, Stop
 from ptmcalc.numerics.train.parts import LINEAR, Body, Train
-from ptmcalc.witness import lumped
-from ptmcalc.witness.lumped import History
+from ptmcalc.witness import lumped, lumped_cost, two_runs
+from ptmcalc.witness.lumped_history import History
 
 _LONGER = 4
 """Doublings of the window in which a brake may bring the drive to rest; a numerical choice. The last window is 16 times
@@ -115,7 +115,7 @@ def _compared(scene: Moving, *runs: tuple[Case, float], margin: float) -> Result
         case, history = _played(case, tolerance)
         found.append(_readings(scene, case, history, tolerance))
         steps, end = steps + history.steps, history.time
-    loads = {name: Found(lumped.estimate(found[0][name], value, margin)) for name, value in found[1].items()}
+    loads = {name: Found(two_runs.estimate(found[0][name], value, margin)) for name, value in found[1].items()}
     if found[1].get(_SLACK, 0.0) < 0:
         loads = {name: Found(Estimate.unknown(one.estimate.value)) for name, one in loads.items()}
     loads.pop(_SLACK, None)
@@ -221,14 +221,14 @@ def _of_the_stop(case: Case, history: History) -> Readings:
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted: steps of the fastest component over the window, of two runs."""
     case = case_of(spec, scene, carried)
-    return lumped.seconds(case.train, case.window, lumped.TOLERANCES[level : level + 2])
+    return lumped_cost.seconds(case.train, case.window, lumped.TOLERANCES[level : level + 2])
 
 
 def cost_chain(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """The same of the rope in sections."""
     case, mass = case_of(spec, scene, carried), rope_mass(spec, scene)
     trains = (chained(case.train, mass, sections) for sections in _SECTIONS[level])
-    return sum(lumped.seconds(train, case.window, (_STEPS,)) for train in trains)
+    return sum(lumped_cost.seconds(train, case.window, (_STEPS,)) for train in trains)
 
 
 def valid(spec: Hoist, scene: Moving) -> Criterion | None:

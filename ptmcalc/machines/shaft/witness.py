@@ -23,7 +23,7 @@ from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.machines.shaft.cases import is_braked, machine_for, machine_in, target_speed
 from ptmcalc.machines.shaft.model import FloatArray, Machine
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped_history, two_runs
 
 _FIRST, _SECOND = 1e-7, 1e-9
 """Relative tolerance of the coarse and of the fine run [1]; three times their difference is the error bar. A numerical
@@ -139,7 +139,7 @@ def _extremes(pieces: list[tuple[float, float, Any]]) -> tuple[float, float]:
             e = run.sol(np.linspace(start, stop, _SAMPLES))[0]
             for sign, into in ((-1.0, lows), (1.0, highs)):
                 top = min(max(int((sign * e).argmax()), 1), len(e) - 2)
-                into.append(sign * lumped.summit(sign * e[top - 1 : top + 2]))
+                into.append(sign * lumped_history.summit(sign * e[top - 1 : top + 2]))
                 into.append(sign * float((sign * e).max()))
     return math.sqrt(2 * min(lows)), math.sqrt(2 * max(highs))
 
@@ -215,7 +215,7 @@ def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> R
             loads["flywheel_inertia"] = _flywheel(machine, guess, wanted, loads["irregularity"], tolerance)
         found.append(loads)
         steps += used
-    known = lumped.compared(*found)
+    known = two_runs.compared(*found)
     uneven, fast, slow = (known[name].estimate for name in ("irregularity", "speed_max", "speed_min"))
     bar = 2 * (fast.bar + slow.bar) / (fast.value + slow.value)  # a small difference of both
     known["irregularity"] = Found(Estimate.within(uneven.value, bar))
@@ -238,7 +238,7 @@ def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Re
         time, angle, used = _up(machine, scene.start, target, tolerance)
         found.append({"run_up_time": time, "run_up_angle": angle})
         steps += used
-    return Result(lumped.compared(*found), work=steps)
+    return Result(two_runs.compared(*found), work=steps)
 
 
 def _up(machine: Machine, start: float, target: float, tolerance: float) -> tuple[float, float, int]:
@@ -365,7 +365,7 @@ def _worst(law: _Law, before: Machine, pieces: list[tuple[float, float, Any]], i
         values, steps = found[0] if index == 0 else found[1], steps + found[2]
         top = int(values.argmax())
         inner = min(max(top, 1), len(values) - 2)
-        tops.append(max(float(values[top]), lumped.summit(values[inner - 1 : inner + 2])))
+        tops.append(max(float(values[top]), lumped_history.summit(values[inner - 1 : inner + 2])))
         apart = float(angles[1] - angles[0])
         centre = float(angles[top])
         angles = np.linspace(centre - apart, centre + apart, _ANGLES)

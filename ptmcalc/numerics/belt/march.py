@@ -115,112 +115,162 @@ def march(
     steps = int(np.ceil(window / step - 1e-9))
     if steps * cells > MOST_UPDATES:
         raise NumericsError("NUM101", f"the belt would need {steps} steps of {cells} cells")
-    impedance = course.cell_impedance
-    speeds_now = travel.running(tension, speed) if travel else np.full(cells, float(speed))
-    against, along = tension + impedance * speeds_now, tension - impedance * speeds_now
-    before, after = 2 * course.before[1:-1], 2 * course.after[1:-1]
-    friction = course.friction[1:-1].copy()
-    at = course.tail - 1
-    friction[at] = 0.0  # the tail's own station has it, and its drag
-    yields = 1 / (course.before[1:-1] + course.after[1:-1] + course.drag[1:-1])
-    drag = course.drag[1:-1].copy()
-    drag[at] = 0.0
-    tops, bottoms, ways = _Watch(course, 1), _Watch(course, -1), _Ways(course, speed)
-    lows: list[FloatArray] = []
+    one = _March(course, (head, tail), tension, speed, give, travel)
+    one.run(steps, still)
+    return one.drawn()
 
-    def watch(seen: FloatArray, first: int) -> None:
-        tops.see(seen, first)
-        bottoms.see(seen, first)
-        lows.append(np.minimum.reduceat(seen / 2 + course.climb_within, (0, course.tail), axis=1))
 
-    block, speeds = np.empty((_BLOCK, cells)), np.zeros((_BLOCK, cells - 1))
-    if travel:
-        head.creep = travel.creep(speed, float(tension[-1] + course.climb[-1]), float(tension[0]))
-        tail.creep = travel.creep(speed, float(tension[at]), float(tension[at + 1]))
-    seen_head = [head.begin(speed, along[-1], against[0])]
-    seen_tail = [tail.begin(speed, along[at], against[at + 1])]
-    if give:
-        give.begin((tension[:-1] + tension[1:]) / 2)
-    stored = _energy(against, along, impedance, step, give)
-    first = _length(against, along, impedance, step, give)
-    swings = float(((against - along) ** 2 / (8 * impedance)).sum()) * step
-    lost = rubbed = flow = exchanged = carried = 0.0
-    np.add(against, along, out=block[0])
-    filled, k = 1, 0
-    within, backward = np.empty(cells - 1), -friction
-    for k in range(1, steps + 1):
-        time = k * step
-        n_on, p_off = along[-1], against[0]
-        into, out = along[:-1], against[1:]
-        if give:
-            v, behind = give.pass_on(into, out, friction, drag)
-            speeds[filled] = v
-        else:
-            v = speeds[filled]
-            np.subtract(out, into, out=v)
-            np.minimum(v, friction, out=within)
-            np.maximum(within, backward, out=within)
-            v -= within
-            v *= yields
-            behind = v.copy() if travel else v
+class _March:
+    """A belt on its way through a window: its waves, what is recorded of them, and the sums of work."""
+
+    def __init__(
+        self,
+        course: Course,
+        stations: tuple[Station, Station],
+        tension: FloatArray,
+        speed: float,
+        give: Give | None,
+        travel: Travel | None,
+    ) -> None:
+        self.course, self.give, self.travel = course, give, travel
+        self.head, self.tail = head, tail = stations
+        cells, impedance = course.cells, course.cell_impedance
+        self.at = at = course.tail - 1
+        self.speeds_now = travel.running(tension, speed) if travel else np.full(cells, float(speed))
+        self.against, self.along = tension + impedance * self.speeds_now, tension - impedance * self.speeds_now
+        self.friction, self.drag = course.friction[1:-1].copy(), course.drag[1:-1].copy()
+        self.friction[at] = self.drag[at] = 0.0  # the tail's own station has them
+        self.tops, self.bottoms, self.ways = _Watch(course, 1), _Watch(course, -1), _Ways(course, speed)
+        self.lows: list[FloatArray] = []
+        self.block, self.speeds = np.empty((_BLOCK, cells)), np.zeros((_BLOCK, cells - 1))
         if travel:
-            head.creep, tail.creep = travel.creep_at(seen_head[-1]), travel.creep_at(seen_tail[-1])
-        now = tail.advance(time, float(into[at]), float(out[at]), step)
-        seen_tail.append(now)
-        v[at], behind[at] = now.belt, now.behind
-        top = head.advance(time, float(n_on), float(p_off), step)
-        seen_head.append(top)
-        rubbed += _rubbed(top, head.place) + _rubbed(now, tail.place)
-        given = _flow(top, now, head.place, tail.place, (float(n_on), float(p_off), float(into[at]), float(out[at])))
-        flow, exchanged = flow + given, exchanged + abs(given)
-        np.multiply(before, v, out=within)
-        into += within
-        np.multiply(after, behind, out=within)
-        out -= within
-        along[-1] = n_on + 2 * head.place.before * top.belt
-        against[0] = p_off - 2 * head.place.after * top.behind
-        against, along = along, against  # each wave went on by a cell
-        if travel and k % travel.every == 0:
-            before_it = _energy(against, along, impedance, step, give)
-            travel.carry(against, along, (seen_head[-2], top), (seen_tail[-2], now), give)
-            carried += _energy(against, along, impedance, step, give) - before_it
-        np.add(against, along, out=block[filled])
-        filled += 1
-        if filled == _BLOCK:
-            watch(block, k - filled + 1)
-            lost += _lost(speeds, friction, drag)
-            ways.see(speeds, k - filled + 1)
-            filled = 0
-        if still is not None and still(time, top):
-            break
-    if filled:
-        watch(block[:filled], k - filled + 1)
-        lost += _lost(speeds[:filled], friction, drag)
-        ways.see(speeds[:filled], k - filled + 1)
-    lost += give.lost / step if give else 0.0
-    if k < 2:
-        speeds[0] = (speeds_now[:-1] + speeds_now[1:]) / 2  # the row of the start, from which the last rates are taken
-    change = _energy(against, along, impedance, step, give) - stored - carried
-    turnover = swings + abs(change) + (lost + exchanged) * step + _ROUNDING * stored
-    residual = abs(change + lost * step - flow * step) / turnover if turnover else 0.0
-    return Drawn(
-        times=np.arange(len(seen_head), dtype=np.float64) * step,
-        head=tuple(seen_head),
-        tail=tuple(seen_tail),
-        back_max=tops.extreme(slice(0, course.tail)),
-        back_min=bottoms.extreme(slice(0, course.tail)),
-        carry_max=tops.extreme(slice(course.tail, cells)),
-        carry_min=bottoms.extreme(slice(course.tail, cells)),
-        friction_work=(lost + rubbed) * step,
-        energy_residual=residual,
-        stretched=_length(against, along, impedance, step, give) - first,
-        updates=k * cells,
-        highest=tops.best / 2 + course.climb_within,
-        lowest=course.climb_within - bottoms.best / 2,
-        lows=np.concatenate(lows),
-        longest_way=ways.longest(),
-        row=_row(course, (head, seen_head), tail, (block, speeds, (filled - 1, filled - 1 - min(k, 1))), give),
-    )
+            head.creep = travel.creep(speed, float(tension[-1] + course.climb[-1]), float(tension[0]))
+            tail.creep = travel.creep(speed, float(tension[at]), float(tension[at + 1]))
+        self.seen_head = [head.begin(speed, self.along[-1], self.against[0])]
+        self.seen_tail = [tail.begin(speed, self.along[at], self.against[at + 1])]
+        if give:
+            give.begin((tension[:-1] + tension[1:]) / 2)
+        self.stored, self.length = self._energy(), self._length()
+        self.swings = float(((self.against - self.along) ** 2 / (8 * impedance)).sum()) * course.step
+        self.lost = self.rubbed = self.flow = self.exchanged = self.carried = 0.0
+        self.k, self.filled = 0, 1
+        np.add(self.against, self.along, out=self.block[0])
+
+    def _energy(self) -> float:
+        return _energy(self.against, self.along, self.course.cell_impedance, self.course.step, self.give)
+
+    def _length(self) -> float:
+        return _length(self.against, self.along, self.course.cell_impedance, self.course.step, self.give)
+
+    def run(self, steps: int, still: Callable[[float, Seen], bool] | None) -> None:
+        """So many steps, or until `still`; the loop keeps what it reads at every step in variables of its own."""
+        course, head, tail, give, travel = self.course, self.head, self.tail, self.give, self.travel
+        seen_head, seen_tail, block, speeds = self.seen_head, self.seen_tail, self.block, self.speeds
+        friction, drag, at, step = self.friction, self.drag, self.at, course.step
+        before, after = 2 * course.before[1:-1], 2 * course.after[1:-1]
+        yields = 1 / (course.before[1:-1] + course.after[1:-1] + course.drag[1:-1])
+        within, backward = np.empty(course.cells - 1), -friction
+        against, along, filled, k = self.against, self.along, self.filled, self.k
+        for k in range(1, steps + 1):
+            time = k * step
+            n_on, p_off = along[-1], against[0]
+            into, out = along[:-1], against[1:]
+            if give:
+                v, behind = give.pass_on(into, out, friction, drag)
+                speeds[filled] = v
+            else:
+                v = speeds[filled]
+                np.subtract(out, into, out=v)
+                np.minimum(v, friction, out=within)
+                np.maximum(within, backward, out=within)
+                v -= within
+                v *= yields
+                behind = v.copy() if travel else v
+            if travel:
+                head.creep, tail.creep = travel.creep_at(seen_head[-1]), travel.creep_at(seen_tail[-1])
+            now = tail.advance(time, float(into[at]), float(out[at]), step)
+            seen_tail.append(now)
+            v[at], behind[at] = now.belt, now.behind
+            top = head.advance(time, float(n_on), float(p_off), step)
+            seen_head.append(top)
+            self._work(top, now, (float(n_on), float(p_off), float(into[at]), float(out[at])))
+            np.multiply(before, v, out=within)
+            into += within
+            np.multiply(after, behind, out=within)
+            out -= within
+            along[-1] = n_on + 2 * head.place.before * top.belt
+            against[0] = p_off - 2 * head.place.after * top.behind
+            against, along = along, against  # each wave went on by a cell
+            if travel and k % travel.every == 0:
+                self.against, self.along = against, along
+                self._carry(travel, top, now)
+            np.add(against, along, out=block[filled])
+            filled += 1
+            if filled == _BLOCK:
+                self._record(filled, k)
+                filled = 0
+            if still is not None and still(time, top):
+                break
+        self.against, self.along, self.filled, self.k = against, along, filled, k
+        if filled:
+            self._record(filled, k)
+
+    def _work(self, top: Seen, now: Seen, waves: tuple[float, float, float, float]) -> None:
+        """Count what the stations rub off and give in a step."""
+        head, tail = self.head.place, self.tail.place
+        self.rubbed += _rubbed(top, head) + _rubbed(now, tail)
+        given = _flow(top, now, head, tail, waves)
+        self.flow, self.exchanged = self.flow + given, self.exchanged + abs(given)
+
+    def _carry(self, travel: Travel, top: Seen, now: Seen) -> None:
+        """Let the running belt carry its waves along, and count the energy that this adds."""
+        before = self._energy()
+        travel.carry(self.against, self.along, (self.seen_head[-2], top), (self.seen_tail[-2], now), self.give)
+        self.carried += self._energy() - before
+
+    def _record(self, filled: int, k: int) -> None:
+        """Take extremes, ways and losses of the last steps from the block that holds them."""
+        seen, speeds, first = self.block[:filled], self.speeds[:filled], k - filled + 1
+        self.tops.see(seen, first)
+        self.bottoms.see(seen, first)
+        climb = self.course.climb_within
+        self.lows.append(np.minimum.reduceat(seen / 2 + climb, (0, self.course.tail), axis=1))
+        self.lost += _lost(speeds, self.friction, self.drag)
+        self.ways.see(speeds, first)
+
+    def _residual(self, lost: float) -> float:
+        """What the energy balance leaves over, relative to all that was turned over [1]."""
+        step = self.course.step
+        change = self._energy() - self.stored - self.carried
+        turnover = self.swings + abs(change) + (lost + self.exchanged) * step + _ROUNDING * self.stored
+        return abs(change + lost * step - self.flow * step) / turnover if turnover else 0.0
+
+    def drawn(self) -> Drawn:
+        """What the belt did."""
+        course, step, k, filled = self.course, self.course.step, self.k, self.filled
+        back, carry = slice(0, course.tail), slice(course.tail, course.cells)
+        lost = self.lost + (self.give.lost / step if self.give else 0.0)
+        if k < 2:  # the row of the start, from which the last rates are taken
+            self.speeds[0] = (self.speeds_now[:-1] + self.speeds_now[1:]) / 2
+        last = self.block, self.speeds, (filled - 1, filled - 1 - min(k, 1))
+        return Drawn(
+            times=np.arange(len(self.seen_head), dtype=np.float64) * step,
+            head=tuple(self.seen_head),
+            tail=tuple(self.seen_tail),
+            back_max=self.tops.extreme(back),
+            back_min=self.bottoms.extreme(back),
+            carry_max=self.tops.extreme(carry),
+            carry_min=self.bottoms.extreme(carry),
+            friction_work=(lost + self.rubbed) * step,
+            energy_residual=self._residual(lost),
+            stretched=self._length() - self.length,
+            updates=k * course.cells,
+            highest=self.tops.best / 2 + course.climb_within,
+            lowest=course.climb_within - self.bottoms.best / 2,
+            lows=np.concatenate(self.lows),
+            longest_way=self.ways.longest(),
+            row=_row(course, (self.head, self.seen_head), self.tail, last, self.give),
+        )
 
 
 def _row(

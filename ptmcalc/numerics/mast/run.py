@@ -8,10 +8,11 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.memory import kept_for
 from ptmcalc.numerics.energy import residual
+from ptmcalc.numerics.mast.case import FREE, MOVED, Case
 from ptmcalc.numerics.mast.modes import left_out
 from ptmcalc.numerics.mast.parts import FloatArray
 from ptmcalc.numerics.mast.settling import Ring, Settled, settling
-from ptmcalc.numerics.mast.system import FREE, MOVED, Case, MastSystem
+from ptmcalc.numerics.mast.system import MastSystem
 from ptmcalc.numerics.piecewise import march
 from ptmcalc.numerics.record import LONG, Record
 

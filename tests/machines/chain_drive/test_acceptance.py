@@ -234,7 +234,7 @@ def test_the_sweep_in_json_is_over_the_speed_and_imports_no_scipy(tmp_path: Path
     file = tmp_path / "chain.yaml"
     file.write_text(yaml.safe_dump(CH_05), encoding="utf-8")
     code = (
-        "import sys; from ptmcalc.cli.app import main\n"
+        "import sys; from ptmcalc.cli.main import main\n"
         f"sys.argv = ['ptmcalc', 'check', {str(file)!r}, '--history', '--format', 'json']\n"
         "try: main()\nexcept SystemExit: pass\n"
         "print([name for name in sys.modules if name.split('.')[0] in ('scipy', 'matplotlib')], file=sys.stderr)"

@@ -15,7 +15,7 @@ from ptmcalc.contract.effect import EffectState
 from ptmcalc.contract.report import EffectReport, FileReport
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import widen
+from ptmcalc.engine.widen import widen
 
 KIND = load_kind("chain_drive")
 SCREW = changed(CH_05, layout__takeup={"type": "screw", "tension": "60 kN"})

@@ -12,7 +12,8 @@ from ptmcalc.contract.report import EffectReport, FileReport
 from ptmcalc.contract.result import family
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.engine.run import settle, widen
+from ptmcalc.engine.run import settle
+from ptmcalc.engine.widen import widen
 
 KIND = load_kind("drivetrain")
 

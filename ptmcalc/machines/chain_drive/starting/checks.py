@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
+from ptmcalc.components.motor_rating import number_at
 from ptmcalc.contract.check import AnyCheck, Check, Sense, no_needs
 from ptmcalc.machines.chain_drive.layout import ConveyorLayout
 from ptmcalc.machines.chain_drive.model import tension_key

@@ -14,7 +14,7 @@ from ptmcalc.machines.conveyor.loads import SLIPS
 from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
 from ptmcalc.machines.conveyor.waves.strand_bars import Bars, inside_extremes
-from ptmcalc.numerics import loop, strand
+from ptmcalc.numerics import loop, strand, strand_envelopes
 
 
 def surely_as_low(case: StartCase, motions: list[loop.Motion]) -> dict[str, float]:
@@ -143,7 +143,7 @@ def histories(case: StartCase, drive: str, motion: loop.Motion, waves: loop.Loop
         found["slip_utilisation_max"] = History(units.RATIO, times, np.asarray(used).tolist())
     found |= {of(name, drive): history for name, history in found.items()}
     if waves is not None:
-        places, highest, lowest = strand.envelopes(waves, motion, case.window)
+        places, highest, lowest = strand_envelopes.envelopes(waves, motion, case.window)
         found["tension_max"] = History(units.FORCE, places.tolist(), highest.tolist(), units.SPAN)
         found["tension_min"] = History(units.FORCE, places.tolist(), lowest.tolist(), units.SPAN)
     return found

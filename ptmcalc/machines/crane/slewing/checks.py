@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import braking_number_at, number_at
+from ptmcalc.components.motor_rating import braking_number_at, number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, needs, no_needs, no_repair, only
 from ptmcalc.machines.crane.slewing import drive, model
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of

@@ -24,7 +24,7 @@ from ptmcalc.machines.crane.slewing.loads import OF_THE_CHAIN, OF_THE_SWING
 from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
 from ptmcalc.machines.crane.slewing.solvers.slew import ALWAYS, hangs
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]
 Torque = Callable[[float, float], float]
@@ -133,7 +133,7 @@ class _Crane:
         for k, angle in enumerate(angles):
             size = np.abs(angle)
             top = min(max(int(size.argmax()), 1), len(size) - 2)
-            self.largest[k] = max(self.largest[k], float(size.max()), lumped.summit(size[top - 1 : top + 2]))
+            self.largest[k] = max(self.largest[k], float(size.max()), lumped_history.summit(size[top - 1 : top + 2]))
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
@@ -154,7 +154,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
         loads |= dict(zip(names, crane.largest.tolist(), strict=True))
         found.append(loads)
         steps, end = steps + crane.steps, crane.time
-    return Result(lumped.compared(*found), work=steps, window=(0.0, end))
+    return Result(two_runs.compared(*found), work=steps, window=(0.0, end))
 
 
 def _rotated(

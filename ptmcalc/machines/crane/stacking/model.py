@@ -9,7 +9,8 @@ from typing import Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ptmcalc.components.motor import ConverterMotor, torques_up_to
+from ptmcalc.components.motor import ConverterMotor
+from ptmcalc.components.motor_torque import torques_up_to
 from ptmcalc.laws import carriage, inertia, reeving
 from ptmcalc.machines.crane.stacking.keys.drives import Rotation, Travel
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker

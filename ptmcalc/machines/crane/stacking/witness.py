@@ -18,7 +18,7 @@ from ptmcalc.machines.crane.stacking.scenes import ForkCaught, ForkPush
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.strength.derived import with_derived
 from ptmcalc.numerics.train.parts import Train
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped, lumped_cost, two_runs
 
 
 def caught(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
@@ -48,17 +48,17 @@ def _largest(train: Train, window: float, level: int, names: dict[str, str]) -> 
     runs = lumped.twice(train, window, level)
     links = [spring.name for spring in train.springs]
     found = [{name: run.highest["link", links.index(link)] for name, link in names.items()} for run in runs]
-    return Result(lumped.compared(*found), work=sum(run.steps for run in runs), window=(0.0, window))
+    return Result(two_runs.compared(*found), work=sum(run.steps for run in runs), window=(0.0, window))
 
 
 def _caught_cost(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> float:
     case = catch_of(spec, scene)
-    return lumped.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
+    return lumped_cost.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
 
 
 def _pushed_cost(spec: Stacker, scene: ForkPush, carried: frozenset[str], level: int) -> float:
     case = push_of(spec, scene)
-    return lumped.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
+    return lumped_cost.seconds(case.train(), scene.window_factor * case.window(), lumped.TOLERANCES[level : level + 2])
 
 
 def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:

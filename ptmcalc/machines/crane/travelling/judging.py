@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import number_at
+from ptmcalc.components.motor_rating import number_at
 from ptmcalc.contract.check import Check
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.scenes import (

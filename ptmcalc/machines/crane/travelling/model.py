@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ptmcalc.components.motor import torques_up_to
+from ptmcalc.components.motor_torque import torques_up_to
 from ptmcalc.laws import gearing, inertia
 from ptmcalc.machines.crane.travelling.scenes import Brake, HoistWhileTravelling, Moving, Start, TravelScene
 from ptmcalc.machines.crane.travelling.spec import Travelling

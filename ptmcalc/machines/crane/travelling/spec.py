@@ -9,6 +9,8 @@ from ptmcalc.base import units
 from ptmcalc.components.buffer import Buffer
 from ptmcalc.components.pendulum import Suspension
 from ptmcalc.components.travel_drive import TravelDrive
+from ptmcalc.machines.crane.travelling.keys.duty import Classes, Declared, Duty
+from ptmcalc.machines.crane.travelling.keys.runway import Guide, Rail, Rolling, Wheels
 from ptmcalc.machines.crane.travelling.scenes import (
     AnyScene,
     Brake,
@@ -22,10 +24,6 @@ from ptmcalc.machines.crane.travelling.scenes import (
     TravelScene,
 )
 from ptmcalc.spec.fields import (
-    Fraction,
-    HourlyRate,
-    Inertia,
-    Length,
     Mass,
     Measure,
     PositiveAngle,
@@ -34,24 +32,18 @@ from ptmcalc.spec.fields import (
     PositiveMass,
     PositivePressure,
     PositiveRatio,
-    PositiveShare,
     PositiveSpan,
     PositiveSpeed,
     PositiveTime,
-    RunningTime,
-    Share,
     SignedSpan,
     Span,
 )
-from ptmcalc.spec.fragment import Conflict, Fragment, Given, at_most_one
+from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.machine import CheckSettings, MachineSpec
 from ptmcalc.spec.optional import Absent, Assumed, Limit, OneOf
 
 WindArea = Annotated[float, Measure(units.FACE, at_least=0)]
 Count = Annotated[int, Field(ge=1, le=16, strict=True)]
-Slope = Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.2)]
-Phi = Annotated[float, Measure(units.RATIO, above=0, at_most=10)]
-Corner = Literal["A1", "A2", "B1", "B2"]
 
 
 class Bridge(Fragment):
@@ -90,119 +82,6 @@ class Trolley(Fragment):
     """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
-
-
-class Wheels(Fragment):
-    """The wheels at the four corners: A1 and A2 on rail A, front and rear, B1 and B2 on rail B."""
-
-    diameter: PositiveLength
-    """at the tread"""
-    base: PositiveSpan
-    """from the front to the rear corners, along the rail"""
-    per_corner: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one wheel has the largest load of all")] = 1
-    """wheels of a corner, in balanced bogies"""
-    driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
-    """corners with driven wheels, e.g. `[A1, B1]`"""
-    driven_per_corner: Annotated[
-        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("a corner that is named is driven as a whole")
-    ] = None
-    """driven wheels of such a corner; all when left out"""
-    frame: Literal["hinged", "rigid"] = "hinged"
-    """how the four corners share the loads: girders hinged to their end carriages, or a frame that does not twist"""
-    inertia: Annotated[Inertia | None, Assumed()] = None
-    """of one wheel"""
-    rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest load of one wheel, or of the rail under it; needed to check it"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """No corner twice, no more driven wheels than wheels."""
-        driven = given.raw.get("driven")
-        if isinstance(driven, list):
-            for index, corner in enumerate(driven):
-                if corner in driven[:index]:
-                    yield Conflict(("driven", index), f"corner `{corner}` is named twice", "name each corner once")
-        many = given.raw.get("per_corner", 1)
-        some = given.raw.get("driven_per_corner")
-        if isinstance(many, int) and isinstance(some, int) and some > many:
-            reason = f"a corner has {many} wheel{'s' if many != 1 else ''} only"
-            yield Conflict(("driven_per_corner",), reason, f"write `driven_per_corner: {max(many, 1)}` or less")
-
-
-class Rolling(Fragment):
-    """What the wheels resist with."""
-
-    coefficient: Annotated[Fraction | None, OneOf("lever_arm")] = None
-    """all resistance over the weight, or give `lever_arm`"""
-    lever_arm: Annotated[Length | None, OneOf("coefficient")] = None
-    """of rolling, of steel on steel 0.3 to 1 mm by the diameter"""
-    bearing_friction: Annotated[Fraction | None, Assumed()] = None
-    """of the wheels' bearings; 0.015 rolling, 0.08 to 0.1 plain"""
-    axle_diameter: Annotated[PositiveLength | None, Assumed()] = None
-    """at the middle of the bearings; a quarter of the wheel when left out"""
-    flange_factor: Annotated[Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] | None, Assumed()] = None
-    """for flanges that rub, 1.5 to 2.5; 1 with guide rollers"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The resistance is given in one way."""
-        yield from at_most_one(given, "coefficient", "lever_arm")
-        if "coefficient" not in given and "lever_arm" not in given:
-            yield given.missing("lever_arm", "give `lever_arm` or `coefficient`")
-        if "coefficient" in given:
-            for key in ("bearing_friction", "axle_diameter", "flange_factor"):
-                if key in given:
-                    yield Conflict((key,), "it is part of the `coefficient`", f"delete `{key}`")
-
-
-class Rail(Fragment):
-    """What it runs on."""
-
-    slope: Annotated[
-        Slope, Assumed(0.0, 0.0, 0.001, "runways are laid to a slope of 0.001 along their length (ISO 12488-1)")
-    ] = 0.0
-    """rise over length"""
-    adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
-    """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
-    step: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
-    """height of the largest step"""
-    gap: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
-    """width of the largest gap"""
-    head: Annotated[PositiveLength | None, OneOf("guide.wear")] = None
-    """width of its head, by which guides wear; 50 mm is assumed when left out"""
-    frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
-    """of the crane that swings vertically on its wheels; 10 Hz is assumed for a `rail_step`"""
-
-
-class Guide(Fragment):
-    """Guides that keep a skewing crane on its rails."""
-
-    type: Literal["flanges", "rollers"] = "flanges"
-    """flanges of the wheels, or guide rollers"""
-    clearance: Length
-    """clearance between guide and rail, both sides together"""
-    wear: Annotated[Length | None, Assumed()] = None
-    """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
-    base: Annotated[PositiveSpan | None, Absent("flanges guide at the wheels; rollers in front of them press less")] = (
-        None
-    )
-    """from the foremost to the rearmost guide; the wheel base when left out"""
-    rail_two: Literal["fixed", "movable"] = "fixed"
-    """whether the wheels or legs of the other rail hold sideways"""
-    adhesion: Annotated[
-        Annotated[float, Measure(units.RATIO, above=0, at_most=1)],
-        Absent("the largest friction of the standards: the rail was cleaned"),
-    ] = 0.3
-    """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
-    tolerance: Annotated[
-        Annotated[float, Measure(units.ANGLE, at_least=0)],
-        Assumed(0.001, 0.001, 0.002, "EN 13001-2, EN 1991-3: 0.001 rad for wheels and rails of usual tolerances"),
-    ] = 0.001
-    """angle of wheels and rails by tolerances"""
-    edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
-    """by which the clearance becomes an angle"""
-    rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of a guide; needed to check it"""
 
 
 class Wind(Fragment):
@@ -246,97 +125,6 @@ class Parking(Fragment):
 
     force: PositiveForce
     """of rail clamps, pins or storm anchors"""
-
-
-class SpectrumPoint(Fragment):
-    """A part of the crane's working life."""
-
-    share: PositiveShare
-    """of all cycles"""
-    load: Share
-    """over the rated load"""
-
-
-class Duty(Fragment):
-    """What the mechanism does all day."""
-
-    type: Literal["S1", "S3", "S4", "S5"] = "S3"
-    """duty type of IEC 60034-1; S4 and S5 count the starts"""
-    factor: Annotated[PositiveShare | None, Assumed()] = None
-    """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 count no starts; S4 and S5 require them")] = None
-    """of the motor"""
-    load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
-    """loads over the life; the rated load always, when left out"""
-    cycles: Annotated[
-        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
-    ] = None
-    """hoisting cycles in the life, which with the spectrum give the group of the crane"""
-    hours: Annotated[RunningTime | None, Absent("the group is computed only where it is given")] = None
-    """time in motion in the life, which with the spectrum gives the group of the mechanism"""
-
-    @classmethod
-    def conflicts(cls, given: Given) -> Iterator[Conflict]:
-        """The shares of a spectrum are a whole; what counts starts has some."""
-        points = given.blocks("load_spectrum")
-        shares = [point.number("share") if point else None for point in points]
-        known = [share for share in shares if share is not None]
-        if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
-            reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
-        kind = given.word("type")
-        if kind in ("S4", "S5") and "starts_per_hour" not in given:
-            yield given.missing("starts_per_hour", f"the starts heat the motor in {kind}")
-        if kind == "S1" and "factor" in given:
-            yield Conflict(("factor",), "S1 has no rest", "delete `factor`, or write `type: S3`")
-
-
-class Classes(Fragment):
-    """What the crane is classed as, and by which edition its factors are taken."""
-
-    hoisting: Literal["HC1", "HC2", "HC3", "HC4"] | None = None
-    """stiffness class of the hoist, for phi2"""
-    drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
-    """how the hoisting speed is controlled, for phi2"""
-    crane: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
-    """group of the crane, ISO 4301-1"""
-    edition: Literal["by_class", "by_drive", "raised"] = "by_class"
-    """smallest phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
-    lifting_share: Annotated[
-        Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)], Absent("the largest of the standard")
-    ] = 0.1
-    """the part by which phi1 differs from 1"""
-    release: Literal["none", "slow", "quick"] = "none"
-    """how a part of the load comes off: by a grab, or by a magnet; for phi3"""
-    released_share: Annotated[Fraction, Absent("all of the load comes off: the worst case of a `release`")] = 1.0
-    """part of the load that comes off"""
-    drive_change: Literal["centrifugal", "smooth", "sudden"] | None = None
-    """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
-    play: Literal["small", "large"] = "small"
-    """of the travel drive, for phi5"""
-    stability: Literal["en_13001_2", "fem_1_001"] = "en_13001_2"
-    """by which standard's partial factors it is proved that the crane does not tip"""
-    buffer_edition: Literal["line", "two_values"] = "line"
-    """phi7 along a line by the shape of the buffer's curve (EN 13001-2, ISO 8686-1), or one of two values"""
-
-
-class Declared(Fragment):
-    """Dynamic factors with which the structure has been calculated: what is found must not be above them."""
-
-    phi1: Annotated[Phi | None, Limit()] = None
-    """weight of the crane as a load is lifted"""
-    phi2: Annotated[Phi | None, Limit()] = None
-    """lifting a load off the ground"""
-    phi3: Annotated[Annotated[float, Measure(units.RATIO, at_least=-1, at_most=1)] | None, Limit()] = None
-    """a part of the load comes off; what is found must not be below it"""
-    phi4: Annotated[Phi | None, Limit()] = None
-    """running over steps and gaps"""
-    phi5: Annotated[Phi | None, Limit()] = None
-    """changes of the drive forces"""
-    phi6: Annotated[Phi | None, Limit()] = None
-    """dynamic test load"""
-    phi7: Annotated[Phi | None, Limit()] = None
-    """buffers"""
 
 
 class TravelChecks(CheckSettings):

@@ -30,7 +30,7 @@ from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, sta
 from ptmcalc.machines.crane.travelling.sway.reading import loads_of
 from ptmcalc.machines.crane.travelling.sway.simulated import turns
 from ptmcalc.machines.crane.travelling.witness_events import OF_EVENTS
-from ptmcalc.witness import lumped
+from ptmcalc.witness import lumped, two_runs
 
 _AFTER = 1.2
 """Periods of the swing that are looked at after the start or stop."""
@@ -72,7 +72,7 @@ def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) ->
         assert course.seen is not None
         journey = course.seen.journey
         steps, end = steps + len(journey.steps), journey.time
-    return Result(lumped.compared(*found), work=steps, window=(0.0, end))
+    return Result(two_runs.compared(*found), work=steps, window=(0.0, end))
 
 
 def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -> _Course:

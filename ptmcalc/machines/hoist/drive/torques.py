@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ptmcalc.components.duty_motor import DutyMotor
-from ptmcalc.components.motor import overhauling_reserve
+from ptmcalc.components.motor_torque import overhauling_reserve
 from ptmcalc.laws import brake, duty, hoisting, inertia, start_profile
 from ptmcalc.machines.hoist import model
 from ptmcalc.machines.hoist.keys.drive import Gearbox

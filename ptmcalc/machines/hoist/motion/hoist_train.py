@@ -18,18 +18,16 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     **Error** as `two_mass`.
     **Source** as `two_mass`; the bridge with mass against an independent integration.
     """
-    from ptmcalc.machines.hoist.motion import (
-        scene as played,
-    )  # with the numerics of trains, for the scenes that call for them
+    from ptmcalc.machines.hoist.motion import scene as played
 
     return played.result(scene, case_of(spec, scene, carried), level)
 
 
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the run there will be."""
-    from ptmcalc.machines.hoist.motion import scene as played
+    from ptmcalc.machines.hoist.motion import course
 
-    return 1e-3 + played.cost(case_of(spec, scene, carried), level)
+    return 1e-3 + course.cost(case_of(spec, scene, carried), level)
 
 
 TRAIN: Solver[Hoist, Moving] = Solver(

@@ -12,7 +12,7 @@ from ptmcalc.machines.hoist.keys import tackle
 from ptmcalc.machines.hoist.motion.reduced import hauling_efficiency, lowering_efficiency, ratio, rope_mass, travel
 from ptmcalc.machines.hoist.motion.train import BRAKE, DRIVE, DRUM, MAINS, MOTOR, STRUCTURE, Case, Moving, case_of
 from ptmcalc.machines.hoist.spec import Hoist, Lift
-from ptmcalc.numerics.rope.march import Hauled, Rod
+from ptmcalc.numerics.rope.equations import Hauled, Rod
 from ptmcalc.numerics.rope.parts import NONE, Course, Governed, Haul, Law, Lines, Smooth, Stage, Structure, Tripped
 from ptmcalc.numerics.train import parts
 from ptmcalc.numerics.train.signals import ONE, Signal

@@ -10,13 +10,14 @@ from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
-from ptmcalc.machines.hoist.motion import rope_case
+from ptmcalc.machines.hoist.motion import rope_case, scene_failures
 from ptmcalc.machines.hoist.motion import scene as motion
 from ptmcalc.machines.hoist.motion.reduced import travel
 from ptmcalc.machines.hoist.motion.train import Case, Moving
 from ptmcalc.machines.hoist.spec import Hoist, Lift, Release
 from ptmcalc.numerics.rope import rule
-from ptmcalc.numerics.rope.march import ZD, Hauled, March, Panel, Played, Rod, U, W, Z, energy
+from ptmcalc.numerics.rope.equations import ZD, Hauled, Rod, U, W, Z
+from ptmcalc.numerics.rope.march import March, Panel, Played, energy
 from ptmcalc.numerics.rope.parts import Haul
 from ptmcalc.numerics.rope.rule import FloatArray
 
@@ -267,10 +268,10 @@ def _remarks(scene: Moving, case: Case, course: Course) -> list[Finding]:
     """What happened on the way that a reader must know."""
     said = []
     if isinstance(scene, Lift) and not math.isfinite(course.first("lift")):
-        said += motion.not_seen(scene, case)
+        said += scene_failures.not_seen(scene, case)
     tripped = course.first("trip")
     if math.isfinite(tripped):
-        said.append(motion.tripped(scene, tripped))
+        said.append(scene_failures.tripped(scene, tripped))
     return said
 
 
@@ -278,15 +279,15 @@ def _failures(scene: Moving, case: Case, course: Course, own: motion.Readings) -
     """What the run found to fail, as far as the rope stays taut."""
     slack = course.played.slack_at
     if isinstance(scene, Release):
-        return motion.gone_slack(slack) if scene.manner == "quick" else []
+        return scene_failures.gone_slack(slack) if scene.manner == "quick" else []
     if math.isfinite(slack):
         return []
     if isinstance(scene, Lift):
         lifted = math.isfinite(course.first("lift"))
         if math.isfinite(course.first("trip")) and not lifted:
-            return motion.tripped_early(scene)
-        return motion.stalls(case, lifted, own["rope_force_max"])
-    return motion.not_held(case) if case.stops and not math.isfinite(own["stop_time"][0]) else []
+            return scene_failures.tripped_early(scene)
+        return scene_failures.stalls(case, lifted, own["rope_force_max"])
+    return scene_failures.not_held(case) if case.stops and not math.isfinite(own["stop_time"][0]) else []
 
 
 def histories(course: Course) -> Mapping[str, History]:

@@ -2,25 +2,24 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ptmcalc.base import units
 from ptmcalc.base.estimate import Estimate, Interval
-from ptmcalc.contract.result import Event, Failure, Finding, Found, History, Result
+from ptmcalc.contract.result import Event, Finding, Found, History, Result
 from ptmcalc.machines.hoist.motion.after_window import over, ringing_on
+from ptmcalc.machines.hoist.motion.course import Course, first_event, first_rest, lift_off_time, play, stopped
+from ptmcalc.machines.hoist.motion.scene_failures import failures, outlasts, remarks
 from ptmcalc.machines.hoist.motion.train import (
-    BRAKE,
     DRIVE,
     FLANK,
     GEARBOX,
-    GROUND,
     HOOK,
     LEAST_LEFT,
     LOAD,
     LONGEST,
-    MOTOR,
     ROPE,
     SHAFT,
     STRUCTURE,
@@ -30,12 +29,8 @@ from ptmcalc.machines.hoist.motion.train import (
 )
 from ptmcalc.machines.hoist.spec import Lift, Release, Start
 from ptmcalc.numerics.flow import FADED
-from ptmcalc.numerics.piecewise import JAMMED, march
-from ptmcalc.numerics.record import LONG, PANEL, Record, most_work
-from ptmcalc.numerics.train import price
-from ptmcalc.numerics.train.ledger import Ledger, ledger
+from ptmcalc.numerics.record import PANEL
 from ptmcalc.numerics.train.modes import frequencies
-from ptmcalc.numerics.train.system import TrainSystem
 
 _COMPARED = (0.7, 0.85)
 """Length of intervals and panels of the compared runs, relative to the run that counts [1]. A numerical choice: the
@@ -50,63 +45,11 @@ rounding."""
 _CLOSES = 1e-9
 """Residual of the energy balance of a motion without a smooth torque curve [1] above which NUM101 is reported; a
 numerical choice. A larger value accepts wrong runs; a smaller one refuses rounding."""
-_MOST_EVENTS = 2000
-"""Events after which a run ends because of chatter; a numerical choice. Without damping chatter never ends. More take
-longer; fewer refuse runs with many real events."""
 _LONGER = 4
 """Doublings of the window of a stop that is not finished; a numerical choice. The last window is 16 times the first.
 More follow late stops and take longer."""
 _FORCES = frozenset({"rope_force_max", "rope_force_min", "bridge_force_max", "bridge_force_min"})
 _LENGTHS = frozenset({"stop_distance", "stop_distance_lowering"})
-
-
-@dataclass(frozen=True, slots=True)
-class Course:
-    """One run of a case."""
-
-    case: Case
-    system: TrainSystem
-    record: Record
-    ledger: Ledger
-
-    def top(self, what: str, index: int) -> tuple[float, float]:
-        """Largest value of a watched signal and its time."""
-        place = self.system.watched[what, index]
-        return float(self.record.top.values[place]), float(self.record.top.at[place])
-
-    def bottom(self, what: str, index: int) -> tuple[float, float]:
-        """Smallest value of a watched signal and its time."""
-        place = self.system.watched[what, index]
-        return float(self.record.bottom.values[place]), float(self.record.bottom.at[place])
-
-    def largest(self, what: str, index: int) -> tuple[float, float]:
-        """Largest magnitude of a watched signal and its time."""
-        high, low = self.top(what, index), self.bottom(what, index)
-        return high if high[0] >= -low[0] else (-low[0], low[1])
-
-
-def play(case: Case, tolerance: float, refined: float = 1.0, *, end: float = 0.0, keep: bool = False) -> Course:
-    """One run of a case, over its window or to another end."""
-    system = TrainSystem(case.train)
-    start = system.start()
-    end, most = end or case.window, most_work(cost(case, TOLERANCES.index(tolerance)))
-    record = march(
-        system,
-        *start,
-        end,
-        tolerance=tolerance,
-        refined=refined,
-        keep=keep,
-        most_events=_MOST_EVENTS,
-        most_work=most,
-        most_looks=most / LONG,
-        unsought=system.unsought,
-    )
-    return Course(case, system, record, ledger(system, start, record))
-
-
-# -- what is read ---------------------------------------------------------------------------------------------------
-
 Readings = dict[str, tuple[float, float | None]]
 """Value of each load, and the time at which it occurs where there is one."""
 
@@ -146,17 +89,6 @@ def _gear_torque(course: Course) -> tuple[float, float]:
     return course.largest("mesh", mesh)
 
 
-def first_event(course: Course, element: str, after: str) -> float:
-    """When an element first came to a state; infinite where it never did [s]."""
-    times = (event.time for event in course.record.events if event.element == element and event.after == after)
-    return float(next(times, math.inf))
-
-
-def lift_off_time(course: Course) -> float:
-    """When the load left the ground; infinite where it never did [s]."""
-    return first_event(course, GROUND, "open")
-
-
 def _of_the_lift(course: Course) -> Readings:
     lifted = lift_off_time(course)
     if not math.isfinite(lifted) or course.case.weak:
@@ -173,31 +105,6 @@ def _of_the_lift(course: Course) -> Readings:
     }
 
 
-def _braked_group(course: Course) -> int:
-    """What turns with the shaft of the brake."""
-    brake = course.case.named("grip", BRAKE)
-    return course.system.groups.of[course.case.train.grips[brake].first if brake is not None else 0]
-
-
-def stopped(course: Course) -> float:
-    """When the shaft of the brake came to rest for good; infinite where it still turns [s]."""
-    group = _braked_group(course)
-    if course.record.mode.turning[group] != 0:
-        return math.inf
-    name = course.system.friction_name(group)
-    times = [event.time for event in course.record.events if event.element == name and event.after == "at rest"]
-    return float(times[-1]) if times else 0.0
-
-
-def first_rest(course: Course) -> float:
-    """When the shaft of the brake first came to rest; a swinging load may pull it through once more [s]. A gear that
-    jams stops both its shafts."""
-    if not any(body.speed for body in course.case.train.bodies):
-        return 0.0
-    name = course.system.friction_name(_braked_group(course))
-    return min(first_event(course, name, "at rest"), first_event(course, GEARBOX, JAMMED))
-
-
 def _of_the_stop(course: Course) -> Readings:
     load = course.case.named("body", LOAD)
     assert load is not None
@@ -205,9 +112,6 @@ def _of_the_stop(course: Course) -> Readings:
     edge = course.bottom("position", load) if course.case.lowers else course.top("position", load)
     way = (abs(edge[0]), edge[1]) if math.isfinite(time) else (math.inf, None)
     return {"stop_time": (time, None), "stop_distance_lowering" if course.case.lowers else "stop_distance": way}
-
-
-# -- bars -----------------------------------------------------------------------------------------------------------
 
 
 def loads(scene: Moving, course: Course, others: tuple[Course, ...], coarser: Course | None = None) -> dict[str, Found]:
@@ -312,23 +216,10 @@ def _share(own: Readings, apart: dict[str, float], kind: frozenset[str]) -> floa
     return max((apart[name] for name in kind if name in apart), default=0.0) / size if size else 0.0
 
 
-def cost(case: Case, level: int) -> float:
-    """Seconds predicted of a run and those it is compared with: what rings, as long as it has to be looked at, and a
-    few events."""
-    runs = 2 if case.coarser is None else 3
-    if case.smooth:
-        ringing = price.RADIAN * price.radians(case.train, case.window)
-        return 4e-3 + runs * (ringing + 5e-3) * (1 + level / 2)
-    return 4e-3 + runs * (price.linear(case.train, case.window) + 5e-3)
-
-
 def spent(course: Course) -> float:
     """Seconds of a run by its panels and crossings: a load that jumps on its rope has hundreds."""
     record = course.record
     return 1e-2 + PANEL * record.work
-
-
-# -- a whole solver run ---------------------------------------------------------------------------------------------
 
 
 def _lowest_frequency(case: Case) -> float:
@@ -362,7 +253,7 @@ def result(scene: Moving, case: Case, level: int) -> Result:
     if isinstance(scene, Lift) and outlasts(case) and not math.isfinite(lift_off_time(course)):
         found = {name: Found(Estimate.unknown(one.estimate.value), one.at) for name, one in found.items()}
     found["natural_frequency"] = Found(Estimate.exact(_lowest_frequency(case)))
-    findings = list(_remarks(scene, course))
+    findings = list(remarks(scene, course))
     closes = 10 * tolerance if case.smooth else _CLOSES
     residual = course.ledger.residual
     if residual > closes:
@@ -385,79 +276,8 @@ def result(scene: Moving, case: Case, level: int) -> Result:
         findings=tuple(findings),
         events=tuple(Event(float(e.time), e.element, e.before, e.after) for e in course.record.events),
         histories=lambda: histories(scene, case, tolerance),
-        failures=tuple(_failures(scene, course)),
+        failures=tuple(failures(scene, course)),
     )
-
-
-def _remarks(scene: Moving, course: Course) -> list[Finding]:
-    """What happened on the way that a reader must know."""
-    said = []
-    label, case = scene.label, course.case
-    if isinstance(scene, Lift) and not math.isfinite(lift_off_time(course)):
-        said += not_seen(scene, case)
-    time = first_event(course, DRIVE, "started")
-    if math.isfinite(time):
-        said.append(tripped(scene, time))
-    said += [
-        Finding(
-            "NUM104",
-            f"scene `{label}`: {event.element} jams at {event.time:.4g} s: a self-locking gear cannot be braked from"
-            " its motor's side against so much inertia; it is taken to stop at once",
-            ("gearbox",),
-        )
-        for event in course.record.events
-        if event.after == JAMMED
-    ]
-    return said
-
-
-def _failures(scene: Moving, course: Course) -> list[Failure]:
-    """What the run found to fail: a motor that stalls or lowers the load it lifts, a brake that does not hold it."""
-    case, found = course.case, []
-    trips = math.isfinite(first_event(course, DRIVE, "started"))
-    if isinstance(scene, Lift):
-        rope = case.named("link", ROPE)
-        assert rope is not None
-        lifted = math.isfinite(lift_off_time(course))
-        found += tripped_early(scene) if trips and not lifted else stalls(case, lifted, course.top("link", rope))
-    if isinstance(scene, Start) and not case.lowers and _sinks(course):
-        reason = "the motor stalls with the load hanging: the load lowers and turns the drive"
-        found.append(Failure("HST114", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load"))
-    if case.stops and math.isinf(stopped(course)):
-        found += not_held(case)
-    if isinstance(scene, Release) and scene.manner == "quick":
-        found += gone_slack(first_event(course, ROPE, "open"))
-    return found
-
-
-def gone_slack(time: float) -> list[Failure]:
-    """A rope that goes slack at a time, after a part of the load has come off."""
-    if not math.isfinite(time):
-        return []
-    return [Failure("HST126", f"the rope goes slack at {time:.3g} s", (), "let less of the load off, or slowly")]
-
-
-_TORQUE = ("motor",)
-
-
-def not_held(case: Case) -> list[Failure]:
-    """A load that its brake does not hold, or not for long."""
-    way = units.show(case.drop, units.SPAN)
-    reason = f"the brake does not hold the load: it goes down to the ground, or to the end of the rope, by up to {way}"
-    if case.holds:
-        reason = "the load keeps jumping on its rope and slips through the brake each time the rope becomes taut"
-    return [Failure(code, reason, ("brake", "torque"), "a stronger brake") for code in ("HST118", "HST122")]
-
-
-def tripped(scene: Moving, time: float) -> Finding:
-    """A limiter that has tripped: it works as it should."""
-    return Finding("NUM113", f"scene `{scene.label}`: the limiter trips at {time:.3g} s and stops the hoist")
-
-
-def tripped_early(scene: Moving) -> list[Failure]:
-    """A limiter that trips before the load leaves the ground."""
-    reason, hint = "the limiter trips before the load leaves the ground", "a larger factor or delay of the limiter"
-    return [Failure("HST121", reason, ("limiter", "factor"), hint)]
 
 
 def until_lifted(case: Case, lifted: float) -> float:
@@ -469,42 +289,6 @@ def until_lifted(case: Case, lifted: float) -> float:
         return min(2 * case.window, LONGEST)
     needed = min(lifted + case.ringing, LONGEST)
     return needed if needed > case.window * (1 + 1e-9) else 0.0
-
-
-def outlasts(case: Case) -> bool:
-    """Whether a lift by a drive that is strong enough may take longer than anything is looked at."""
-    return case.window >= LONGEST and not case.weak
-
-
-def not_seen(scene: Lift, case: Case) -> list[Finding]:
-    """A lift that takes longer than is computed."""
-    if not outlasts(case):
-        return []
-    reason = f"the load still stands on the ground as the longest window of {case.window:.3g} s ends"
-    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "a larger speed")]
-
-
-def stalls(case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Failure]:
-    """A drive that stalls in a lift, with its phase; `largest` is the largest force of the rope and its time."""
-    if (lifted and not case.weak) or (not lifted and outlasts(case)):
-        return []
-    force, time = largest[0], largest[1] or 0.0
-    phase = "taking up the slack" if force <= 0 else "tensioning the rope"
-    if lifted:
-        phase = "holding the load, which only its oscillation lifted off the ground"
-    reached = units.show(force, units.FORCE)
-    weight = units.show(case.weight, units.FORCE)
-    reason = (
-        f"the motor stalls while {phase}: the rope force reaches {reached} at {time:.3g} s, the load weighs {weight}"
-    )
-    return [Failure("HST121", reason, _TORQUE, "a stronger motor, a larger gear ratio, or less load")]
-
-
-def _sinks(course: Course) -> bool:
-    """Whether the drum of a start upward turns down in the end."""
-    motor = course.case.named("body", MOTOR)
-    assert motor is not None
-    return float(course.record.last[course.system.watched["speed", motor]]) < 0
 
 
 def histories(scene: Moving, case: Case, tolerance: float) -> Mapping[str, History]:

@@ -21,18 +21,16 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     its tolerance. The numbers are trusted only if the energy ledger closes to 1e-9.
     **Source** derived in `numerics.piecewise` and `numerics.train`; worked cases of lift-off and braking.
     """
-    from ptmcalc.machines.hoist.motion import (
-        scene as played,
-    )  # with the numerics of trains, for the scenes that call for them
+    from ptmcalc.machines.hoist.motion import scene as played
 
     return played.result(scene, case_of(spec, scene, carried & ALWAYS), level)
 
 
 def cost(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> float:
     """Seconds predicted from the run there will be."""
-    from ptmcalc.machines.hoist.motion import scene as played
+    from ptmcalc.machines.hoist.motion import course
 
-    return played.cost(case_of(spec, scene, carried & ALWAYS), level)
+    return course.cost(case_of(spec, scene, carried & ALWAYS), level)
 
 
 TWO_MASS: Solver[Hoist, Moving] = Solver(

@@ -1,6 +1,6 @@
 """The column as a spring under a force anywhere along it."""
 
-from ptmcalc.laws import mast as laws
+from ptmcalc.laws import mast_compliance
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.mast import properties
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
@@ -12,7 +12,7 @@ def flexural_stiffness(spec: Stacker, direction: model.Direction) -> float:
     return float(spec.column.length**3 / 3 / properties.compliance(spec, direction).bending)
 
 
-def compliance(spec: Stacker, scene: StackerScene, place: float) -> laws.Compliance:
+def compliance(spec: Stacker, scene: StackerScene, place: float) -> mast_compliance.Compliance:
     """Displacement per force so far from the root, in the direction of the scene, without a guide at the head [m/N]."""
     whole, share = properties.compliance(spec, model.direction(spec, scene)), place / spec.column.length
-    return laws.Compliance(whole.bending * share**3, whole.rotation * share**2, whole.translation)
+    return mast_compliance.Compliance(whole.bending * share**3, whole.rotation * share**2, whole.translation)

@@ -13,9 +13,9 @@ from ptmcalc.machines.crane.stacking.rack import RackStacker
 from ptmcalc.machines.crane.stacking.scenes import Brake, ObstacleScene, StackerScene, Start
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.numerics.mast.base import Base, Grip, Guide, Obstacle, Signal
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column, Lump, Prop, Segment
-from ptmcalc.numerics.mast.system import Case
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ bridge is the base, the trolley sits at the root. The base of a rack stacker doe
 import math
 from dataclasses import dataclass, replace
 
-from ptmcalc.laws import mast, mast_modes
+from ptmcalc.laws import mast, mast_compliance, mast_modes
 from ptmcalc.machines.crane.stacking import model
 from ptmcalc.machines.crane.stacking.overhead import OverheadStacker
 from ptmcalc.machines.crane.stacking.scenes import StackerScene
@@ -26,7 +26,7 @@ class Swinging:
     to the stiffness at the far end, below 0 where the column stands [N/m].
     """
 
-    compliance: mast.Compliance
+    compliance: mast_compliance.Compliance
     exact: mast_modes.Mast
     weight: float
 
@@ -93,31 +93,31 @@ def standing(spec: Stacker, scene: StackerScene) -> mast_modes.Mast:
     return replace(swinging(spec, scene).held, guide_stiffness=stiff or 0.0)
 
 
-def compliance(spec: Stacker, direction: model.Direction) -> mast.Compliance:
+def compliance(spec: Stacker, direction: model.Direction) -> mast_compliance.Compliance:
     """How far the far end of the column gives along the travel of bridge or base, or across it [m/N]."""
     column = spec.column
     if column.stiffness is not None:
-        return mast.Compliance(1 / column.stiffness, 0.0, 0.0)
+        return mast_compliance.Compliance(1 / column.stiffness, 0.0, 0.0)
     second = column.second_moment_across if direction == "across" else None
     moment = model.filled(second if second is not None else column.second_moment) * column.count
     length = column.length
     joint = length**2 / column.root_stiffness if column.root_stiffness is not None else 0.0
-    bending = mast.column_bending(length, column.elasticity, moment)
+    bending = mast_compliance.column_bending(length, column.elasticity, moment)
     if not isinstance(spec, OverheadStacker):
-        return mast.Compliance(bending, joint, 0.0)
+        return mast_compliance.Compliance(bending, joint, 0.0)
     bridge, trolley, place = spec.bridge, spec.trolley, model.trolley_place(spec)
     vertical = model.filled(bridge.girder_vertical)
     if direction == "along":
         across = model.filled(bridge.girder_horizontal)
-        girders = mast.bridge_travel_compliance(
+        girders = mast_compliance.bridge_travel_compliance(
             length, bridge.elasticity, moment, bridge.span, vertical, across, trolley.gauge, place, bridge.ends,
             trolley.wheels,
         )  # fmt: skip
     else:
-        girders = mast.trolley_travel_compliance(
+        girders = mast_compliance.trolley_travel_compliance(
             length, bridge.elasticity, moment, bridge.span, vertical, place, bridge.ends
         )
-    return mast.Compliance(bending, girders.rotation + joint, girders.translation)
+    return mast_compliance.Compliance(bending, girders.rotation + joint, girders.translation)
 
 
 def rest_deflection(spec: Stacker, scene: StackerScene) -> float:
@@ -132,7 +132,7 @@ def rest_deflection(spec: Stacker, scene: StackerScene) -> float:
     return lean * one.stiffness / (one.stiffness + held)
 
 
-def _weight(spec: Stacker, scene: StackerScene, gives: mast.Compliance) -> float:
+def _weight(spec: Stacker, scene: StackerScene, gives: mast_compliance.Compliance) -> float:
     attitude = mast.HANGING if model.hangs(spec) else mast.STANDING
     shares = gives.rotation_share, gives.translation_share
     place = model.carriage_place(spec, scene) / spec.column.length

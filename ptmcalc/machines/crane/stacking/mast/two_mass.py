@@ -13,10 +13,10 @@ from ptmcalc.machines.crane.stacking.scenes import DrivenScene, StackerScene
 from ptmcalc.machines.crane.stacking.spec import Stacker
 from ptmcalc.machines.crane.stacking.travelling import push_of
 from ptmcalc.numerics.mast.assumed import one_shape
+from ptmcalc.numerics.mast.case import Case
 from ptmcalc.numerics.mast.modes import Mast
 from ptmcalc.numerics.mast.parts import Column
 from ptmcalc.numerics.mast.run import Course, play
-from ptmcalc.numerics.mast.system import Case
 
 SWINGS = 3.0
 """Periods of the column beside a base at rest that are looked at after the event."""

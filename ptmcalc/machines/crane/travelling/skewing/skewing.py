@@ -7,9 +7,10 @@ from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import skew
 from ptmcalc.machines.crane.travelling import model
+from ptmcalc.machines.crane.travelling.keys.runway import Guide
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Skew
-from ptmcalc.machines.crane.travelling.spec import Guide, Travelling
+from ptmcalc.machines.crane.travelling.spec import Travelling
 
 
 def run(spec: Travelling, scene: Skew, carried: frozenset[str], level: int) -> Result:

@@ -4,7 +4,7 @@ import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.components.motor import braking_number_at
+from ptmcalc.components.motor_rating import braking_number_at
 from ptmcalc.contract.check import AnyCheck, Check, LimitState, Sense, at, blames, no_needs, no_repair, only
 from ptmcalc.machines.crane.travelling.judging import (
     RUNNING,

@@ -2,7 +2,7 @@
 
 import math
 
-from ptmcalc.components.motor import overhauling_reserve
+from ptmcalc.components.motor_torque import overhauling_reserve
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.model import filled

@@ -9,10 +9,11 @@ from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification, wheel_loads
 from ptmcalc.machines.crane.travelling import model, stability, wheels
+from ptmcalc.machines.crane.travelling.keys.duty import Duty
 from ptmcalc.machines.crane.travelling.loads import EVEN, OF_THE_WHEELS, names
 from ptmcalc.machines.crane.travelling.model import CORNERS
 from ptmcalc.machines.crane.travelling.scenes import HoistWhileTravelling, Run, Start, TravelScene
-from ptmcalc.machines.crane.travelling.spec import Duty, Travelling
+from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.statics import drive, factors, resisting
 
 Numbers = dict[str, float]

@@ -10,22 +10,21 @@ from numpy.typing import NDArray
 from ptmcalc.base import units
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.result import Event, Finding, History
 from ptmcalc.machines.crane.travelling import model
 from ptmcalc.machines.crane.travelling.model import filled
 from ptmcalc.machines.crane.travelling.scenes import Moving
 from ptmcalc.machines.crane.travelling.spec import Travelling
 from ptmcalc.machines.crane.travelling.sway.course import Course, Reading, State, Worst
+from ptmcalc.machines.crane.travelling.sway.drive_laws import drive_laws
 from ptmcalc.machines.crane.travelling.sway.linear import linear_course, stalled
 from ptmcalc.machines.crane.travelling.sway.moving import Motion, motion_of, stalls
 from ptmcalc.numerics.distinct import distinct
-from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Load, Push, Rail, Smooth, Straight
+from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Load, Rail
 from ptmcalc.numerics.pendulum.pieces import Pieces, braking
 from ptmcalc.numerics.pendulum.swing import Swing, swing
 
 FloatArray = NDArray[np.float64]
-
 SIGNALS = ("acceleration", "pull_along", "tension")
 _DOUBLINGS = 3
 """Attempts [1] to reach a speed or standstill, each with twice the simulated time: up to 5.2 times the first estimate.
@@ -234,7 +233,7 @@ def _until_speed(spec: Travelling, scene: Moving, motion: Motion, tolerance: flo
     guess = motion.rigid_time + (motion.rising if motion.starts else motion.delay + motion.rise)
     legs: list[Leg] = []
     case, time = _case(spec, scene, motion), 0.0
-    drives = _drives(spec, motion)
+    drives = drive_laws(spec, motion)
     for index, (drive, until, switched) in enumerate(drives):
         last = index == len(drives) - 1
         case = replace(case, axis=replace(case.axis, drive=drive))
@@ -291,9 +290,6 @@ def _lengthened(tolerance: float, legs: list[Leg], window: float) -> list[Leg]:
     return [*legs[:-1], Leg(last.start, found, window - last.start)]
 
 
-# -- what moves -----------------------------------------------------------------------------------------------------
-
-
 def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     drive = spec.drive
     ratio = model.rim_ratio(spec)
@@ -324,49 +320,6 @@ def _case(spec: Travelling, scene: Moving, motion: Motion) -> Case:
     return Case(motion.gravity, Rail(motion.slope), axis, load)
 
 
-def _drives(spec: Travelling, motion: Motion) -> list[tuple[Follow | Push | None, float | None, float | None]]:
-    """The laws of the drive one after the other, and the speed or the time at which each gives way to the next."""
-    if motion.ramp is not None:
-        lasts = motion.speed / motion.ramp
-        ends = ((0.0, 0.0), (lasts, motion.speed)) if motion.starts else ((0.0, motion.speed), (lasts, 0.0))
-        return [(Follow(Pieces.through(ends)), None, None)]
-    if not motion.starts:
-        return [(None, None, None)]
-    curve, ratio = spec.drive.motor.curve, model.rim_ratio(spec)
-    count = spec.drive.motor.count
-    if curve is None:
-        return [(Push(spec.drive.torque * ratio, reaches=motion.speed), None, None)]
-    if isinstance(curve, ConverterMotor):
-        rises = max(curve.ramp_time, 1e-9)
-        speeds = Pieces.through(((0.0, 0.0), (rises, motion.speed)))
-        return [(Follow(speeds, limit=count * curve.limit * ratio), motion.speed, None)]
-    laws: list[tuple[Follow | Push | None, float | None, float | None]] = []
-    for stage in curve.stages:
-        until = None if stage.until_speed is None else stage.until_speed / ratio
-        reaches = motion.speed if until is None or until >= motion.speed else until
-        laws.append((Push(_law(stage, count, ratio), reaches=reaches), until, stage.until_time))
-        if reaches == motion.speed and stage.until_time is None:
-            break
-    return laws
-
-
-def _law(stage: Stage, count: int, ratio: float) -> Straight | Smooth:
-    """A motor's torque over its speed as a force over that of travel, in front of the gear."""
-    if stage.pieces is None:
-        size = float(np.max(np.abs(stage.torque(np.linspace(0.0, 400.0, 101))))) * count * ratio
-        return Smooth(lambda speed: count * ratio * stage.torque(np.asarray(speed) * ratio), size)
-    knots = [speed for speed, _ in stage.pieces]
-    if stage.extends and len(knots) > 1:
-        width = knots[-1] - knots[0]
-        knots = [knots[0] - width, *knots, knots[-1] + width]
-    torques = stage.torque(np.array(knots))
-    if len(knots) == 1:
-        knots, torques = [knots[0], knots[0] + 1.0], np.repeat(torques, 2)
-    return Straight(
-        tuple(float(speed / ratio) for speed in knots), tuple(float(count * ratio * torque) for torque in torques)
-    )
-
-
 def continued(case: Case, leg: Leg) -> Case:
     """The case that goes on where a leg ends."""
     from_there = {name: leg.swing.known(name, leg.lasts).value for name in ("along", "along_rate", "speed", "position")}
@@ -388,9 +341,6 @@ def _with_later(seen: Estimate, later: FloatArray, largest: bool) -> Estimate:
         return seen
     low, high = (seen.low, far) if largest else (far, seen.high)
     return replace(seen, low=low, high=high, model=seen.model + abs(far - (seen.high if largest else seen.low)))
-
-
-# -- what is read off -----------------------------------------------------------------------------------------------
 
 
 def _read(motion: Motion, legs: list[Leg], reached: float, begins: float, window: float) -> Run:

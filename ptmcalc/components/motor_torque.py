@@ -1,0 +1,61 @@
+"""Torques read from the curve of a motor: up to a speed, and above the no-load speed."""
+
+import math
+
+import numpy as np
+
+from ptmcalc.components.motor import AnyMotor, ConverterMotor, FloatArray, InductionBase
+
+_LOOKS = 1025
+"""Even steps of the speed at which a curve is looked at, from rest on."""
+
+
+def torques_up_to(curve: AnyMotor, speed: float) -> FloatArray:
+    """Torque of a motor over even steps from rest to a speed [rad/s], shape (n,) [N*m].
+
+    Where stages are switched by time, the best of them at each speed: which one it is, a run tells. Of a converter its
+    limit, which it gives at any speed.
+    """
+    if isinstance(curve, ConverterMotor):
+        return np.full(_LOOKS, curve.limit)
+    speeds = np.linspace(0.0, speed, _LOOKS)
+    if any(stage.until_time is not None for stage in curve.stages):
+        return np.asarray(np.max([stage.torque(speeds) for stage in curve.stages], axis=0))
+    return curve.torque(speeds, np.inf)
+
+
+def overhauled_torque(curve: AnyMotor) -> float:
+    """The most with which a motor brakes a load that drives it above its no-load speed, once its start is over [N*m].
+
+    Infinite where the torque grows with the speed without end (`linear`), 0 where the motor never brakes.
+    """
+    if isinstance(curve, ConverterMotor):
+        return curve.limit
+    last = curve.stages[-1]
+    if isinstance(curve, InductionBase):
+        slip = np.array([-curve.breakdown_slip])
+        return -float(last.torque((1 - slip) * curve.synchronous_speed)[0])
+    assert last.pieces is not None
+    if last.extends:
+        return np.inf
+    return max(0.0, -min(torque for speed, torque in last.pieces if speed >= 0 or torque >= 0))
+
+
+def overhauling_reserve(curve: AnyMotor, count: int, torque: float) -> float:
+    """Largest braking torque of equal motors above their no-load speed over the torque of a load that drives them.
+
+        reserve = n M_b/M_o,   infinite where the load does not drive the motors (M_o <= 0)
+
+    Args:
+        curve: of one motor.
+        count: n, the number of motors.
+        torque: M_o, of the load on the motor shaft, losses of the gear taken off [N*m].
+
+    Returns:
+        The reserve [1].
+
+    **Range** steady motion; a motor whose start is over.
+    **Error** exact for the curve. Below 1 no speed exists at which the motors hold the load.
+    **Source** balance of torques on the motor shaft.
+    """
+    return count * overhauled_torque(curve) / torque if torque > 0 else math.inf

@@ -1,0 +1,1 @@
+"""Keys of a travelling crane that its topics share: runway and duty."""
