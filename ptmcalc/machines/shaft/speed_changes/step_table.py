@@ -11,10 +11,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
-from ptmcalc.machines.shaft.cases import departure, machine_in, target_speed
+from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.speed_changes import run_up_bounds
+from ptmcalc.machines.shaft.speed_changes.cases import departure, target_speed
 from ptmcalc.numerics.steps import Table, step_table
 
 Scene = RunUp | RunOut
@@ -83,7 +84,7 @@ def acceleration(machine: Machine, *, driven: bool) -> Callable[[float, float, f
         w, at = np.array([speed]), np.array([time])
         resistance = static + machine.viscous * w + slope * w**2 / 2
         if driven:
-            torque = drive.torque(bounds.stage_at_speed(machine, speed), w, at)
+            torque = drive.torque(run_up_bounds.stage_at_speed(machine, speed), w, at)
         else:
             torque, resistance = np.zeros(1), resistance + machine.brake_torque(at)
         factor = drive.factor(torque, inertia, resistance)
@@ -120,7 +121,7 @@ def valid(spec: Shaft, scene: Scene) -> Criterion:
     if isinstance(scene, RunUp):
         target = target_speed(spec, scene)
         if not drive.time_dependent:
-            time, _ = bounds.start_integrals(machine, target, inertia, survey.static_mean, 0.0)
+            time, _ = run_up_bounds.start_integrals(machine, target, inertia, survey.static_mean, 0.0)
             ratio = time / step_size(machine, target) / _MOST_STEPS
     else:
         speed = next(iter(machine.working_speeds), None) or drive.free_speed

@@ -13,23 +13,21 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Failure, Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver, always_valid
 from ptmcalc.machines.shaft import ledger
-from ptmcalc.machines.shaft.cases import (
+from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
+from ptmcalc.machines.shaft.cycle import impossible
+from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.results import bar, result_of
+from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.speed_changes import motion, speed_quadrature, worst
+from ptmcalc.machines.shaft.speed_changes.cases import (
     Departure,
-    cycle_of,
     departure,
-    inertia_forced_off,
     is_braked,
-    machine_in,
     mean_torque,
     target_speed,
     wanted_stop,
 )
-from ptmcalc.machines.shaft.cycle import impossible
-from ptmcalc.machines.shaft.loads import ANGULAR_ACCELERATION, OF_RUN_OUT, OF_RUN_UP
-from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.results import bar, result_of
-from ptmcalc.machines.shaft.runs import motion, speed_quadrature, worst
-from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.speed_changes.loads import ANGULAR_ACCELERATION, OF_RUN_OUT, OF_RUN_UP
 
 _SEPARATE = 150
 """Cycles [1] assumed to be simulated one by one in the predicted time; of more, most are skipped. A numerical choice:

@@ -7,10 +7,10 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
-from ptmcalc.machines.shaft.cases import departure, is_braked, stop_case
-from ptmcalc.machines.shaft.loads import OF_RUN_OUT
 from ptmcalc.machines.shaft.spec import RunOut, Shaft
+from ptmcalc.machines.shaft.speed_changes import run_out_bounds
+from ptmcalc.machines.shaft.speed_changes.cases import departure, is_braked, stop_case
+from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_OUT
 
 _MEANING = "0 where power goes through the gear from the rotor throughout and the brake holds at any angle, else 1"
 
@@ -29,13 +29,13 @@ def run(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Resu
     """
     start = departure(spec, scene)
     stop, wanted = stop_case(spec, scene)
-    ranges = bounds.run_out_ranges(stop, changing=False, wanted=wanted)
-    ranges["energy_recoverable"] = bounds.recoverable(stop, ranges, changing=False)
+    ranges = run_out_bounds.run_out_ranges(stop, changing=False, wanted=wanted)
+    ranges["energy_recoverable"] = run_out_bounds.recoverable(stop, ranges, changing=False)
     time, turned = stop.ended(0, changing=False)
     middle = (ranges["energy_recoverable"].low + ranges["energy_recoverable"].high) / 2
     values = {"run_out_time": time, "run_out_angle": turned, "energy_recoverable": middle}
     if wanted:
-        values["brake_torque_needed"] = bounds.torque_needed(stop, wanted, 0, changing=False)
+        values["brake_torque_needed"] = run_out_bounds.torque_needed(stop, wanted, 0, changing=False)
     beginning = start.beginning()
     at = beginning["kinetic_energy"].at
     found = {name: Found(_between(value, ranges[name]), at) for name, value in values.items()}
@@ -63,7 +63,11 @@ def valid(spec: Shaft, scene: RunOut) -> Criterion:
         stop, _ = stop_case(spec, scene)
     except NumericsError:  # the motion itself says so
         return Criterion("g", 1.0, 0.5, _MEANING, "laws.shaft.gear_factor")
-    value = 0.0 if bounds.coasts_forward(stop) and (not is_braked(spec, scene) or bounds.holds(stop.machine)) else 1.0
+    value = (
+        0.0
+        if run_out_bounds.coasts_forward(stop) and (not is_braked(spec, scene) or run_out_bounds.holds(stop.machine))
+        else 1.0
+    )
     return Criterion("g", value, 0.5, _MEANING, "laws.shaft.gear_factor")
 
 
@@ -76,6 +80,6 @@ STOP_FORMULA: Solver[Shaft, RunOut] = Solver(
     gives=OF_RUN_OUT,
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
-    source="laws.shaft.braked_stop; bounds derived in ptmcalc.machines.shaft.bounds",
+    source="laws.shaft.braked_stop; bounds derived in ptmcalc.machines.shaft.speed_changes.run_out_bounds",
     valid=valid,
 )

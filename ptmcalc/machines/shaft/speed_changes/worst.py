@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ptmcalc.base.estimate import Estimate
-from ptmcalc.machines.shaft import bounds
-from ptmcalc.machines.shaft.cases import Departure
-from ptmcalc.machines.shaft.runs.motion import ORDERS, Run, run_out
+from ptmcalc.machines.shaft.speed_changes import run_out_bounds
+from ptmcalc.machines.shaft.speed_changes.cases import Departure
+from ptmcalc.machines.shaft.speed_changes.motion import ORDERS, Run, run_out
 from ptmcalc.numerics.distinct import distinct
 
 FloatArray = NDArray[np.float64]
@@ -97,7 +97,7 @@ class Search:
         """The closed form from all angles; the energy itself where it has no end."""
         if brake not in self._closed:
             machine = self.start.machine
-            stops = (bounds.Stop(machine, e, machine.brake is not None) for e in self.energies.tolist())
+            stops = (run_out_bounds.Stop(machine, e, machine.brake is not None) for e in self.energies.tolist())
             self._closed[brake] = np.array([stop.ended(0, changing=False, brake=brake) for stop in stops]).T
         found = self._closed[brake][which]
         return np.asarray(found if np.all(np.isfinite(found)) and np.all(found > 0) else self.energies)
@@ -239,13 +239,13 @@ class _Root:
     def guess(self, angle: float) -> float:
         """The torque by the closed form, corrected by what a quick run with the brake of the file tells."""
         energy = float(self.start.energies(np.array([angle]))[0])
-        stop = bounds.Stop(self.start.machine, energy, True)
+        stop = run_out_bounds.Stop(self.start.machine, energy, True)
         present = self.start.machine.brake_most
         closed = stop.ended(0, changing=False)[self.which]
         factor = self._measured(angle, present, _QUICK) / closed if present > 0 and closed > 0 else 1.0
         usable = math.isfinite(closed) and 0 < factor < math.inf
         wanted = {_NAMES[self.which]: self.limit / (factor if usable else 1.0)}
-        return bounds.torque_needed(stop, wanted, 0, changing=False)
+        return run_out_bounds.torque_needed(stop, wanted, 0, changing=False)
 
     def kept(self, angle: float, torque: float) -> bool:
         """Whether a torque keeps the limit with something to spare."""

@@ -8,12 +8,13 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
-from ptmcalc.machines.shaft.cases import machine_in, target_speed
+from ptmcalc.machines.shaft.cases import machine_in
 from ptmcalc.machines.shaft.cycle import impossible
-from ptmcalc.machines.shaft.loads import OF_RUN_UP
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.spec import RunUp, Shaft
+from ptmcalc.machines.shaft.speed_changes import run_up_bounds
+from ptmcalc.machines.shaft.speed_changes.cases import target_speed
+from ptmcalc.machines.shaft.speed_changes.loads import OF_RUN_UP
 
 
 def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
@@ -30,8 +31,8 @@ def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Resul
     starting = {name: Found(Estimate.exact(value)) for name, value in at_rest(machine, scene.start).items()}
     survey, drive = machine.survey, machine.drive
     inertia = survey.inertia_mean + drive.efficiency * drive.ratio**2 * drive.motor_inertia
-    values = bounds.start_integrals(machine, target, inertia, survey.static_mean, 0.0)
-    ranges = bounds.run_up_ranges(machine, target, changing=False)
+    values = run_up_bounds.start_integrals(machine, target, inertia, survey.static_mean, 0.0)
+    ranges = run_up_bounds.run_up_ranges(machine, target, changing=False)
     stuck = starting["acceleration_starting"].estimate.value <= 0
     loads = {}
     for value, (name, held) in zip(values, ranges.items(), strict=True):
@@ -75,7 +76,7 @@ def valid(spec: Shaft, scene: RunUp) -> Criterion:
     fits = (
         machine.sound
         and not machine.drive.time_dependent
-        and bounds.drives_all_the_way(machine, target_speed(spec, scene), 0.0)
+        and run_up_bounds.drives_all_the_way(machine, target_speed(spec, scene), 0.0)
     )
     meaning = "0 for a torque that depends on the speed alone and never brakes, else 1"
     return Criterion("m", 0.0 if fits else 1.0, 0.5, meaning, "torque curve of the motor")
@@ -90,6 +91,6 @@ SPEED_QUADRATURE: Solver[Shaft, RunUp] = Solver(
     gives=OF_RUN_UP,
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
-    source="Newton's law, separated; bounds derived in ptmcalc.machines.shaft.bounds",
+    source="Newton's law, separated; bounds derived in ptmcalc.machines.shaft.speed_changes.run_up_bounds",
     valid=valid,
 )
