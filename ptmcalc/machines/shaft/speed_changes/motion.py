@@ -6,7 +6,7 @@ gear, at the speed asked for, or at rest. Angles are counted within a cycle, so 
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -228,7 +228,7 @@ def run_up(machine: Machine, angle: float, target: float, setting: tuple[int, fl
     start = _released(machine, begin)
     if start is None:
         return Run(machine, (), begin, begin, 0, False, 1, True)
-    return _march(machine, begin, start, True, target, setting)
+    return _March(machine, begin, start, True, target, *setting, stage=0).run()
 
 
 def run_out(machine: Machine, angle: float, speed: float, setting: tuple[int, float] = ORDERS[0]) -> Run:
@@ -236,7 +236,7 @@ def run_out(machine: Machine, angle: float, speed: float, setting: tuple[int, fl
     begin = State(0.0, angle % machine.period, speed)
     if speed > 0 and _never_rests(machine):
         return Run(machine, (), begin, begin, 0, False, 1, False)
-    return _march(machine, begin, begin, False, None, setting)
+    return _March(machine, begin, begin, False, None, *setting, stage=None).run()
 
 
 def _never_rests(machine: Machine) -> bool:
@@ -335,73 +335,120 @@ def _whole_cycle(
     return found[0], float(np.sum(weights / np.sqrt(2 * sampled)))
 
 
-def _march(
-    machine: Machine, begin: State, state: State, driven: bool, target: float | None, setting: tuple[int, float]
-) -> Run:
-    order, tolerance = setting
-    times = _times(machine, driven)
-    stage = 0 if driven else None
-    parts: list[Part] = []
-    turns = work = 0
-    before = -1.0
-    finished = False
+@dataclass
+class _March:
+    """A motion on its way: where it is, and what it has passed."""
+
+    machine: Machine
+    begin: State
+    state: State
+    driven: bool
+    target: float | None
+    order: int
+    tolerance: float
+    stage: int | None
+    """of the motor, None while it is off"""
+    parts: list[Part] = field(default_factory=list)
+    turns: int = 0
+    work: int = 0
+    before: float = -1.0
+    """speed at the beginning of the cycle, below 0 where it is not one that was followed"""
+    ended: bool = False
+    finished: bool = False
     grid: Grid | None = None
-    skipping, since, followed = True, 0, 0
-    while True:
-        low, high = _between(machine.corners, state.angle)
-        if stage is not None:
-            stage = _stage_at(machine, state.time, state.speed, stage)
-        until = next((time for time in times if time > state.time), math.inf)
-        here = _Setting(stage, low, high, until)
-        if state.angle == 0.0 and until == math.inf and state.speed > 0:
-            once = partial(_whole_cycle, machine, stage, target, order)
-            many = _many_cycles(once, machine, state, stage, target, order) if skipping else None
-            skipping = many is not None
+    """stretches of the cycle before"""
+    skipping: bool = True
+    """whether many cycles at once are tried"""
+    since: int = 0
+    """cycles since they last were"""
+    followed: int = 0
+    """cycles one by one"""
+
+    def run(self) -> Run:
+        """The motion to its end."""
+        times = _times(self.machine, self.driven)
+        while not self.ended:
+            if self.stage is not None:
+                self.stage = _stage_at(self.machine, self.state.time, self.state.speed, self.stage)
+            until = next((time for time in times if time > self.state.time), math.inf)
+            cycle_begins = self.state.angle == 0.0 and until == math.inf and self.state.speed > 0
+            if not (cycle_begins and self._whole_cycles()):
+                self._phase(until)
+        parts = tuple(self.parts)
+        return Run(self.machine, parts, self.begin, self.state, self.turns, self.finished, self.work, self.driven)
+
+    def _whole_cycles(self) -> bool:
+        """Goes on over the angle by many cycles, or by one; False where the next one is to be followed in time."""
+        once = partial(_whole_cycle, self.machine, self.stage, self.target, self.order)
+        if self.skipping:
+            many = _many_cycles(once, self.machine, self.state, self.stage, self.target, self.order)
             if many is not None:
-                parts.append(Part((), stage, 0.0, machine.period, None, many, state.time))
-                work += 50 * len(many.orbits) * many.orbits[0].grid.angles.size
-                turns += many.cycles
-                state = State(state.time + many.duration, 0.0, math.sqrt(2 * many.energy))
-                before = -1.0
-                continue
-            whole = once(state.speed**2 / 2, grid)
-            if whole is not None:
-                orbit, lasted = whole
-                grid = orbit.grid if len(orbit.start) < _MOST_KEPT else None
-                parts.append(Part((), stage, 0.0, machine.period, orbit, None, state.time))
-                since += 1
-                if since >= _TRIED_AGAIN:
-                    skipping, since = True, 0
-                work += 5 * orbit.grid.angles.size
-                speed = math.sqrt(2 * float(orbit.within([1.0])[-1, 0]))
-                turns, followed = turns + 1, followed + 1
-                if _gone_on(followed, driven) or abs(speed - state.speed) <= _SETTLED * speed:
-                    break
-                state = State(state.time + lasted, 0.0, speed)
-                before = speed
-                continue
-        phase = Phase(_net(machine, here), _marks(machine, here, target), until, high)
-        done = follow(phase, state, order, tolerance)
-        parts.append(Part(done.steps, stage, low, high))
-        work += done.evaluations
-        state = done.end
+                self._skip(many)
+                return True
+            self.skipping = False
+        whole = once(self.state.speed**2 / 2, self.grid)
+        if whole is None:
+            return False
+        self._pass(*whole)
+        return True
+
+    def _skip(self, many: Skipped) -> None:
+        """Goes on by many cycles at once."""
+        self.parts.append(Part((), self.stage, 0.0, self.machine.period, None, many, self.state.time))
+        self.work += 50 * len(many.orbits) * many.orbits[0].grid.angles.size
+        self.turns += many.cycles
+        self.state = State(self.state.time + many.duration, 0.0, math.sqrt(2 * many.energy))
+        self.before = -1.0
+
+    def _pass(self, orbit: Orbit, lasted: float) -> None:
+        """Goes on by one cycle; one that does not change the speed is the last."""
+        self.grid = orbit.grid if len(orbit.start) < _MOST_KEPT else None
+        self.parts.append(Part((), self.stage, 0.0, self.machine.period, orbit, None, self.state.time))
+        self.since += 1
+        if self.since >= _TRIED_AGAIN:
+            self.skipping, self.since = True, 0
+        self.work += 5 * orbit.grid.angles.size
+        speed = math.sqrt(2 * float(orbit.within([1.0])[-1, 0]))
+        self.turns, self.followed = self.turns + 1, self.followed + 1
+        if _gone_on(self.followed, self.driven) or abs(speed - self.state.speed) <= _SETTLED * speed:
+            self.ended = True
+            return
+        self.state = State(self.state.time + lasted, 0.0, speed)
+        self.before = speed
+
+    def _phase(self, until: float) -> None:
+        """Goes on in time to the end of the phase."""
+        machine = self.machine
+        low, high = _between(machine.corners, self.state.angle)
+        here = _Setting(self.stage, low, high, until)
+        phase = Phase(_net(machine, here), _marks(machine, here, self.target), until, high)
+        done = follow(phase, self.state, self.order, self.tolerance)
+        self.parts.append(Part(done.steps, self.stage, low, high))
+        self.work += done.evaluations
+        end = self.state = done.end
         if done.reason == TIME:
-            state = State(until, state.angle, state.speed)
-            if not driven and state.speed <= _AT_REST * begin.speed:  # it stops at the very moment the brake changes
-                state, finished = State(until, state.angle, 0.0), True
-                break
+            self.state = State(until, end.angle, end.speed)
+            # it may stop at the very moment the brake changes
+            if not self.driven and end.speed <= _AT_REST * self.begin.speed:
+                self._end(State(until, end.angle, 0.0), finished=True)
         elif done.reason == ANGLE and high == machine.period:
-            state, turns, followed = State(state.time, 0.0, state.speed), turns + 1, followed + 1
-            settled = abs(state.speed - before) <= _SETTLED * state.speed and until == math.inf
-            if settled or _gone_on(followed, driven):
-                break
-            before = state.speed
+            self._next_cycle(until)
         elif done.reason == _REST:
-            state, finished = State(state.time, state.angle, 0.0), not driven
-            break
+            self._end(State(end.time, end.angle, 0.0), finished=not self.driven)
         elif done.reason == _TARGET:
-            state, finished = State(state.time, state.angle, float(target or 0.0)), True
-            break
-        elif done.reason == _STAGE and stage is not None:
-            stage += 1
-    return Run(machine, tuple(parts), begin, state, turns, finished, work, driven)
+            self._end(State(end.time, end.angle, float(self.target or 0.0)), finished=True)
+        elif done.reason == _STAGE and self.stage is not None:
+            self.stage += 1
+
+    def _next_cycle(self, until: float) -> None:
+        """Counts a cycle that was followed in time; one that does not change the speed is the last."""
+        self.state = State(self.state.time, 0.0, self.state.speed)
+        self.turns, self.followed = self.turns + 1, self.followed + 1
+        settled = abs(self.state.speed - self.before) <= _SETTLED * self.state.speed and until == math.inf
+        if settled or _gone_on(self.followed, self.driven):
+            self.ended = True
+            return
+        self.before = self.state.speed
+
+    def _end(self, state: State, *, finished: bool) -> None:
+        self.state, self.finished, self.ended = state, finished, True
