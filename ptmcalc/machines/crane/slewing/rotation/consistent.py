@@ -7,8 +7,12 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import classification
-from ptmcalc.machines.crane.slewing import chain, drive, model, ring, rising
-from ptmcalc.machines.crane.slewing.loads import OF_THE_DRIVE, OF_THE_RING, OF_THE_USE
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.drive import reserves
+from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE, OF_THE_USE
+from ptmcalc.machines.crane.slewing.ring import forces
+from ptmcalc.machines.crane.slewing.ring.loads import OF_THE_RING
+from ptmcalc.machines.crane.slewing.rotation import chain, start_curve
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 _QUADRATURE = 1e-9
@@ -61,7 +65,7 @@ def has_curve(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     **Error** none.
     **Source** the file.
     """
-    return Criterion("curve", 0.0 if rising.follows(spec) else 1.0, 0.5, "the motor has no curve", "the file")
+    return Criterion("curve", 0.0 if start_curve.follows(spec) else 1.0, 0.5, "the motor has no curve", "the file")
 
 
 def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool, by_curve: bool = False) -> Result:
@@ -69,14 +73,14 @@ def found_by(spec: SlewingCrane, scene: SlewingScene, *, by_direction: bool, by_
     the motor's torque or `by_curve`."""
     start, at_column, derived = start_of(spec, scene)
     turned = spec.speed * start / 2
-    rise = rising.rise_of(spec, scene) if by_curve else None
+    rise = start_curve.rise_of(spec, scene) if by_curve else None
     if rise is not None:
         start, turned = rise.time, rise.angle
     stop = model.stop(spec, scene)
     times = chain.phases(spec, (start, turned), stop or chain.allowed_stop(spec))
     at = chain.torques(spec, scene, at_column, by_direction=by_direction)
     loads = found_of(spec, scene, times, at)
-    loads |= drive.of_drive(spec, scene, times, at) | ring.of_ring(spec, scene) | of_use(spec)
+    loads |= reserves.of_drive(spec, scene, times, at) | forces.of_ring(spec, scene) | of_use(spec)
     found = {name: Found(Estimate.exact(value)) for name, value in loads.items()}
     if rise is not None:
         found = {name: Found(_by_quadrature(value)) for name, value in loads.items()}

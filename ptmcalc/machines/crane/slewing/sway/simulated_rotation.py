@@ -9,8 +9,9 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.result import Event
-from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import chain
+from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 from ptmcalc.numerics.pendulum.equations import KEEP
 from ptmcalc.numerics.pendulum.parts import Axis, Case, Follow, Gear, Jib, Load, Peak, Push, Smooth, Straight

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ptmcalc.laws import brake, slewing
-from ptmcalc.machines.crane.slewing import model, rising
-from ptmcalc.machines.crane.slewing.loads import OF_THE_CHAIN
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import start_curve
+from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 GIVEN = frozenset(info.name for info in OF_THE_CHAIN)
@@ -91,7 +92,7 @@ def torques(
 
 def worth(spec: SlewingCrane, scene: SlewingScene, power: float) -> float:
     """What the torque of a start along a motor's curve is worth, over its mean; 1 without a curve."""
-    rise, mean = rising.rise_of(spec, scene), model.motor_torque(spec, scene)
+    rise, mean = start_curve.rise_of(spec, scene), model.motor_torque(spec, scene)
     return 1.0 if rise is None or not mean or mean < 0 or math.isinf(rise.time) else rise.mean(power) / mean
 
 

@@ -1,22 +1,18 @@
-"""The effects a rotation may call for, each with the number that decides and the most that leaving it out changes.
-
-`consistent` is a rigid crane under constant torques, `slew` carries them all. The order matters: the bound of the swing
-starts from the bars that motor and gust have left.
-"""
+"""Effects of the rigid crane on its rotation: losses by the direction of the power, motor curve, gust."""
 
 import math
 
 from ptmcalc.base.estimate import Interval
 from ptmcalc.contract.effect import AnyEffect, Criterion, Effect
-from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.slewing import bounds, chain, model
-from ptmcalc.machines.crane.slewing.bounds import Loads, Offsets
-from ptmcalc.machines.crane.slewing.loads import OF_THE_SWING
-from ptmcalc.machines.crane.slewing.solvers.consistent import found_of, start_of
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import bounds, chain
+from ptmcalc.machines.crane.slewing.rotation.bounds import Loads, Offsets
+from ptmcalc.machines.crane.slewing.rotation.consistent import found_of, start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
 from ptmcalc.spec.scene import Scene
 
-SCENES: frozenset[type[Scene]] = frozenset({Slew})
+_SCENES: frozenset[type[Scene]] = frozenset({Slew})
 DIRECTION_THRESHOLD = 0.01
 """Losses of the inertia torque in the gear, relative to the steady torque [1]. An engineering choice: below 1 % the
 neglected losses stay below 1 % of the steady torque. `direction_bound` adds the exact difference to the error bar at
@@ -29,15 +25,7 @@ GUST_THRESHOLD = 0.02
 """Gust torque relative to the accelerating torque [1]. An engineering choice: below 2 % the gust extends the start by
 at most 2.1 %, 1/(1 - 0.02). `gust_bound` adds the extension to the error bar and is unbounded with load sway. A smaller
 value requests the gust in more scenes."""
-SWING_THRESHOLD = 0.02
-"""Sway angle 2 a/g [rad]. An engineering choice: below 0.02 rad the horizontal rope force stays below 2 % of the weight
-of the load. `swing_bound` covers the neglected sway where it exists; elsewhere the error is unbounded. A smaller value
-requests the sway in more scenes."""
-CENTRIFUGAL_THRESHOLD = 0.01
-"""Outward angle w^2 R/g of the load in steady slewing [rad]. An engineering choice: below 0.01 rad the radial rope
-force stays at about 1 % of the weight of the load or less. `centrifugal_bound` adds it to the error bar. A smaller
-value requests the effect in more scenes."""
-SWINGING = frozenset(info.name for info in OF_THE_SWING)
+_SWINGING = frozenset(info.name for info in OF_THE_SWING)
 _BY_DIRECTION = (
     "torque_inertia_brake",
     "torque_brake",
@@ -46,9 +34,6 @@ _BY_DIRECTION = (
     "torque_worm",
     "power_gearbox",
 )
-
-
-# -- direction of the power -----------------------------------------------------------------------------------------
 
 
 def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
@@ -91,9 +76,6 @@ def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Of
     }
 
 
-# -- motor ----------------------------------------------------------------------------------------------------------
-
-
 def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     """How far the motor's torque departs from its mean on the way up.
 
@@ -125,12 +107,9 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
     least, most = (model.at_column(spec, torque) - steady for torque in spread[:2])
     momentum = (model.slew_inertia(spec, scene) + model.rotor_at_column(spec)) * spec.speed
     wide = Interval(momentum / most if most > 0 else math.inf, momentum / least if least > 0 else math.inf)
-    if not SWINGING.isdisjoint(loads):
-        return bounds.unknown(loads, SWINGING)
+    if not _SWINGING.isdisjoint(loads):
+        return bounds.unknown(loads, _SWINGING)
     return bounds.of_times(spec, scene, loads, wide, None)
-
-
-# -- wind -----------------------------------------------------------------------------------------------------------
 
 
 def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
@@ -168,99 +147,19 @@ def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets
     if spread is not None:  # what is left where the motor is weakest
         left = min(left, model.at_column(spec, spread[0]) - model.steady_torque(spec, scene) - gust)
     wide = Interval(known.low, momentum / left if left > 0 else math.inf)
-    if not SWINGING.isdisjoint(loads):
-        return bounds.unknown(loads, SWINGING)
+    if not _SWINGING.isdisjoint(loads):
+        return bounds.unknown(loads, _SWINGING)
     return bounds.of_times(spec, scene, loads, wide, None)
 
 
-# -- load -----------------------------------------------------------------------------------------------------------
-
-
-def _hangs(spec: SlewingCrane, scene: SlewingScene) -> bool:
-    return spec.load is not None and spec.load.rope_length is not None and model.hanging_mass(spec, scene) > 0
-
-
-def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load swings behind the jib.
-
-        2 a/g,   a = R w/t of the start or of the stop, whichever is the shorter
-
-    **Range** loads on a rope of known length.
-    **Error** an engineering measure: below 0.02 the load moves as one with the jib.
-    **Source** pendulum under a constant acceleration, 2 atan(a/g).
-    """
-    if not _hangs(spec, scene):
-        return None
-    assert spec.load is not None
-    stop = model.stop(spec, scene) or chain.allowed_stop(spec)
-    shortest = min(start_of(spec, scene)[0], stop[0])
-    value = 2 * spec.load.radius * spec.speed / (shortest * spec.gravity) if shortest > 0 else math.inf
-    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "angle of the load's swing [rad]", "pendulum")
-
-
-def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What a swinging load can do to start, stop and ring, however it swings.
-
-        start:  t_s = (J' w + h)/N,   h = m rho w (rho -+ (rho^2 + J'/m)^(1/2))       (`laws.slewing.momentum_range`)
-        stop:   beta_b <= beta_c + E/(M_B u + M_r),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + M_r)
-        ring:   V <= m (g + w_rel^2/L + w^2 R + a R)
-
-    E is the largest energy of crane and load as the stop begins, t_c delay and rise of the brake.
-
-    **Range** a start in which the motor never ceases to drive, which is proved from the largest pull of the rope; a
-    stop whose brake outweighs the wind; anything else is unbounded.
-    **Error** a bound, derived: never exceeded in that model. That of the ring is wide: more than three times what any
-    crane of the seeded sample showed of its axial force and its moment.
-    **Source** derived: Jacobi's integral of the load, energy and angular momentum of the crane.
-    """
-    if not _hangs(spec, scene):
-        return {}
-    return bounds.of_swing(spec, scene, loads)
-
-
-def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load hangs out in steady slewing.
-
-        w^2 R/g
-
-    **Range** loads on a rope of known length.
-    **Error** an engineering measure.
-    **Source** `laws.pendulum.slewing_lean`.
-    """
-    if not _hangs(spec, scene):
-        return None
-    assert spec.load is not None
-    value = spec.speed**2 * spec.load.radius / spec.gravity
-    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "lean of the load outwards [rad]", "conical pendulum")
-
-
-def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What the lean of the load adds to the radial force of the ring, and to its moment at the head of the jib.
-
-        dH = m w^2 L sin(theta),   tan(theta) = w^2 (R + L sin(theta))/g;   dM = dH h
-
-    **Range** steady slewing; what it does beside the swing of start and stop lies inside the bound of that.
-    **Error** exact for the steady lean.
-    **Source** `laws.pendulum.slewing_lean`.
-    """
-    load = spec.load
-    if not _hangs(spec, scene) or load is None or load.rope_length is None:
-        return {}
-    lean = pendulum.slewing_lean(spec.speed, load.radius, load.rope_length, spec.gravity)
-    pull = model.hanging_mass(spec, scene) * spec.speed**2 * load.rope_length * math.sin(lean)
-    added = {"ring_force_radial": pull, "ring_moment": pull * (spec.ring.head_height or 0.0)}
-    return {name: Interval(0.0, value) for name, value in added.items() if name in loads}
-
-
-EFFECTS: tuple[AnyEffect, ...] = (
+EFFECTS_OF_ROTATION: tuple[AnyEffect, ...] = (
     Effect(
-        "efficiency_direction", "gear losses by direction of power flow", SCENES, direction_criterion,
+        "efficiency_direction",
+        "gear losses by direction of power flow",
+        _SCENES,
+        direction_criterion,
         direction_bound,
     ),
-    Effect("slewing_motor_curve", "motor torque-speed curve", SCENES, curve_criterion, curve_bound),
-    Effect("wind_gust", "wind gust during the start", SCENES, gust_criterion, gust_bound),
-    Effect("load_swing", "load sway below the jib", SCENES, swing_criterion, swing_bound),
-    Effect(
-        "centrifugal_offset", "centrifugal offset of the load", SCENES, centrifugal_criterion, centrifugal_bound
-    ),
-)  # fmt: skip
+    Effect("slewing_motor_curve", "motor torque-speed curve", _SCENES, curve_criterion, curve_bound),
+    Effect("wind_gust", "wind gust during the start", _SCENES, gust_criterion, gust_bound),
+)

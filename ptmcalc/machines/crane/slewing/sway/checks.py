@@ -1,13 +1,14 @@
-"""The checks of a slewing crane's load and ring: how far it swings, what the ring bears, what the crane is used for."""
+"""Checks of the sway of the load."""
 
 import math
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
-from ptmcalc.contract.check import AnyCheck, Check, Sense, at, blames, needs, no_repair, only
-from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.checks import SLEWING, OneCheck, curve_number, torque_key, turns
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.contract.check import Check, Sense, at, blames, needs, only
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.judging import SLEWING, OneCheck, curve_number, torque_key, turns
+from ptmcalc.machines.crane.slewing.rotation import chain
+from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
@@ -85,71 +86,4 @@ TANGENTIAL: OneCheck = only(_swings)(
     )
 )
 
-
-def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """What the limiting load curve of the catalogue allows at this axial force.
-
-    **Range** straight between the points of the curve; nothing beyond the last one.
-    **Error** none: a given curve.
-    **Source** the maker's catalogue.
-    """
-    return Estimate.exact(1.0)
-
-
-RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
-    Check(
-        code="CRN115",
-        title="slewing ring utilisation",
-        question="Is the tilting moment within the slewing ring limit curve at this axial load?",
-        failure="tilting moment exceeds the limit curve of the slewing ring",
-        scenes=SLEWING,
-        loads=("ring_utilisation",),
-        sense=Sense.AT_MOST,
-        limit=_curve,
-        needs=lambda spec, scene: (
-            (("load",),) if spec.inertia is None else (("load",), ("ring", "mass_above"), ("ring", "unbalance"))
-        ),
-        blame=blames("ring", "curve"),
-        repair=no_repair,
-        what="The tilting moment is within the limit curve of the slewing ring at the same axial force. It is verified"
-        " with the load times its factor and with an empty hook.",
-        why="Beyond the limit curve, the raceways of the ring are indented. The bolts fatigue.",
-        formula="M(1.25 Q), M(0) <= M_ring(F_a)",
-        source="catalogues of slewing rings: limiting load curves",
-    )
-)
-
-
-def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The declared group of the crane.
-
-    **Range** A1 to A8.
-    **Error** none: a given class.
-    **Source** ISO 4301-1.
-    """
-    group = spec.classes.group
-    return Estimate.exact(math.inf if group is None else float(group[1]))
-
-
-GROUP: OneCheck = only(lambda spec, scene: spec.classes.cycles is not None)(
-    Check(
-        code="CRN117",
-        title="required crane group",
-        question="Is the group required by cycles and load spectrum covered by the declared group?",
-        failure="duty requires a higher crane group than declared",
-        scenes=SLEWING,
-        loads=("crane_group",),
-        sense=Sense.AT_MOST,
-        limit=_group,
-        needs=needs(("class", "group")),
-        blame=blames("class", "cycles"),
-        repair=no_repair,
-        what="The crane group required by the cycles and the load spectrum of the service life is at most the declared"
-        " group.",
-        why="A crane used beyond its group wears out before the end of its service life.",
-        formula="A = U + Q - 2 <= declared",
-        source="ISO 4301-1",
-    )
-)
-
-CHECKS_OF_SWING: tuple[AnyCheck, ...] = (RADIAL, TANGENTIAL, RING, GROUP)
+CHECKS_OF_SWAY = (RADIAL, TANGENTIAL)

@@ -5,7 +5,8 @@ import math
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import chain, model
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import chain
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
 
 

@@ -8,11 +8,16 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Finding, Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import chain, drive, model, ring
-from ptmcalc.machines.crane.slewing.loads import OF_THE_DRIVE, OF_THE_RING, OF_THE_SWING
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.drive import reserves
+from ptmcalc.machines.crane.slewing.drive.loads import OF_THE_DRIVE
+from ptmcalc.machines.crane.slewing.ring import forces
+from ptmcalc.machines.crane.slewing.ring.loads import OF_THE_RING
+from ptmcalc.machines.crane.slewing.rotation import chain
+from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
-from ptmcalc.machines.crane.slewing.swinging import Rotation, rotation
+from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
+from ptmcalc.machines.crane.slewing.sway.simulated_rotation import Rotation, rotation
 
 ALWAYS = frozenset({"efficiency_direction", "load_swing", "centrifugal_offset"})
 _STEP, _EVENT = 2.5e-3, 1.5e-2
@@ -38,7 +43,7 @@ def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level:
     moved = rotation(spec, scene, curve="slewing_motor_curve" in carried, gust="wind_gust" in carried)
     at = chain.torques(spec, scene, start_of(spec, scene)[1], by_direction=True)
     loads = dict(chain.loads(spec, scene, moved.phases, at, rounded=False))
-    loads |= drive.of_drive(spec, scene, moved.phases, at)
+    loads |= reserves.of_drive(spec, scene, moved.phases, at)
     bar = 10 * moved.bar
     found = {name: Found(_told(value, bar)) for name, value in loads.items()}
     if moved.phases.start[0] == model.ramp(spec):
@@ -98,7 +103,7 @@ def _histories(moved: Rotation) -> dict[str, History]:
 
 def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str, Found]:
     """Forces of the ring: the largest lie between those at the largest pull of the rope, and all at their largest."""
-    steady = ring.of_ring(spec, scene)
+    steady = forces.of_ring(spec, scene)
     load = spec.load
     if not steady or load is None:
         return {}
@@ -106,7 +111,7 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     tension, across, along = (moved.farthest(name) for name in ("tension", "pull_across", "pull_along"))
     sideways = math.hypot(across.value + across.bar, along.value + along.bar)
     wind, head = spec.ring.wind_force or 0.0, (spec.ring.head_height or 0.0)
-    own = ring.moment_above(spec)
+    own = forces.moment_above(spec)
     behind = abs(own) / spec.gravity * spec.speed**2
     jerk = moved.farthest("acceleration")
     dragged = abs(own) / spec.gravity * math.hypot(spec.speed**2, jerk.value + jerk.bar)
@@ -116,7 +121,7 @@ def _ring(spec: SlewingCrane, scene: SlewingScene, moved: Rotation) -> dict[str,
     tilting = (own + load.radius * down, own + load.radius * upright)
     still = own + load.radius * hanging
     found = {
-        "ring_force_axial": (ring.weight_above(spec) + max(hanging, down), ring.weight_above(spec) + upright),
+        "ring_force_axial": (forces.weight_above(spec) + max(hanging, down), forces.weight_above(spec) + upright),
         "ring_force_radial": (max(across.value - across.bar - behind, 0.0), sideways + dragged + wind),
         "ring_moment": (
             max(abs(still), abs(own) - load.radius * upright, tilting[0]),

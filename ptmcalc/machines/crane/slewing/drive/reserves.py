@@ -5,7 +5,7 @@ import math
 from ptmcalc.components.motor import overhauling_reserve
 from ptmcalc.laws import duty
 from ptmcalc.machines.crane.slewing import model
-from ptmcalc.machines.crane.slewing.chain import Phases, Torques, worth
+from ptmcalc.machines.crane.slewing.rotation.chain import Phases, Torques, worth
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 

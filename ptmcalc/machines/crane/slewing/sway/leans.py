@@ -6,10 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import pendulum
-from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
-from ptmcalc.machines.crane.slewing.solvers.slew import hangs
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import chain
+from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.sway.slew import hangs
 
 
 def run(spec: SlewingCrane, scene: SlewingScene, carried: frozenset[str], level: int) -> Result:
