@@ -9,8 +9,9 @@ from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Failure, Found, Result, family, of
-from ptmcalc.machines.drivetrain import announced, bars, motion, overhauling
 from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, brake_of, case_of, rigid
+from ptmcalc.machines.drivetrain.motion import announced, bars, simulation
+from ptmcalc.machines.drivetrain.motors import overhauling
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, TrainScene
 from ptmcalc.numerics.train.parts import Governed, Grip
 from ptmcalc.numerics.train.signals import Signal
@@ -74,7 +75,7 @@ that happens to be computed, but for a part at rest."""
 
 def steady_runs(
     spec: Drivetrain, scene: TrainScene, case: Case, end: float, tolerance: float, doublings: int = DOUBLINGS
-) -> tuple[tuple[motion.Course, ...], dict[str, Interval], str]:
+) -> tuple[tuple[simulation.Course, ...], dict[str, Interval], str]:
     """Runs over a window after which no torque and no speed grows, and what can still change after it.
 
     A start or stop whose torque peaks lie in the second half of the window, or whose extreme speeds do and grow on as
@@ -93,52 +94,52 @@ def steady_runs(
     rising = {name for name, (more, size) in ahead.items() if not more < _CREEP * size}
     grown: dict[str, float] = dict.fromkeys(rising, math.inf)
     for _ in range(doublings):
-        before = motion.readings(spec, runs[0])
+        before = simulation.readings(spec, runs[0])
         late = [
             name
             for name, (_, at) in before.items()
             if (name in rising or family(name) in _PEAKS) and at is not None and at > end / 2
         ]
-        if not late or motion.seconds(case, 2 * end) > motion.LONG:
+        if not late or simulation.seconds(case, 2 * end) > simulation.LONG:
             break
         known = bars.loads(spec, *runs)
         end *= 2
         runs = bars.played(case, end, tolerance)
-        after = motion.readings(spec, runs[0])
+        after = simulation.readings(spec, runs[0])
         grown = {name: abs(after[name][0] - before[name][0]) for name in late}
         grown = {name: more for name, more in grown.items() if more > known[name].estimate.bar}
         if not grown:
             break
-    last = motion.readings(spec, runs[0])
+    last = simulation.readings(spec, runs[0])
     beyond = {name: _outward(name, more) for name, (more, _) in ahead.items() if name not in rising}
     beyond |= {
         name: _outward(name, more if more < _CREEP * abs(last[name][0]) else math.inf) for name, more in grown.items()
     }
-    restless = motion.chattering(runs[0])
+    restless = simulation.chattering(runs[0])
     beyond |= {of("torque_peak", name): Interval(0.0, math.inf) for name in restless if name in spec.links}
     named = [*(name for name in restless if name in spec.links), *sorted(grown)]
     return runs, beyond, f"`{named[0]}` is not steady" if named else ""
 
 
 def _past_approached(
-    scene: TrainScene, case: Case, runs: tuple[motion.Course, ...], tolerance: float
-) -> tuple[motion.Course, ...]:
+    scene: TrainScene, case: Case, runs: tuple[simulation.Course, ...], tolerance: float
+) -> tuple[simulation.Course, ...]:
     """Runs that contain the places which the motion approaches, each followed by the usual window.
 
-    The runs stay as they are where a longer one takes more than `motion.LONG` seconds.
+    The runs stay as they are where a longer one takes more than `simulation.LONG` seconds.
     """
     for _ in range(APPROACHES):
         places = announced.approached(runs[0])
         if not places:
             break
-        end = max(places.values()) + motion.usual_window(scene, case)
-        if not motion.seconds(case, end) <= motion.LONG:
+        end = max(places.values()) + simulation.usual_window(scene, case)
+        if not simulation.seconds(case, end) <= simulation.LONG:
             break
         runs = bars.played(case, end, tolerance)
     return runs
 
 
-def _announced_later(course: motion.Course) -> str:
+def _announced_later(course: simulation.Course) -> str:
     """The first event that the file announces and the run does not contain; empty without one."""
     end = course.record.time
     times = {name: time for name, time in announced.times(course.case).items() if time > end}
@@ -149,15 +150,15 @@ def _announced_later(course: motion.Course) -> str:
     return f"`{min(places, key=places.__getitem__)}` is not reached" if places else ""
 
 
-def _by_anything(spec: Drivetrain, course: motion.Course) -> dict[str, Interval]:
+def _by_anything(spec: Drivetrain, course: simulation.Course) -> dict[str, Interval]:
     """What an event after the window can add to each load: anything, except to a start that is over."""
-    names = set(motion.readings(spec, course)) | {
+    names = set(simulation.readings(spec, course)) | {
         of(load, name) for load in ("torque_steady", "dynamic_factor") for name in (*spec.links, *spec.gears)
     }
     over = set[str]()
     if not course.case.stopping:
         for part in course.case.parts:
-            if part.until is not None and math.isfinite(motion.over(course, part)):
+            if part.until is not None and math.isfinite(simulation.over(course, part)):
                 over |= {_name(course.case, part, "start_time"), _name(course.case, part, "start_share")}
     signed = _SPEEDS | {"speed_end", "angle_end"}
     return {
@@ -170,7 +171,7 @@ def _outward(name: str, more: float) -> Interval:
     return Interval(-_MORE * more, 0.0) if family(name) == "speed_min" else Interval(0.0, _MORE * more)
 
 
-def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: motion.Course) -> dict[str, tuple[float, float]]:
+def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: simulation.Course) -> dict[str, tuple[float, float]]:
     """Growth of the extreme speeds of the rigid train while the time doubles, and their size, by the name of the load.
 
     Those of a run which lie in the second half of its window: a motor above the speed that ends its start goes on to
@@ -179,24 +180,27 @@ def _speeds_ahead(spec: Drivetrain, scene: TrainScene, course: motion.Course) ->
     end = course.record.time
     found = {
         name: (math.inf, abs(value))
-        for name, (value, at) in motion.readings(spec, course).items()
+        for name, (value, at) in simulation.readings(spec, course).items()
         if family(name) in _SPEEDS and at is not None and at > end / 2
     }
     case = rigid(case_of(spec, scene, backlash=False))
-    if not found or motion.seconds(case, 2 * end) > motion.BESIDE:
+    if not found or simulation.seconds(case, 2 * end) > simulation.BESIDE:
         return found
     try:
         once, twice = (
-            motion.run(case, time, _OF_SPEEDS, most_work=motion.most_work(case, time)) for time in (end, 2 * end)
+            simulation.run(case, time, _OF_SPEEDS, most_work=simulation.most_work(case, time))
+            for time in (end, 2 * end)
         )
     except NumericsError:
         return found
-    before, after = motion.readings(spec, once), motion.readings(spec, twice)
+    before, after = simulation.readings(spec, once), simulation.readings(spec, twice)
     grown = {name: (abs(after[name][0] - before[name][0]), size) for name, (_, size) in found.items()}
     return {name: (more, size) for name, (more, size) in grown.items() if more > _OF_SPEEDS * size}
 
 
-def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Result:
+def completed(
+    result: Result, spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float
+) -> Result:
     """A result with what its run tells of the end of the start or stop.
 
     A motion that gains nothing while its time doubles never ends: the check of it fails. One that goes on is followed
@@ -204,7 +208,7 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
     infinity.
     """
     if scene.duration is None:
-        stopped = course.case.stopping and math.isfinite(motion.ended(course))
+        stopped = course.case.stopping and math.isfinite(simulation.ended(course))
         main = course.case.bodies[course.case.main]
         kept = {of("speed_end", main), of("angle_end", main)} if stopped else set[str]()
         defined = {
@@ -222,7 +226,7 @@ def completed(result: Result, spec: Drivetrain, scene: TrainScene, course: motio
     return result
 
 
-def _endings(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float) -> Iterator[Ending]:
+def _endings(spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float) -> Iterator[Ending]:
     """The ends of all parts and clutches that the run does not contain."""
     for part in course.case.parts:
         if course.case.stopping or part.until is not None:
@@ -230,7 +234,7 @@ def _endings(spec: Drivetrain, scene: TrainScene, course: motion.Course, toleran
             if found is not None:
                 yield found
     for grip in course.case.clutches:
-        if motion.slip(course, grip) > 0:
+        if simulation.slip(course, grip) > 0:
             yield _slipping(spec, scene, course, tolerance, grip)
 
 
@@ -244,9 +248,11 @@ def _element(case: Case, part: Part) -> str:
     return case.bodies[part.body] if case.others else ""
 
 
-def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float, part: Part) -> Ending | None:
+def _ending(
+    spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float, part: Part
+) -> Ending | None:
     case, end = course.case, course.record.time
-    if math.isfinite(motion.over(course, part)):
+    if math.isfinite(simulation.over(course, part)):
         back = None if case.stopping else _driven_back(spec, course, part)
         return Ending((back,)) if back is not None else None
     ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end, _of_part(part))
@@ -256,20 +262,20 @@ def _ending(spec: Drivetrain, scene: TrainScene, course: motion.Course, toleranc
     if math.isfinite(ahead.over) and scene.duration is None:
         names = {load if part.body == case.main else _name(case, part, load) for load in _OF_MAIN}
         until = max(2 * end, _LONGER * ahead.over)
-        followed = _followed(spec, scene, case, until, tolerance, lambda one: motion.over(one, part), names)
+        followed = _followed(spec, scene, case, until, tolerance, lambda one: simulation.over(one, part), names)
         if followed is not None:
             return followed
-    speed = motion.speeds(course, part.body)[0]
+    speed = simulation.speeds(course, part.body)[0]
     return Ending(loads=dict(_later(case, course, end, part)), state=_state(spec, case, part, speed))
 
 
-def _slipping(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolerance: float, grip: Grip) -> Ending:
+def _slipping(spec: Drivetrain, scene: TrainScene, course: simulation.Course, tolerance: float, grip: Grip) -> Ending:
     """A clutch that slips at the end of a start: it never locks, or later."""
     case, end, name = course.case, course.record.time, of("clutch_slip", grip.name)
-    slip = motion.slip(course, grip)
+    slip = simulation.slip(course, grip)
     assert grip.second is not None
     sides = [
-        f"`{case.bodies[body]}` at {units.show(abs(motion.speeds(course, body)[0]), _quantity(spec, case, body))}"
+        f"`{case.bodies[body]}` at {units.show(abs(simulation.speeds(course, body)[0]), _quantity(spec, case, body))}"
         for body in (grip.first, grip.second)
     ]
     ahead = _ahead(rigid(case_of(spec, scene, backlash=False)), end, _of_clutch(grip))
@@ -286,10 +292,10 @@ def _slipping(spec: Drivetrain, scene: TrainScene, course: motion.Course, tolera
     return Ending(loads={name: Found(Estimate(slip, 0.0, math.inf, model=math.inf), note=note)})
 
 
-def _driven_back(spec: Drivetrain, course: motion.Course, part: Part) -> Failure | None:
+def _driven_back(spec: Drivetrain, course: simulation.Course, part: Part) -> Failure | None:
     """A start that reaches its speed and ends backward: a later load exceeds the torque of the motors."""
     case, name = course.case, course.case.bodies[part.body]
-    speed = motion.speeds(course, part.body)[0]
+    speed = simulation.speeds(course, part.body)[0]
     assert part.until is not None
     on = [drive.name for drive in case.train.drives if drive.name in spec.motors and drive.gate.values == (1.0,)]
     if speed * part.until >= 0 or not on:
@@ -311,11 +317,11 @@ def _motor_path(spec: Drivetrain, body: str) -> KeyPath:
     return ("motors", names[0]) if names else ("inertias",)
 
 
-def _growing(course: motion.Course, part: Part, later: float) -> Iterator[tuple[str, Found]]:
+def _growing(course: simulation.Course, part: Part, later: float) -> Iterator[tuple[str, Found]]:
     """The speed left by a stop that gains speed: it depends on the end of the window, and has no upper bound."""
-    speed, before = motion.speeds(course, part.body)
+    speed, before = simulation.speeds(course, part.body)
     if course.case.stopping and abs(later) > (1 + _PROGRESS) * abs(speed):
-        share = motion.share(speed, before) if part.body == course.case.main else 1.0
+        share = simulation.share(speed, before) if part.body == course.case.main else 1.0
         name = _name(course.case, part, "stop_speed_share")
         yield name, Found(Estimate(share, min(share, 1.0), math.inf, model=math.inf))
 
@@ -328,26 +334,26 @@ class _Ahead:
     stuck: float | None = None
 
 
-Aim = tuple[Callable[[motion.Course], float], Callable[[motion.Course], tuple[float, float]]]
+Aim = tuple[Callable[[simulation.Course], float], Callable[[simulation.Course], tuple[float, float]]]
 """When a run is over, and the speed at its end with the one that is wanted."""
 
 
 def _of_part(part: Part) -> Aim:
     wanted = 0.0 if part.until is None else part.until
-    return (lambda one: motion.over(one, part)), lambda one: (motion.speeds(one, part.body)[0], wanted)
+    return (lambda one: simulation.over(one, part)), lambda one: (simulation.speeds(one, part.body)[0], wanted)
 
 
 def _of_clutch(grip: Grip) -> Aim:
-    def apart(course: motion.Course) -> tuple[float, float]:
+    def apart(course: simulation.Course) -> tuple[float, float]:
         assert grip.second is not None
-        return motion.speeds(course, grip.first)[0] - motion.speeds(course, grip.second)[0], 0.0
+        return simulation.speeds(course, grip.first)[0] - simulation.speeds(course, grip.second)[0], 0.0
 
     return (lambda one: _locked(one, grip)), apart
 
 
-def _locked(course: motion.Course, grip: Grip) -> float:
+def _locked(course: simulation.Course, grip: Grip) -> float:
     """When a clutch of this name locked in a run of the elastic or the rigid train [s]."""
-    return motion.locked(course, next(one for one in course.case.train.grips if one.name == grip.name))
+    return simulation.locked(course, next(one for one in course.case.train.grips if one.name == grip.name))
 
 
 def _ahead(case: Case, end: float, aim: Aim) -> _Ahead:
@@ -362,10 +368,10 @@ def _ahead(case: Case, end: float, aim: Aim) -> _Ahead:
     end, before = max(end, changes), None
     over, speeds = aim
     for look in range(_LOOKS):
-        if look > 1 and motion.seconds(case, end) > motion.BESIDE:
+        if look > 1 and simulation.seconds(case, end) > simulation.BESIDE:
             break
         try:
-            course = motion.run(case, end, _TOLERANCE, most_work=motion.most_work(case, end))
+            course = simulation.run(case, end, _TOLERANCE, most_work=simulation.most_work(case, end))
         except NumericsError:
             break
         if math.isfinite(over(course)):
@@ -383,20 +389,20 @@ def _followed(
     case: Case,
     end: float,
     tolerance: float,
-    over: Callable[[motion.Course], float],
+    over: Callable[[simulation.Course], float],
     names: Container[str],
 ) -> Ending | None:
     """These loads of a start or stop that ends beyond its window; None where it takes a long run, or is not found."""
     work = 0
     for _ in range(DOUBLINGS):
-        if not motion.seconds(case, end) <= motion.BESIDE:
+        if not simulation.seconds(case, end) <= simulation.BESIDE:
             return None
         try:
             runs = bars.played(case, end, tolerance)
         except NumericsError:
             return None
         work += sum(course.record.steps for course in runs)
-        if motion.untrusted(spec, scene, runs[0], tolerance) is not None:
+        if simulation.untrusted(spec, scene, runs[0], tolerance) is not None:
             return None
         if all(math.isfinite(over(course)) for course in runs):
             loads = bars.loads(spec, *runs)
@@ -450,22 +456,22 @@ def _failure(spec: Drivetrain, case: Case, part: Part, speed: float) -> Failure:
     return Failure("DRV110", message, path, cure)
 
 
-def _later(case: Case, course: motion.Course, end: float, part: Part) -> Iterator[tuple[str, Found]]:
+def _later(case: Case, course: simulation.Course, end: float, part: Part) -> Iterator[tuple[str, Found]]:
     """Loads of a start or stop that goes on: at least what they are so far."""
     after = Found(Estimate(end, end, math.inf, model=math.inf))
     if case.stopping:
         yield _name(case, part, "stop_time"), after
-        share = motion.share(*motion.speeds(course, part.body))
+        share = simulation.share(*simulation.speeds(course, part.body))
         if part.body == case.main:
             place = course.index("position", case.bodies[case.main])
             assert place is not None
             moved = abs(float(course.record.last[place] - course.record.first[place]))
             yield "stop_angle", Found(Estimate(moved, 0.0, math.inf, model=math.inf))
         else:
-            share = motion.share_of_fastest(course, part.body)
+            share = simulation.share_of_fastest(course, part.body)
         yield _name(case, part, "stop_speed_share"), Found(Estimate(share, 0.0, math.inf))
     else:
-        reached = motion.reached_share(course, part)
+        reached = simulation.reached_share(course, part)
         yield _name(case, part, "start_time"), after
         yield _name(case, part, "start_share"), Found(Estimate(reached, reached, 1.0, model=1.0 - reached))
 

@@ -6,11 +6,11 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import bars, ending, motion
-from ptmcalc.machines.drivetrain.effects import elasticity_criterion
-from ptmcalc.machines.drivetrain.loads import MOVING
+from ptmcalc.machines.drivetrain.links.effects import elasticity_criterion
 from ptmcalc.machines.drivetrain.model import case_of, rigid
-from ptmcalc.machines.drivetrain.solvers.elastic import TOLERANCES
+from ptmcalc.machines.drivetrain.motion import bars, ending, simulation
+from ptmcalc.machines.drivetrain.motion.elastic import TOLERANCES
+from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 
@@ -29,7 +29,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     `laws.gearing`.
     """
     case = rigid(case_of(spec, scene, backlash=False))
-    end = motion.window(scene, case_of(spec, scene))
+    end = simulation.window(scene, case_of(spec, scene))
     # what elasticity changes is known over the window only
     doublings = ending.DOUBLINGS if spec.effects.get("elasticity") == "off" or not spec.links else 0
     runs, beyond, state = ending.steady_runs(spec, scene, case, end, TOLERANCES[1], doublings)
@@ -40,7 +40,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         if index is not None:
             loads[of("torque_steady", name)] = Found(bars.at_end(spec, name, *runs))
             loads[of("dynamic_factor", name)] = Found(Estimate.exact(1.0))
-    broken = motion.untrusted(spec, scene, fine, TOLERANCES[1])
+    broken = simulation.untrusted(spec, scene, fine, TOLERANCES[1])
     if broken is not None:
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
     result = Result(
@@ -49,8 +49,8 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         window=(0.0, fine.record.time),
         health={"energy_residual": fine.ledger.residual, "steps": float(fine.record.steps)},
         findings=(broken,) if broken else (),
-        events=motion.events(fine),
-        histories=lambda: motion.histories(spec, case, end, TOLERANCES[1]),
+        events=simulation.events(fine),
+        histories=lambda: simulation.histories(spec, case, end, TOLERANCES[1]),
         beyond=beyond,
         open_end=state,
     )
@@ -60,7 +60,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
     """Seconds predicted: what still rings against the ground."""
     case = rigid(case_of(spec, scene, backlash=False))
-    return motion.seconds(case, motion.window(scene, case_of(spec, scene)))
+    return simulation.seconds(case, simulation.window(scene, case_of(spec, scene)))
 
 
 def valid(spec: Drivetrain, scene: TrainScene) -> Criterion:
@@ -70,7 +70,7 @@ def valid(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
     **Range** any train; one whose file leaves elasticity out is rigid whatever E.
     **Error** none: the threshold of the effect.
-    **Source** `machines.drivetrain.bounds`.
+    **Source** `machines.drivetrain.links.bounds`.
     """
     number = elasticity_criterion(spec, scene)
     return replace(number, value=0.0) if spec.effects.get("elasticity") == "off" else number
@@ -100,7 +100,7 @@ def _elastic(spec: Drivetrain, scene: TrainScene) -> Criterion:
     **Error** none.
     **Source** as `valid`.
     """
-    if valid(spec, scene).exceeded and cost(spec, scene, frozenset(), 0) > motion.BESIDE:
+    if valid(spec, scene).exceeded and cost(spec, scene, frozenset(), 0) > simulation.BESIDE:
         return Criterion("-", 1.0, 1.0, "the one shaft would take long to show", "")
     return Criterion("-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one shaft decides itself", "")
 

@@ -16,9 +16,10 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.base.span import KeyPath
 from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase, overhauled_torque
 from ptmcalc.contract.result import Failure, Found, of
+from ptmcalc.machines.drivetrain.keys.torques import MotorOn
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of
-from ptmcalc.machines.drivetrain.motion import Course
-from ptmcalc.machines.drivetrain.spec import Drivetrain, MotorOn, Stop, TrainScene
+from ptmcalc.machines.drivetrain.motion.simulation import Course
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Stop, TrainScene
 from ptmcalc.numerics.train.parts import Drive, Grip, Law, Mesh, Smooth, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal
 

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
 from ptmcalc.contract.effect import Criterion, Effect
 from ptmcalc.contract.result import family
-from ptmcalc.machines.drivetrain import bounds
-from ptmcalc.machines.drivetrain.loads import MOVING
+from ptmcalc.machines.drivetrain.links import bounds
+from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 Loads = Mapping[str, Estimate]
@@ -32,11 +32,11 @@ def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
 
     **Range** any train; infinite where it is not linear: motors, brakes, friction, play, lossy gears.
     **Error** an upper bound of the ratio, for an undamped train.
-    **Source** derived in `machines.drivetrain.bounds`; the threshold of 5 % is an engineering choice.
+    **Source** derived in `machines.drivetrain.links.bounds`; the threshold of 5 % is an engineering choice.
     """
     value = bounds.largest_share(spec, scene)
     meaning = "swing the links can add to a torque, over the rigid train's"
-    return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.bounds")
+    return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.links.bounds")
 
 
 def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
@@ -46,7 +46,7 @@ def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mappi
 
     **Range** linear trains at rest in their links at the start; anything else is unbounded.
     **Error** a bound for the undamped train; damping only takes from it.
-    **Source** derived in `machines.drivetrain.bounds`.
+    **Source** derived in `machines.drivetrain.links.bounds`.
     """
     if not spec.links:
         return {}

@@ -8,14 +8,7 @@ from pydantic import Field
 
 from ptmcalc.base import units
 from ptmcalc.laws import bodies
-from ptmcalc.spec.fields import (
-    Length,
-    Measure,
-    PositiveDensity,
-    PositiveFraction,
-    PositiveLength,
-    PositiveMass,
-)
+from ptmcalc.spec.fields import Length, Measure, PositiveDensity, PositiveFraction, PositiveLength, PositiveMass
 from ptmcalc.spec.fragment import Conflict, Fragment, Given
 from ptmcalc.spec.optional import Absent, Assumed, OneOf
 

@@ -6,12 +6,18 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import backlash
-from ptmcalc.machines.drivetrain.by_terms import time_by_terms
-from ptmcalc.machines.drivetrain.loads import BRAKING, FAMILIES, MOVING
+from ptmcalc.machines.drivetrain.keys.torques import SineTorque
+from ptmcalc.machines.drivetrain.links.loads import WEAR
 from ptmcalc.machines.drivetrain.model import case_of
-from ptmcalc.machines.drivetrain.overhauling import braking_reserve
-from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, SineTorque, Start, Stop, TrainScene
+from ptmcalc.machines.drivetrain.motion.by_terms import time_by_terms
+from ptmcalc.machines.drivetrain.motion.loads import START_BY_TERMS, STOP_BY_TERMS
+from ptmcalc.machines.drivetrain.motors.loads import BRAKING
+from ptmcalc.machines.drivetrain.motors.overhauling import braking_reserve
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
+from ptmcalc.machines.drivetrain.vibration.loads import LOADS_OF_VIBRATION
 from ptmcalc.numerics.train.modes import frequencies
+
+_GIVEN = (*LOADS_OF_VIBRATION, WEAR, START_BY_TERMS, STOP_BY_TERMS, BRAKING)
 
 
 def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> Result:
@@ -20,7 +26,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         det(K - w^2 M) = 0        distance = min_k |W/w_k - 1|        worn part = w/(pi m/2)
 
     Start and stop time by the textbook's reduction, every term with its own efficiency, have no bound and are only
-    shown (`machines.drivetrain.by_terms`).
+    shown (`machines.drivetrain.motion.by_terms`).
 
     **Range** links in contact; damping below a tenth of the critical one moves a frequency by less than 0.5 %.
     **Error** rounding.
@@ -52,7 +58,7 @@ MODAL: Solver[Drivetrain, TrainScene] = Solver(
     fidelity=Fidelity.FORMULA,
     scenes=frozenset({Run, Start, Stop}),
     represents=frozenset(),
-    gives=(FAMILIES - MOVING) | {BRAKING.name},
+    gives=frozenset(info.name for info in _GIVEN),
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
     source="linear vibration",

@@ -3,9 +3,9 @@
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import bars, ending, motion
-from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.motion import bars, ending, simulation
+from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 
 TOLERANCES = (1e-6, 1e-8, 1e-10)
@@ -28,11 +28,11 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     """
     case = case_of(spec, scene, "backlash" in carried)
     tolerance = TOLERANCES[level]
-    runs, beyond, state = ending.steady_runs(spec, scene, case, motion.window(scene, case), tolerance)
+    runs, beyond, state = ending.steady_runs(spec, scene, case, simulation.window(scene, case), tolerance)
     fine, loads = runs[0], bars.loads(spec, *runs)
     end = fine.record.time
-    findings = list(motion.remarks(scene, fine))
-    broken = motion.untrusted(spec, scene, fine, tolerance)
+    findings = list(simulation.remarks(scene, fine))
+    broken = simulation.untrusted(spec, scene, fine, tolerance)
     if broken is not None:
         findings.append(broken)
         loads = {name: Found(Estimate.unknown(found.estimate.value), found.at) for name, found in loads.items()}
@@ -43,8 +43,8 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
         window=(0.0, fine.record.time),
         health={"energy_residual": fine.ledger.residual, "steps": float(fine.record.steps)},
         findings=tuple(findings),
-        events=motion.events(fine),
-        histories=lambda: motion.histories(spec, case, end, tolerance),
+        events=simulation.events(fine),
+        histories=lambda: simulation.histories(spec, case, end, tolerance),
         beyond=beyond,
         open_end=state,
     )
@@ -55,7 +55,7 @@ def _against_rigid(spec: Drivetrain, scene: TrainScene, loads: dict[str, Found],
     """Largest torques over those of the rigid train, and its torque at the end; none where that would take long, as
     with a stiff undamped link to the ground."""
     case = rigid(case_of(spec, scene, False))
-    if motion.seconds(case, end) > motion.BESIDE:
+    if simulation.seconds(case, end) > simulation.BESIDE:
         return {}
     runs = bars.played(case, end, TOLERANCES[0])
     of_rigid = bars.loads(spec, *runs)
@@ -79,7 +79,7 @@ def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: in
     A component fades with its damping, so a stiff link that is damped costs no more than a soft one.
     """
     case = case_of(spec, scene, "backlash" in carried)
-    return 4e-3 + motion.seconds(case, motion.window(scene, case)) * (1 + level / 2)
+    return 4e-3 + simulation.seconds(case, simulation.window(scene, case)) * (1 + level / 2)
 
 
 ELASTIC: Solver[Drivetrain, TrainScene] = Solver(

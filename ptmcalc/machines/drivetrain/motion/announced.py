@@ -10,7 +10,7 @@ from ptmcalc.numerics.train.parts import Drive, Governed, Spring, Straight
 from ptmcalc.numerics.train.signals import Signal
 
 if TYPE_CHECKING:
-    from ptmcalc.machines.drivetrain.motion import Course
+    from ptmcalc.machines.drivetrain.motion.simulation import Course
 
 _STILL = 1e-9
 """Speed relative to the largest of the train [1] that counts as standstill: rounding of a body at rest. A numerical

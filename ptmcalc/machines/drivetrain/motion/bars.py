@@ -5,9 +5,9 @@ from collections.abc import Iterable
 
 from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import Found, family, of
-from ptmcalc.machines.drivetrain import motion
 from ptmcalc.machines.drivetrain.model import Case
-from ptmcalc.machines.drivetrain.motion import Course, Readings, part_of
+from ptmcalc.machines.drivetrain.motion import simulation
+from ptmcalc.machines.drivetrain.motion.simulation import Course, Readings, part_of
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.numerics.flow import FADED
 from ptmcalc.numerics.train.parts import Smooth
@@ -34,10 +34,10 @@ read from runs that are no closer than their bars."""
 
 def played(case: Case, end: float, tolerance: float) -> tuple[Course, ...]:
     """The run that counts, and those it is compared with: one, or two with a nonlinear torque."""
-    most = motion.most_work(case, end)
-    course = motion.run(case, end, tolerance, most_work=most)
+    most = simulation.most_work(case, end)
+    course = simulation.run(case, end, tolerance, most_work=most)
     compared = _COMPARED if course.smooth else _COMPARED[:1]
-    return (course, *(motion.run(case, end, tolerance, refined, most_work=2 * most) for refined in compared))
+    return (course, *(simulation.run(case, end, tolerance, refined, most_work=2 * most) for refined in compared))
 
 
 def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]:
@@ -53,8 +53,8 @@ def loads(spec: Drivetrain, course: Course, *others: Course) -> dict[str, Found]
     gives less torque than it could, as at its synchronous speed, forces miss as much as they would beside all of it,
     for they are read from a speed that is known no better. What is largest at the start is what the file says.
     """
-    own = motion.readings(spec, course)
-    compared = [motion.readings(spec, other) for other in others]
+    own = simulation.readings(spec, course)
+    compared = [simulation.readings(spec, other) for other in others]
     sizes = _sizes(own)
     apart = {name: max(differences) for name in own if (differences := _differences(name, own, compared))}
     shares = {force: _share(apart, sizes, force) for force in (True, False)}
@@ -95,7 +95,7 @@ def at_end(spec: Drivetrain, name: str, course: Course, *others: Course) -> Esti
     assert index is not None
     values = [abs(float(one.record.last[index])) for one in (course, *others)]
     apart = max(abs(value - values[0]) for value in values)
-    idle = _idle(course, _sizes(motion.readings(spec, course))) if course.smooth else 1.0
+    idle = _idle(course, _sizes(simulation.readings(spec, course))) if course.smooth else 1.0
     return Estimate.within(values[0], _MARGIN * apart + _UNSEEN * idle * max(course.largest(index)[0], values[0]))
 
 

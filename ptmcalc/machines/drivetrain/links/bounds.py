@@ -9,9 +9,9 @@ from ptmcalc.base.estimate import Estimate, Interval
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import of
 from ptmcalc.laws import backlash
-from ptmcalc.machines.drivetrain import motion
-from ptmcalc.machines.drivetrain import swings as modal_swings
+from ptmcalc.machines.drivetrain.links import swings as modal_swings
 from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.train.parts import CLAMPED, KELVIN, LINEAR, NO_PULL, RIGID, Spring, Train
 from ptmcalc.numerics.train.tree import Groups
@@ -50,11 +50,11 @@ class _Rigid:
 @remembered(64)
 def _rigid(key: "_Scene") -> _Rigid:
     spec, scene = key.spec, key.scene
-    case, end = rigid(case_of(spec, scene, backlash=False)), motion.window(scene, case_of(spec, scene))
-    if motion.seconds(case, end) > motion.BESIDE:
+    case, end = rigid(case_of(spec, scene, backlash=False)), simulation.window(scene, case_of(spec, scene))
+    if simulation.seconds(case, end) > simulation.BESIDE:
         return _Rigid({}, {})
     try:
-        course = motion.run(case, end, _TOLERANCE, most_work=motion.MOST_BESIDE)
+        course = simulation.run(case, end, _TOLERANCE, most_work=simulation.MOST_BESIDE)
     except NumericsError:  # a bound cannot rest on it; the solver that meets it says so
         return _Rigid({}, {})
     named = {name: course.torque(name) for name in (*spec.links, *spec.gears)}
@@ -95,7 +95,7 @@ def largest_share(spec: Drivetrain, scene: TrainScene) -> float:
 def swings(spec: Drivetrain, scene: TrainScene) -> Mapping[str, Interval] | None:
     """Offsets that hold what elasticity changes in each load of the rigid train; None where it is not linear."""
     case = case_of(spec, scene, backlash=spec.effects.get("backlash") != "off")
-    known = modal_swings.swings(case, motion.window(scene, case))
+    known = modal_swings.swings(case, simulation.window(scene, case))
     if known is None:
         return None
     found: dict[str, Interval] = {}
@@ -183,7 +183,7 @@ def two_inertia_play(
     travel = _travel(train, spring, torque)
     inertia = 1 / float(groups.row(spring.first, spring.second) ** 2 @ (1 / groups.inertias(train)))
     until = math.sqrt(2 * inertia * travel / abs(torque)) + math.pi * math.sqrt(inertia / spring.stiffness)
-    if motion.window(scene, case) < until:
+    if simulation.window(scene, case) < until:
         return None
     ratio = float(backlash.backlash_peak_ratio(2 * spring.stiffness * travel / abs(torque)))
     return {name: Interval(0.0, loads[name].high * (ratio - 1))}

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -10,9 +11,11 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.base.memory import remembered
 from ptmcalc.contract.result import Event, Finding, History, of
-from ptmcalc.machines.drivetrain import announced
-from ptmcalc.machines.drivetrain.loads import parts
+from ptmcalc.machines.drivetrain.links import loads as link_loads
 from ptmcalc.machines.drivetrain.model import REACHED, Case, Part, rigid
+from ptmcalc.machines.drivetrain.motion import announced
+from ptmcalc.machines.drivetrain.motion import loads as motion_loads
+from ptmcalc.machines.drivetrain.motors import loads as motor_loads
 from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
 from ptmcalc.numerics.piecewise import JAMMED, march
 from ptmcalc.numerics.record import PANEL, Record
@@ -410,7 +413,8 @@ def histories(spec: Drivetrain, case: Case, end: float, tolerance: float) -> Map
     assert samples is not None
     times = np.maximum.accumulate(np.concatenate(samples.times)).tolist()  # an event may move by a rounding
     values = np.concatenate(samples.values)
-    quantities = {info.name: info.quantity for info in parts(spec)}
+    known = chain(link_loads.parts(spec), motion_loads.parts(spec), motor_loads.parts(spec))
+    quantities = {info.name: info.quantity for info in known}
     signals = {of("torque_peak", name): course.torque(name) for name in (*spec.links, *spec.gears)}
     signals |= {of("speed_max", name): course.index("speed", name) for name in spec.inertias}
     signals |= {of("angle_end", name): course.index("position", name) for name in spec.inertias}
