@@ -106,4 +106,4 @@ BACKLASH: Effect[Drivetrain, TrainScene] = Effect(
     bound=backlash_bound,
     part_of="elasticity",
 )
-EFFECTS = (ELASTICITY, BACKLASH)
+EFFECTS_OF_LINKS = (ELASTICITY, BACKLASH)

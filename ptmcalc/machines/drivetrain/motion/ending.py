@@ -47,14 +47,6 @@ _LONGER = 1.2
 """Time in which an elastic train ends its start or stop, relative to the rigid one [1], as in its window. A numerical
 choice. A larger value takes longer; a smaller one may omit the end."""
 _OF_MAIN = frozenset({"start_time", "start_share", "stop_time", "stop_angle", "stop_speed_share"})
-_OF_THE_END = _OF_MAIN | {
-    "part_start_time",
-    "part_start_share",
-    "part_stop_time",
-    "part_stop_speed_share",
-    "clutch_slip",
-}
-"""Loads that are about the end of a start or stop, whenever it is."""
 DOUBLINGS = 2
 """Doublings of a window with a torque peak in its second half. A numerical choice: more find later peaks and take
 longer."""
