@@ -34,9 +34,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.result import family, of
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.drivetrain.solvers.elastic import ELASTIC
-from ptmcalc.machines.drivetrain.solvers.modal import MODAL
-from ptmcalc.machines.drivetrain.solvers.reduced import REDUCED
+from ptmcalc.machines.drivetrain.motion.elastic import ELASTIC
+from ptmcalc.machines.drivetrain.motion.reduced import REDUCED
+from ptmcalc.machines.drivetrain.vibration.modal import MODAL
 
 ON_TRIAL = {"drivetrain": ("reduced", "elastic", "elasticity", "backlash")}
 WITHOUT_BARS = {"drivetrain": ("modal_train",)}

@@ -26,8 +26,8 @@ from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.engine.plan import plan_scene
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.crane.slewing.solvers.consistent import CONSISTENT, GEARED
-from ptmcalc.machines.crane.slewing.solvers.slew import SLEW
+from ptmcalc.machines.crane.slewing.rotation.consistent import CONSISTENT, GEARED
+from ptmcalc.machines.crane.slewing.sway.slew import SLEW
 
 ON_TRIAL = {
     "crane": (

@@ -18,7 +18,8 @@ from support.drivetrains import EVERYTHING, data_of, report_of, spec_of
 from ptmcalc.base.span import KeyPath, dotted, key_path
 from ptmcalc.engine.load import measure_at
 from ptmcalc.engine.registry import load_kind
-from ptmcalc.machines.drivetrain import bodies, spec
+from ptmcalc.machines.drivetrain import spec
+from ptmcalc.machines.drivetrain.keys import bodies, brakes, gears, inertias, links, torques
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop
 from ptmcalc.spec.shape import inner, keys_of, model_of
 
@@ -815,7 +816,7 @@ def _declared(model: type[BaseModel], key: str) -> tuple[str, str]:
 def test_the_file_with_everything_has_every_key_of_every_part() -> None:
     models = [
         one
-        for module in (spec, bodies)
+        for module in (spec, bodies, brakes, gears, inertias, links, torques)
         for one in vars(module).values()
         if isinstance(one, type) and issubclass(one, BaseModel) and one.__module__ == module.__name__
     ]

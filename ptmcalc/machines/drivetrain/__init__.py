@@ -5,14 +5,15 @@ from collections.abc import Iterator
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.contract.topic import of_topics
 from ptmcalc.machines.drivetrain.assumptions import assumed
-from ptmcalc.machines.drivetrain.checks import CHECKS
-from ptmcalc.machines.drivetrain.effects import EFFECTS
 from ptmcalc.machines.drivetrain.figures import FIGURES
-from ptmcalc.machines.drivetrain.loads import LOADS, parts
+from ptmcalc.machines.drivetrain.links.topic import LINKS
+from ptmcalc.machines.drivetrain.motion.topic import MOTION
+from ptmcalc.machines.drivetrain.motors.topic import MOTORS
 from ptmcalc.machines.drivetrain.relations import RELATIONS
-from ptmcalc.machines.drivetrain.solvers import SOLVERS
 from ptmcalc.machines.drivetrain.spec import Drivetrain
+from ptmcalc.machines.drivetrain.vibration.topic import VIBRATION
 
 
 def inspect(spec: Drivetrain) -> Iterator[Finding]:
@@ -27,21 +28,19 @@ def inspect(spec: Drivetrain) -> Iterator[Finding]:
             )
 
 
+TOPICS = (LINKS, MOTION, MOTORS, VIBRATION)
+
 KIND = MachineKind(
     name="drivetrain",
     title="drive train: link torques, start, stop, backlash, resonance",
     spec=Drivetrain,
-    loads=LOADS,
-    effects=EFFECTS,
     figures=FIGURES,
-    solvers=SOLVERS,
-    checks=CHECKS,
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
     assumed=assumed,
     relations=RELATIONS,
     inspect=inspect,
-    parts=parts,
     seconding=witnesses_in(__package__),
+    **of_topics(TOPICS),
 )

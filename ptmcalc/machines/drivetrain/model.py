@@ -10,23 +10,19 @@ from ptmcalc.base.memory import remembered
 from ptmcalc.components.motor import ConverterMotor
 from ptmcalc.components.motor import Stage as MotorStage
 from ptmcalc.laws import backlash
-from ptmcalc.machines.drivetrain.spec import (
-    Brake,
+from ptmcalc.machines.drivetrain.keys.brakes import Brake
+from ptmcalc.machines.drivetrain.keys.links import Link
+from ptmcalc.machines.drivetrain.keys.torques import (
     ConstantTorque,
-    Drivetrain,
-    Link,
     MotorOn,
     OnInertia,
     OverPosition,
     OverSpeed,
     OverTime,
     RisingTorque,
-    Run,
     SineTorque,
-    Start,
-    Stop,
-    TrainScene,
 )
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.machines.drivetrain.wiring import GROUND
 from ptmcalc.numerics.train.parts import (
     LINEAR,

@@ -9,9 +9,9 @@ import math
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result, of
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.drivetrain import motion
-from ptmcalc.machines.drivetrain.loads import MOVING
 from ptmcalc.machines.drivetrain.model import REACHED, Case, case_of, rigid
+from ptmcalc.machines.drivetrain.motion import simulation
+from ptmcalc.machines.drivetrain.motion.loads import MOVING
 from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
 from ptmcalc.witness import lumped, lumped_cost, two_runs
 from ptmcalc.witness.lumped_history import History
@@ -31,7 +31,7 @@ def run(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int
     **Source** Dormand and Prince; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     case = case_of(spec, scene, "backlash" in carried)
-    end = motion.window(scene, case)
+    end = simulation.window(scene, case)
     stiff = rigid(case_of(spec, scene, False))
     plain = _peaks(spec, stiff, lumped.simulate(stiff.train, end, lumped.TOLERANCES[level + 1]))
     runs = lumped.twice(case.train, end, level)
@@ -91,7 +91,7 @@ def _readings(spec: Drivetrain, case: Case, history: History) -> dict[str, float
 def cost(spec: Drivetrain, scene: TrainScene, carried: frozenset[str], level: int) -> float:
     """Seconds predicted: steps of the fastest component over the window, of two runs."""
     case = case_of(spec, scene, "backlash" in carried)
-    return 0.1 + lumped_cost.seconds(case.train, motion.window(scene, case), lumped.TOLERANCES[level : level + 2])
+    return 0.1 + lumped_cost.seconds(case.train, simulation.window(scene, case), lumped.TOLERANCES[level : level + 2])
 
 
 def valid(spec: Drivetrain, scene: TrainScene) -> Criterion | None:

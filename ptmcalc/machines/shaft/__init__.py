@@ -8,16 +8,16 @@ from ptmcalc.base import units
 from ptmcalc.contract.example import examples_in, symbols_in
 from ptmcalc.contract.machine import MachineKind, template_in, witnesses_in
 from ptmcalc.contract.result import Finding
+from ptmcalc.contract.topic import of_topics
 from ptmcalc.laws import slider_crank
 from ptmcalc.machines.shaft.assumptions import ASSUMPTIONS
-from ptmcalc.machines.shaft.checks import CHECKS
-from ptmcalc.machines.shaft.effects import EFFECTS
+from ptmcalc.machines.shaft.cycle.topic import CYCLE
 from ptmcalc.machines.shaft.figures import FIGURES
-from ptmcalc.machines.shaft.loads import LOADS
+from ptmcalc.machines.shaft.inertia.topic import INERTIA
 from ptmcalc.machines.shaft.model import machine_of
 from ptmcalc.machines.shaft.relations import RELATIONS
-from ptmcalc.machines.shaft.solvers import SOLVERS
 from ptmcalc.machines.shaft.spec import RunUp, Shaft, SliderCrank, ToolLoad
+from ptmcalc.machines.shaft.speed_changes.topic import SPEED_CHANGES
 
 _SPEED_TOLERANCE = 0.05
 """Share [1] by which the stated speed may exceed the no-load speed of motor and gear; above, SPC201 is reported. An
@@ -83,15 +83,13 @@ def _force_beyond_the_stroke(spec: Shaft) -> Iterator[Finding]:
             return
 
 
+TOPICS = (INERTIA, CYCLE, SPEED_CHANGES)
+
 KIND = MachineKind(
     name="shaft",
     title="main shaft with its tachogram: run-up, steady cycle, flywheel, run-out",
     spec=Shaft,
-    loads=LOADS,
-    effects=EFFECTS,
     figures=FIGURES,
-    solvers=SOLVERS,
-    checks=CHECKS,
     starting=template_in(__package__),
     symbols=symbols_in(__package__),
     examples=examples_in(__package__),
@@ -99,4 +97,5 @@ KIND = MachineKind(
     relations=RELATIONS,
     inspect=inspect,
     seconding=witnesses_in(__package__),
+    **of_topics(TOPICS),
 )

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ptmcalc.laws import duty
 from ptmcalc.machines.shaft.model import Machine
-from ptmcalc.machines.shaft.runs.motion import Part, Run
+from ptmcalc.machines.shaft.speed_changes.motion import Part, Run
 from ptmcalc.machines.shaft.steady import Cycle
 from ptmcalc.numerics import energy
 from ptmcalc.numerics.cycle import Orbit

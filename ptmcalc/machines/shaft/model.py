@@ -4,151 +4,23 @@ Torques against the motion are positive but for the motor's. All angles are thos
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ptmcalc.components.motor import AnyMotor, ConverterMotor, InductionBase, Stage
-from ptmcalc.laws import shaft as law
-from ptmcalc.laws import slider_crank
-from ptmcalc.laws.slider_crank import Linkage
-from ptmcalc.machines.shaft.spec import (
-    FULL_TURN,
-    Brake,
-    EnergyTable,
-    HarmonicInertia,
-    PotentialHarmonic,
-    SectorLoad,
-    Shaft,
-    SliderCrank,
-    TableInertia,
-    TableLoad,
-    ToolLoad,
-    ToolSpring,
-    Unbalance,
-)
-from ptmcalc.numerics import spline
+from ptmcalc.machines.shaft.drive_line import DriveLine
+from ptmcalc.machines.shaft.mechanism import SAME_ANGLE, FloatArray, OverAngle, Shape, filled, shape_of
+from ptmcalc.machines.shaft.spec import FULL_TURN, Brake, Shaft
+from ptmcalc.machines.shaft.useful_load import useful_load
 from ptmcalc.numerics.collocation import radau
 from ptmcalc.numerics.cycle import Grid, Orbit
 from ptmcalc.numerics.distinct import distinct
 
-FloatArray = NDArray[np.float64]
-OverAngle = Callable[[FloatArray], FloatArray]
-ValueAndSlope = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-Shape = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray | None]]
-"""Inertia of the mechanism, its slope, and the torque of weights and springs, over the angle."""
-
-_SAME_ANGLE = 1e-9
-"""Distance [rad] up to which two breaks of the cycle count as one; for tool positions relative to the crank radius. A
-numerical choice: it is above the rounding of an angle, about 1e-15. A larger value merges separate breaks; a smaller
-one leaves stretches of rounding width."""
 _INSIDE = 64 * np.finfo(float).eps
-
-
-def filled(value: float | None) -> float:
-    """A value the file or an assumption has given by now."""
-    assert value is not None, "assumptions are filled in before anything is computed"
-    return value
-
-
-# -- drive ----------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class DriveLine:
-    """Motor and gear. `stages` are the torque curves of the start; a converter shifts its one by its reference."""
-
-    motor: AnyMotor
-    ratio: float
-    efficiency: float
-    reverse_efficiency: float
-    reverses: bool
-    """whether the efficiency divides while the motor brakes"""
-    motor_inertia: float
-
-    @cached_property
-    def stages(self) -> tuple[Stage, ...]:
-        """The torque curves of the start, one after the other."""
-        return self.motor.stages
-
-    @property
-    def lossy_both_ways(self) -> bool:
-        """Whether the torque on the main shaft has a corner where the power through the gear turns."""
-        return self.reverses and (self.efficiency < 1 or self.reverse_efficiency < 1)
-
-    @property
-    def time_dependent(self) -> bool:
-        """Whether the torque depends on the time since the start besides the speed."""
-        ramp = isinstance(self.motor, ConverterMotor) and self.motor.ramp_time > 0
-        return ramp or any(stage.until_time is not None for stage in self.stages)
-
-    def lag(self, time: FloatArray) -> FloatArray:
-        """By how much the curve of a converter lies at lower speeds than in the end, at a time [rad/s]."""
-        if isinstance(self.motor, ConverterMotor):
-            return np.asarray(self.motor.speed - self.motor.reference(time))
-        return np.zeros(np.shape(time))
-
-    def torque(self, stage: int, speed: FloatArray, time: FloatArray | None = None) -> FloatArray:
-        """Motor torque at speeds of the main shaft; without a time long after the start [N*m]."""
-        at = self.ratio * speed
-        if time is not None and isinstance(self.motor, ConverterMotor):
-            at = at + self.lag(time)
-        return self.stages[stage].torque(at)
-
-    def slope(self, stage: int, speed: FloatArray) -> FloatArray:
-        """Change of the motor torque with the speed of the main shaft, long after the start [N*m*s/rad]."""
-        curve, at = self.stages[stage], self.ratio * speed
-        if curve.slope is not None:
-            return self.ratio * curve.slope(at)
-        assert curve.pieces is not None
-        knots, values = np.array(curve.pieces).T
-        if len(knots) == 1:
-            return np.zeros(np.shape(at))
-        rises = np.diff(values) / np.diff(knots)
-        ends = (rises[0], rises[-1]) if curve.extends else (0.0, 0.0)
-        rises = np.concatenate([ends[:1], rises, ends[1:]])
-        return np.asarray(self.ratio * rises[np.searchsorted(knots, at)])
-
-    def knots(self, stage: int) -> FloatArray:
-        """Speeds of the main shaft at which the curve of a stage has a corner, once it no longer moves [rad/s]."""
-        curve = self.stages[stage]
-        if curve.pieces is None or (curve.extends and len(curve.pieces) <= 2):
-            return np.zeros(0)
-        return np.array([speed for speed, _ in curve.pieces]) / self.ratio
-
-    def factor(self, motor_torque: FloatArray, inertia: FloatArray, resistance: FloatArray) -> FloatArray:
-        """What the gear makes of the torque through it."""
-        if not self.reverses:
-            return np.full(np.shape(motor_torque), self.efficiency)
-        if self.motor_inertia == 0:
-            return np.where(motor_torque >= 0, self.efficiency, 1 / self.reverse_efficiency)
-        return law.gear_factor(
-            motor_torque,
-            self.motor_inertia,
-            inertia,
-            self.ratio,
-            resistance,
-            self.efficiency,
-            self.reverse_efficiency,
-        )
-
-    @property
-    def free_speed(self) -> float | None:
-        """Speed of the main shaft at which the motor gives no torque [rad/s]."""
-        free = self.motor.no_load_speed
-        return free / self.ratio if free else None
-
-    @property
-    def breakdown_torque(self) -> float | None:
-        """The most the motor can give above its working range, None for one that has no such limit [N*m]."""
-        return self.motor.breakdown_torque if isinstance(self.motor, InductionBase) else None
-
-
-# -- machine --------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -246,7 +118,7 @@ class Machine:
     @cached_property
     def corners(self) -> FloatArray:
         """The breaks with both ends of the cycle."""
-        inner = [angle for angle in self.breaks if _SAME_ANGLE < angle < self.period - _SAME_ANGLE]
+        inner = [angle for angle in self.breaks if SAME_ANGLE < angle < self.period - SAME_ANGLE]
         return np.array([0.0, *inner, self.period])
 
     @cached_property
@@ -395,13 +267,10 @@ def split(edges: FloatArray, longest: float) -> FloatArray:
     return np.append(np.concatenate(pieces), edges[-1])
 
 
-# -- from the spec --------------------------------------------------------------------------------------------------
-
-
 def machine_of(spec: Shaft, load: str) -> Machine:
     """The machine of a file with its useful load (`full`) or without it (`idle`)."""
-    useful, load_breaks = _useful(spec) if load == "full" else (None, [])
-    shape, shape_breaks = _shape(spec)
+    useful, load_breaks = useful_load(spec) if load == "full" else (None, [])
+    shape, shape_breaks = shape_of(spec)
     gear = spec.drive.gear
     efficiency = filled(gear.efficiency)
     breaks = sorted(angle % spec.cycle_angle for angle in [*load_breaks, *shape_breaks])
@@ -428,165 +297,6 @@ def machine_of(spec: Shaft, load: str) -> Machine:
 def _distinct(angles: Iterable[float]) -> Iterator[float]:
     last = -math.inf
     for angle in angles:
-        if angle - last > _SAME_ANGLE:
+        if angle - last > SAME_ANGLE:
             yield angle
             last = angle
-
-
-def _shape(spec: Shaft) -> tuple[Shape, list[float]]:
-    """Inertia, its slope and the torque of weights and springs over the angle, and where they are not smooth."""
-    potential, breaks = _potential(spec)
-    given = spec.inertia
-    if isinstance(given, SliderCrank):
-        return _crank(given, spec, potential), breaks
-    if isinstance(given, TableInertia):
-        curve = inertia_curve(given, spec.cycle_angle)
-        return _with(curve, potential), [*breaks, *curve.knots[:-1].tolist()]
-    if isinstance(given, HarmonicInertia):
-        series = _series(given.mean, [(term.order, term.cosine, term.sine) for term in given.terms])
-        return _with(series, potential), breaks
-    value = given.value
-    return _with(lambda angle: (np.full(angle.shape, value), np.zeros(angle.shape)), potential), breaks
-
-
-def _with(inertia: ValueAndSlope, potential: OverAngle | None) -> Shape:
-    return lambda angle: (*inertia(angle), None if potential is None else potential(angle))
-
-
-def inertia_curve(table: TableInertia, period: float) -> spline.PeriodicSpline:
-    """The closed curve through the points of a table."""
-    return spline.through([p.angle for p in table.points], [p.inertia for p in table.points], period)
-
-
-def _series(mean: float, terms: list[tuple[int, float, float]]) -> ValueAndSlope:
-    def value_and_slope(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-        value, slope = np.full(angle.shape, mean), np.zeros(angle.shape)
-        for order, cosine, sine in terms:
-            c, s = np.cos(order * angle), np.sin(order * angle)
-            value = value + (cosine * c + sine * s)
-            slope = slope + order * (sine * c - cosine * s)
-        return value, slope
-
-    return value_and_slope
-
-
-def linkage_of(crank: SliderCrank) -> Linkage:
-    """The linkage of a slider-crank."""
-    return Linkage(crank.crank_radius, crank.rod_length, crank.offset)
-
-
-def _crank(crank: SliderCrank, spec: Shaft, potential: OverAngle | None) -> Shape:
-    """All of a slider-crank from one look at its linkage: masses, weights, springs at the tool."""
-    linkage, far = (
-        linkage_of(crank),
-        slider_crank.dead_centre(crank.crank_radius, crank.rod_length, crank.offset, True)[0],
-    )
-    centre, rod_inertia = filled(crank.rod_centre), filled(crank.rod_inertia)
-    masses = crank.slider_mass, crank.rod_mass, centre, rod_inertia
-    tilt, g = crank.inclination, spec.gravity
-    springs = [given for given in spec.potential if isinstance(given, ToolSpring)]
-    plain = tilt is None and not springs
-
-    def shape(angle: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray | None]:
-        at = linkage.at(angle)
-        value, slope = at.inertia(*masses)
-        value = crank.crank_inertia + value
-        torque = None if potential is None else potential(angle)
-        if plain:
-            return value, slope, torque
-        whole = np.zeros(angle.shape) if torque is None else torque
-        if tilt is not None:
-            whole = whole + g * (crank.slider_mass * at.lift(1.0, tilt) + crank.rod_mass * at.lift(centre, tilt))
-        for spring in springs:  # the pull towards the crank acts against the way out, dx/dphi > 0
-            pull = spring.force - spring.stiffness * (far - at.along(1.0))
-            whole = whole + pull * at.along_slope(1.0)
-        return value, slope, whole
-
-    return shape
-
-
-def _useful(spec: Shaft) -> tuple[OverAngle | None, list[float]]:
-    given = spec.load
-    if given is None:
-        return None, []
-    if isinstance(given, SectorLoad):
-        return _sectors(given, spec.cycle_angle)
-    if isinstance(given, TableLoad):
-        return _table(given, spec.cycle_angle)
-    assert isinstance(spec.inertia, SliderCrank)
-    return _tool(given, spec.inertia, max(round(spec.cycle_angle / FULL_TURN), 1))
-
-
-def _sectors(load: SectorLoad, period: float) -> tuple[OverAngle, list[float]]:
-    spans = []
-    for sector in load.sectors:
-        start = sector.start % period
-        end = start + (sector.to - sector.start)
-        spans += [(start, min(end, period), sector.torque), (0.0, end - period, sector.torque)]
-    spans = [span for span in spans if span[1] > span[0]]
-    edges = sorted({0.0, *(edge for low, high, _ in spans for edge in (low, high) if edge < period)})
-    levels = np.array([sum(torque for low, high, torque in spans if low <= edge < high) for edge in edges])
-    corners = np.array(edges)
-    return lambda angle: levels[np.searchsorted(corners, angle % period, side="right") - 1], edges
-
-
-def _table(load: TableLoad, period: float) -> tuple[OverAngle, list[float]]:
-    angles, torques = [p.angle for p in load.points], [p.torque for p in load.points]
-    return lambda angle: np.interp(angle, angles, torques, period=period), angles
-
-
-def _tool(load: ToolLoad, crank: SliderCrank, turns: int) -> tuple[OverAngle, list[float]]:
-    """Force times the arm dx/dphi, on the strokes in which it acts."""
-    shape = crank.crank_radius, crank.rod_length, crank.offset
-    linkage = linkage_of(crank)
-    far = load.dead_centre == "far"
-    centre, at = slider_crank.dead_centre(*shape, far)
-    _, other = slider_crank.dead_centre(*shape, not far)
-    outward = 1.0 if far else -1.0
-    distances, forces = [p.distance for p in load.points], [p.force for p in load.points]
-    end, start = distances[-1], distances[0]
-
-    def torque(angle: FloatArray) -> FloatArray:
-        position = linkage.at(angle)
-        distance, arm = outward * (centre - position.along(1.0)), position.along_slope(1.0)
-        slack = _SAME_ANGLE * crank.crank_radius
-        acts = (distance >= start - slack) & (distance <= end + slack)
-        if load.stroke != "both":
-            acts &= outward * arm > 0 if load.stroke == "approach" else outward * arm < 0
-        return np.where(acts, np.interp(distance, distances, forces), 0.0) * np.abs(arm)
-
-    breaks = [at, other]
-    for distance in distances:
-        breaks += slider_crank.crank_angles(centre - outward * distance, *shape)
-    return torque, [angle + turn * FULL_TURN for angle in breaks for turn in range(turns)]
-
-
-def _potential(spec: Shaft) -> tuple[OverAngle | None, list[float]]:
-    """Torque of weights and springs that act on the shaft itself, the slope of the energy they store, and the angles at
-    which it is not smooth."""
-    parts: list[OverAngle] = []
-    breaks: list[float] = []
-    for given in spec.potential:
-        if isinstance(given, EnergyTable):
-            curve = spline.through([p.angle for p in given.points], [p.energy for p in given.points], spec.cycle_angle)
-            parts.append(partial(_slope_of, curve))
-            breaks += curve.knots[:-1].tolist()
-        elif isinstance(given, Unbalance):
-            parts.append(partial(_unbalance, given.mass * spec.gravity * given.radius, given.top))
-        elif isinstance(given, PotentialHarmonic):
-            parts.append(partial(_harmonic, given.order, given.cosine, given.sine))
-    if not parts:
-        return None, []
-    return lambda angle: np.asarray(sum(part(angle) for part in parts)), breaks
-
-
-def _slope_of(curve: spline.PeriodicSpline, angle: FloatArray) -> FloatArray:
-    return curve(angle)[1]
-
-
-def _unbalance(weight: float, top: float, angle: FloatArray) -> FloatArray:
-    return -weight * np.sin(angle - top)
-
-
-def _harmonic(order: int, cosine: float, sine: float, angle: FloatArray) -> FloatArray:
-    return np.asarray(cosine * np.cos(order * angle) + sine * np.sin(order * angle))

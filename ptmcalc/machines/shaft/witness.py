@@ -9,8 +9,6 @@ of a stop are its own.
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -20,18 +18,14 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft.cases import is_braked, machine_for, machine_in, target_speed
-from ptmcalc.machines.shaft.model import FloatArray, Machine
+from ptmcalc.machines.shaft.cases import machine_for, machine_in
+from ptmcalc.machines.shaft.mechanism import FloatArray
+from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft, Steady
+from ptmcalc.machines.shaft.speed_changes.cases import is_braked, target_speed
+from ptmcalc.machines.shaft.witness_cycle import FIRST, SECOND, Law, closed_cycle, simulated_machine, steady, stretches
 from ptmcalc.witness import lumped_history, two_runs
 
-_FIRST, _SECOND = 1e-7, 1e-9
-"""Relative tolerance of the coarse and of the fine run [1]; three times their difference is the error bar. A numerical
-choice: smaller values narrow the bar and take more steps. Their ratio of 100 makes the coarse run dominate the
-difference."""
-_SAMPLES = 24
-"""Samples of the speed in a step [1]; a parabola through three of them refines the extremes. A numerical choice: more
-samples reduce the error of the extremes and cost time in proportion."""
 _ANGLES, _NARROWINGS = 32, 2
 """Starting angles of a batch of stops, and further batches around the worst one [1]. A numerical choice: fewer angles
 may miss the worst peak, fewer batches widen the error bar. More cost time in proportion."""
@@ -43,186 +37,6 @@ machines, a larger one allows longer runs."""
 _A_CYCLE, _A_STEP = 0.03, 7e-4
 """Predicted time [s] of a cycle by adaptive steps and of a step of a batch. An engineering choice: the values decide
 only whether the reference method fits into the available time. No load depends on them."""
-Readings = dict[str, float]
-
-
-@dataclass(frozen=True, slots=True)
-class _Law:
-    """What drives and brakes: a stage of the motor or none, and whether the brake is on."""
-
-    machine: Machine
-    stage: int | None
-    braked: bool = False
-
-    def acceleration(
-        self, angle: FloatArray, w: FloatArray, t: float, low: float = -math.inf, high: float = math.inf
-    ) -> FloatArray:
-        """w' at angles between two breaks of the cycle."""
-        machine, drive = self.machine, self.machine.drive
-        inertia, slope, static = machine.fields(angle, low, high)
-        resists = static + w * (machine.viscous + slope * w / 2)
-        if self.braked:
-            resists = resists + float(machine.brake_torque(np.array([t]))[0])
-        times = np.full(np.shape(w), t)
-        motor = drive.torque(self.stage, w, times) if self.stage is not None else np.zeros(np.shape(w))
-        u, rotor = drive.ratio, drive.motor_inertia
-
-        def by(factor: float) -> FloatArray:
-            return np.asarray((u * factor * motor - resists) / (inertia + factor * u * u * rotor), float)
-
-        forward = by(drive.efficiency)
-        if not drive.reverses:
-            return forward
-        return np.where(motor - rotor * u * forward >= 0, forward, by(1 / drive.reverse_efficiency))
-
-
-def _stretches(machine: Machine) -> list[tuple[float, float]]:
-    return list(pairwise(machine.corners.tolist()))
-
-
-# -- the steady cycle ------------------------------------------------------------------------------------------------
-
-
-def _round(machine: Machine, speed: float, tolerance: float) -> tuple[float, list[tuple[float, float, Any]]]:
-    """Speed a cycle later, and the stretches on the way: (e, time, integral of M^2 over time, of w over the angle).
-
-    Raises:
-        NumericsError: the shaft stalls.
-    """
-    from scipy.integrate import solve_ivp
-
-    law = _Law(machine, len(machine.drive.stages) - 1)
-    found = []
-    for low, high in _stretches(machine):
-
-        def rate(angle: float, y: FloatArray, low: float = low, high: float = high) -> list[float]:
-            w = math.sqrt(2 * max(y[0], 1e-300))
-            at = np.array([w])
-            motor = float(machine.drive.torque(len(machine.drive.stages) - 1, at)[0])
-            turning = float(law.acceleration(np.array([angle]), at, math.inf, low, high)[0])
-            return [turning, 1 / w, motor**2 / w, w]
-
-        e = speed**2 / 2
-        size = tolerance * np.array([e, machine.period / speed, 1.0, machine.period * speed])
-        size[2] = tolerance * machine.period / speed * float(machine.drive.torque(0, np.zeros(1))[0]) ** 2 + 1e-300
-        run: Any = solve_ivp(
-            rate, (low, high), [e, 0.0, 0.0, 0.0], "DOP853", rtol=tolerance, atol=1e-2 * size, dense_output=True
-        )
-        if not run.success or run.y[0, -1] <= 0:
-            raise NumericsError("NUM102", "the shaft stalls in the second method")
-        speed = math.sqrt(2 * float(run.y[0, -1]))
-        found.append((low, high, run))
-    return speed, found
-
-
-def _closed(machine: Machine, guess: float, tolerance: float) -> tuple[float, list[tuple[float, float, Any]]]:
-    """The cycle that closes, by the secant of P(w) - w."""
-    before, at = guess, _round(machine, guess, tolerance)[0] - guess
-    speed = guess + at
-    for _ in range(30):
-        after, pieces = _round(machine, speed, tolerance)
-        gap = after - speed
-        if abs(gap) <= 10 * tolerance * speed or gap == at:
-            return speed, pieces
-        before, at, speed = speed, gap, speed - gap * (speed - before) / (gap - at)
-        if not 0 < speed < 10 * guess:
-            break
-    raise NumericsError("NUM101", "the second method finds no steady cycle")
-
-
-def _extremes(pieces: list[tuple[float, float, Any]]) -> tuple[float, float]:
-    """Smallest and largest speed of a cycle, by parabolas through the ends of close samples."""
-    lows: list[float] = []
-    highs: list[float] = []
-    for _, _, run in pieces:
-        for start, stop in zip(run.t[:-1], run.t[1:], strict=True):
-            e = run.sol(np.linspace(start, stop, _SAMPLES))[0]
-            for sign, into in ((-1.0, lows), (1.0, highs)):
-                top = min(max(int((sign * e).argmax()), 1), len(e) - 2)
-                into.append(sign * lumped_history.summit(sign * e[top - 1 : top + 2]))
-                into.append(sign * float((sign * e).max()))
-    return math.sqrt(2 * min(lows)), math.sqrt(2 * max(highs))
-
-
-def _of_cycle(machine: Machine, guess: float, tolerance: float) -> tuple[Readings, int]:
-    _, pieces = _closed(machine, guess, tolerance)
-    slow, fast = _extremes(pieces)
-    time, square, swept = (sum(float(run.y[k, -1]) for *_, run in pieces) for k in (1, 2, 3))
-    useful, rubbed = 0.0, machine.friction * machine.period + machine.viscous * swept
-    for low, high, _ in pieces:  # Gauss on every stretch
-        nodes, weights = np.polynomial.legendre.leggauss(40)
-        angles = (low + high) / 2 + (high - low) / 2 * nodes
-        load = machine.useful_torque(angles, low, high)
-        useful += float(weights @ load) * (high - low) / 2
-        rubbed += machine.share * float(weights @ np.abs(load)) * (high - low) / 2
-    speeds = [np.sqrt(2 * run.sol(np.linspace(low, high, 400))[0]) for low, high, run in pieces]
-    motor = [np.abs(machine.drive.torque(len(machine.drive.stages) - 1, one)).max() for one in speeds]
-    ends = np.abs(machine.drive.torque(len(machine.drive.stages) - 1, np.array([slow, fast])))
-    found = {
-        "speed_max": fast,
-        "speed_min": slow,
-        "speed_mean": (fast + slow) / 2,
-        "irregularity": (fast - slow) / ((fast + slow) / 2),
-        "torque_motor_rms": math.sqrt(square / time),
-        "torque_motor_max": max(float(max(motor)), float(ends.max())),
-        "work_useful": useful,
-        "work_loss": rubbed,
-        "work_drive": useful + rubbed,
-    }
-    if useful + rubbed > 0:
-        found["cycle_efficiency"] = useful / (useful + rubbed)
-        found["loss_factor"] = rubbed / (useful + rubbed)
-    return found, sum(len(run.t) for *_, run in pieces)
-
-
-def _flywheel(machine: Machine, guess: float, wanted: float, present: float, tolerance: float) -> float:
-    """Inertia to be added for an irregularity, by the secant of its inverse."""
-
-    def over(added: float) -> float:
-        _, pieces = _closed(machine.with_flywheel(added), guess, tolerance)
-        slow, fast = _extremes(pieces)
-        return wanted * (fast + slow) / 2 / (fast - slow) - 1
-
-    if present <= wanted:
-        return 0.0
-    before, at = 0.0, wanted / present - 1
-    added = machine.inertia_mean * (present / wanted - 1)
-    for _ in range(20):
-        gap = over(added)
-        if abs(gap) <= 30 * tolerance or gap == at:
-            return added
-        before, at, added = added, gap, max(added - gap * (added - before) / (gap - at), added / 8)
-    raise NumericsError("NUM101", "the second method finds no flywheel")
-
-
-def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:
-    """Loads of the steady cycle.
-
-        de/dphi = w'(phi, w),  e = w^2/2,   P(w) = w by the secant
-
-    **Range** rigid links; a motor that does not stall.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
-    **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
-    """
-    machine, wanted = _machine(spec, scene, carried), spec.checks.irregularity
-    guess = next(iter(machine.working_speeds), None)
-    if guess is None:
-        raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
-    found, steps = [], 0
-    for tolerance in (_FIRST, _SECOND):
-        loads, used = _of_cycle(machine, guess, tolerance)
-        if wanted is not None:
-            loads["flywheel_inertia"] = _flywheel(machine, guess, wanted, loads["irregularity"], tolerance)
-        found.append(loads)
-        steps += used
-    known = two_runs.compared(*found)
-    uneven, fast, slow = (known[name].estimate for name in ("irregularity", "speed_max", "speed_min"))
-    bar = 2 * (fast.bar + slow.bar) / (fast.value + slow.value)  # a small difference of both
-    known["irregularity"] = Found(Estimate.within(uneven.value, bar))
-    return Result(known, work=steps)
-
-
-# -- run-up ----------------------------------------------------------------------------------------------------------
 
 
 def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
@@ -232,9 +46,9 @@ def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Re
     **Error** as `steady`.
     **Source** as `steady`.
     """
-    machine, target = _machine(spec, scene, carried), target_speed(spec, scene)
+    machine, target = simulated_machine(spec, scene, carried), target_speed(spec, scene)
     found, steps = [], 0
-    for tolerance in (_FIRST, _SECOND):
+    for tolerance in (FIRST, SECOND):
         time, angle, used = _up(machine, scene.start, target, tolerance)
         found.append({"run_up_time": time, "run_up_angle": angle})
         steps += used
@@ -245,16 +59,16 @@ def _up(machine: Machine, start: float, target: float, tolerance: float) -> tupl
     from scipy.integrate import solve_ivp
 
     time, angle, w, steps, stage = 0.0, start, 0.0, 0, 0
-    drive, stretches = machine.drive, _stretches(machine)
+    drive, ranges = machine.drive, stretches(machine)
     while True:
         stage = _stage(machine, stage, time, w)
-        law, this = _Law(machine, stage), drive.stages[stage]
+        law, this = Law(machine, stage), drive.stages[stage]
         turn = math.floor(angle / machine.period + 1e-12) * machine.period
-        low, high = next(part for part in stretches if angle - turn < part[1] - 1e-12 * machine.period)
+        low, high = next(part for part in ranges if angle - turn < part[1] - 1e-12 * machine.period)
         most = target if this.until_speed is None else min(target, this.until_speed / drive.ratio)
         until = this.until_time if this.until_time is not None and stage + 1 < len(drive.stages) else 1e4
 
-        def rate(t: float, y: FloatArray, law: _Law = law, turn: float = turn, ends: Any = (low, high)) -> list[float]:
+        def rate(t: float, y: FloatArray, law: Law = law, turn: float = turn, ends: Any = (low, high)) -> list[float]:
             return [y[1], float(law.acceleration(np.array([y[0] - turn]), np.array([y[1]]), t, *ends)[0])]
 
         def fast(t: float, y: FloatArray, most: float = most) -> float:
@@ -295,9 +109,6 @@ def _stage(machine: Machine, stage: int, time: float, w: float) -> int:
     return stage
 
 
-# -- run-out ---------------------------------------------------------------------------------------------------------
-
-
 def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
     """Time and angle of a run-out from the steady cycle: from an angle, or at the worst of many at once.
 
@@ -306,13 +117,13 @@ def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> 
     times what the last narrowing has changed.
     **Source** the classical Runge-Kutta method; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I.
     """
-    machine, braked = _machine(spec, scene, carried), is_braked(spec, scene)
+    machine, braked = simulated_machine(spec, scene, carried), is_braked(spec, scene)
     before = machine_for(spec, scene.after)
     guess = next(iter(before.working_speeds), None)
     if guess is None:
         raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
-    _, pieces = _closed(before, guess, _SECOND)
-    law, steps = _Law(machine, None, braked), 0
+    _, pieces = closed_cycle(before, guess, SECOND)
+    law, steps = Law(machine, None, braked), 0
     if scene.start is not None or not braked:
         angles = np.array([scene.start if scene.start is not None else _strongest(machine, pieces)])
         coarse, fine = (_out(law, angles, _speeds(before, pieces, angles), count) for count in _STEPS)
@@ -355,7 +166,7 @@ def _speeds(machine: Machine, pieces: list[tuple[float, float, Any]], angles: Fl
     return found
 
 
-def _worst(law: _Law, before: Machine, pieces: list[tuple[float, float, Any]], index: int) -> tuple[float, float, int]:
+def _worst(law: Law, before: Machine, pieces: list[tuple[float, float, Any]], index: int) -> tuple[float, float, int]:
     """The largest time (0) or angle (1) over all angles to begin at, with its bar."""
     period, steps = before.period, 0
     angles = np.linspace(0.0, period, _ANGLES, endpoint=False)
@@ -377,7 +188,7 @@ def _worst(law: _Law, before: Machine, pieces: list[tuple[float, float, Any]], i
     return max(tops), bar, steps + again[2] + same[2]
 
 
-def _out(law: _Law, angles: FloatArray, speeds: FloatArray, count: int) -> tuple[FloatArray, FloatArray, int]:
+def _out(law: Law, angles: FloatArray, speeds: FloatArray, count: int) -> tuple[FloatArray, FloatArray, int]:
     """Time and angle to rest from many angles at once, by classical steps of the fastest turn's so many parts.
 
     Raises:
@@ -407,7 +218,7 @@ def _out(law: _Law, angles: FloatArray, speeds: FloatArray, count: int) -> tuple
     return time, ended - angles, steps
 
 
-def _brake_times(law: _Law) -> Iterator[float]:
+def _brake_times(law: Law) -> Iterator[float]:
     brake = law.machine.brake
     if law.braked and brake is not None:
         yield brake.delay
@@ -415,7 +226,7 @@ def _brake_times(law: _Law) -> Iterator[float]:
 
 
 def _classical(
-    law: _Law, phi: FloatArray, w: FloatArray, now: float, h: float, inside: float
+    law: Law, phi: FloatArray, w: FloatArray, now: float, h: float, inside: float
 ) -> tuple[FloatArray, FloatArray]:
     """What angle and speed gain in a step; times stay inside the piece of the brake's course."""
 
@@ -435,7 +246,7 @@ def _classical(
 
 
 def _rest(
-    law: _Law, phi: FloatArray, w: FloatArray, now: float, h: float, inside: float
+    law: Law, phi: FloatArray, w: FloatArray, now: float, h: float, inside: float
 ) -> tuple[FloatArray, FloatArray]:
     """Time into a step, and way, until the speed is 0: by the secant over steps of their own."""
     low, high = np.zeros(len(phi)), np.full(len(phi), h)
@@ -459,16 +270,6 @@ def _rest(
                 high[k], at_high[k], at_low[k] = part, left, at_low[k] / 2
         high[k] = part
     return high, way
-
-
-# -- what it costs, and where it holds -------------------------------------------------------------------------------
-
-
-def _machine(spec: Shaft, scene: RunUp | Steady | RunOut, carried: frozenset[str]) -> Machine:
-    machine = machine_in(spec, scene)
-    if isinstance(scene, RunOut) and not is_braked(spec, scene):
-        machine = machine.without_brake()
-    return machine if "varying_inertia" in carried else machine.with_mean_inertia()
 
 
 def _turned(spec: Shaft, scene: RunUp | RunOut) -> float:

@@ -10,7 +10,7 @@ from support.slewing_ode import Crane, rotate
 
 from ptmcalc.laws import slewing
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane
-from ptmcalc.machines.crane.slewing.swinging import rotation
+from ptmcalc.machines.crane.slewing.sway.simulated_rotation import rotation
 
 WHOLE = changed(
     COURSE,

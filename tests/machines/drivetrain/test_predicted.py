@@ -9,8 +9,9 @@ from support.machines import changed, report_of
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.engine.check import Options, check
 from ptmcalc.engine.load import load_text
-from ptmcalc.machines.drivetrain import bounds, motion
+from ptmcalc.machines.drivetrain.links import bounds
 from ptmcalc.machines.drivetrain.model import case_of, rigid
+from ptmcalc.machines.drivetrain.motion import simulation
 from ptmcalc.machines.drivetrain.spec import Drivetrain
 from ptmcalc.numerics.train.modes import damped
 from ptmcalc.numerics.train.parts import Body, Spring, Train
@@ -69,8 +70,8 @@ def test_it_becomes_cheap_once_it_fades() -> None:
     alone = changed(DATA, inertias={"load": {"inertia": "1 kg*m^2"}}, links={"rope": rope}, torques={"push": push})
     spec = Drivetrain.model_validate(alone)
     case = case_of(spec, spec.all_scenes[0])
-    assert motion.seconds(case, 20.0) < 0.1  # 25 decay times of 2e-5 s at 1e5 rad/s: 50 rad
-    assert motion.seconds(rigid(case), 20.0) == motion.seconds(case, 20.0)
+    assert simulation.seconds(case, 20.0) < 0.1  # 25 decay times of 2e-5 s at 1e5 rad/s: 50 rad
+    assert simulation.seconds(rigid(case), 20.0) == simulation.seconds(case, 20.0)
     assert bounds.largest_share(spec, spec.all_scenes[0]) >= 0
 
 
@@ -82,8 +83,8 @@ def test_a_rigid_train_that_cannot_be_run_bounds_nothing(monkeypatch: pytest.Mon
 
     spec = Drivetrain.model_validate(changed(DATA, links__gear__gap="1 mrad", scenes=[{"type": "start"}]))
     scene = spec.all_scenes[0]
-    monkeypatch.setattr(motion, "run", broken)
-    assert math.isfinite(motion.window(scene, case_of(spec, scene)))
+    monkeypatch.setattr(simulation, "run", broken)
+    assert math.isfinite(simulation.window(scene, case_of(spec, scene)))
     assert bounds.largest_backlash(spec, scene) == math.inf
 
 
@@ -92,11 +93,13 @@ def test_a_run_that_takes_many_times_what_was_predicted_is_given_up() -> None:
     spec = Drivetrain.model_validate(DATA)
     case = case_of(spec, spec.all_scenes[0])
     with pytest.raises(NumericsError, match=r"more than 1e\+02 steps .* given up"):
-        motion.run(case, 20.0, 1e-6, most_work=100.0)
-    free, bound = (motion.run(case, 20.0, 1e-6, most_work=most) for most in (math.inf, motion.most_work(case, 20.0)))
+        simulation.run(case, 20.0, 1e-6, most_work=100.0)
+    free, bound = (
+        simulation.run(case, 20.0, 1e-6, most_work=most) for most in (math.inf, simulation.most_work(case, 20.0))
+    )
     assert free.record.most_looks == bound.record.most_looks
     assert free.record.top.values.tolist() == bound.record.top.values.tolist()
-    assert motion.most_work(case, 20.0) > 30 * bound.record.work
+    assert simulation.most_work(case, 20.0) > 30 * bound.record.work
 
 
 def test_what_is_only_shown_beside_the_loads_is_not_run_beyond_the_budget() -> None:

@@ -14,7 +14,7 @@ from ptmcalc.machines.conveyor.loads import SLIPS
 from ptmcalc.machines.conveyor.model import FloatArray
 from ptmcalc.machines.conveyor.start_case import StartCase, drive_loads
 from ptmcalc.machines.conveyor.waves.strand_bars import Bars, inside_extremes
-from ptmcalc.numerics import loop, strand, strand_envelopes
+from ptmcalc.numerics import loop, strand_envelopes
 
 
 def surely_as_low(case: StartCase, motions: list[loop.Motion]) -> dict[str, float]:

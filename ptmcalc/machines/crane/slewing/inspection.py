@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from ptmcalc.base import units
 from ptmcalc.base.span import KeyPath
 from ptmcalc.contract.result import Finding
-from ptmcalc.machines.crane.slewing import chain, model
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import chain
 from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 _TIME_TOLERANCE = 0.02

@@ -19,11 +19,13 @@ from ptmcalc.components.motor import ConverterMotor, Stage
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.crane.slewing import chain, model
-from ptmcalc.machines.crane.slewing.loads import OF_THE_CHAIN, OF_THE_SWING
-from ptmcalc.machines.crane.slewing.solvers.consistent import start_of
-from ptmcalc.machines.crane.slewing.solvers.slew import ALWAYS, hangs
+from ptmcalc.machines.crane.slewing import model
+from ptmcalc.machines.crane.slewing.rotation import chain
+from ptmcalc.machines.crane.slewing.rotation.consistent import start_of
+from ptmcalc.machines.crane.slewing.rotation.loads import OF_THE_CHAIN
 from ptmcalc.machines.crane.slewing.spec import Slew, SlewingCrane, SlewingScene
+from ptmcalc.machines.crane.slewing.sway.loads import OF_THE_SWING
+from ptmcalc.machines.crane.slewing.sway.slew import ALWAYS, hangs
 from ptmcalc.witness import lumped, lumped_history, two_runs
 
 FloatArray = NDArray[np.float64]

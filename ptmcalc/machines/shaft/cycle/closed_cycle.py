@@ -11,10 +11,10 @@ from ptmcalc.contract.result import Found, History, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
 from ptmcalc.machines.shaft import ledger
-from ptmcalc.machines.shaft.bounds import cycle_shares
 from ptmcalc.machines.shaft.cases import cycle_of, inertia_forced_off, machine_in
 from ptmcalc.machines.shaft.cycle import impossible
-from ptmcalc.machines.shaft.loads import OF_CYCLE
+from ptmcalc.machines.shaft.cycle.bounds import cycle_shares
+from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
 from ptmcalc.machines.shaft.model import Machine
 from ptmcalc.machines.shaft.results import FLOOR, MARGIN, bar, result_of
 from ptmcalc.machines.shaft.spec import Shaft, Steady

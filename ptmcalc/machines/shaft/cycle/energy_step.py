@@ -10,10 +10,9 @@ from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
 from ptmcalc.laws import shaft as law
-from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.cycle import impossible, work_balance
-from ptmcalc.machines.shaft.loads import OF_CYCLE
+from ptmcalc.machines.shaft.cycle import bounds, impossible, work_balance
+from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
 from ptmcalc.machines.shaft.model import Machine, split
 from ptmcalc.machines.shaft.spec import Shaft, Steady
 from ptmcalc.numerics.steps import energy_steps

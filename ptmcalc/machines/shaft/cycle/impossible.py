@@ -9,8 +9,8 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.components.motor import InductionBase
 from ptmcalc.contract.result import Failure, Found, Result
 from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.checks import motor_key
 from ptmcalc.machines.shaft.model import Machine
+from ptmcalc.machines.shaft.motor_keys import motor_key
 from ptmcalc.machines.shaft.spec import Shaft, Steady
 
 _ROUND_UP = 1.01

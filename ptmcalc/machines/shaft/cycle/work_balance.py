@@ -4,10 +4,9 @@ from ptmcalc.base.estimate import Estimate
 from ptmcalc.contract.effect import Criterion
 from ptmcalc.contract.result import Found, Result
 from ptmcalc.contract.solver import Fidelity, Solver
-from ptmcalc.machines.shaft import bounds
 from ptmcalc.machines.shaft.cases import machine_in
-from ptmcalc.machines.shaft.cycle import impossible
-from ptmcalc.machines.shaft.loads import OF_CYCLE
+from ptmcalc.machines.shaft.cycle import bounds, impossible
+from ptmcalc.machines.shaft.cycle.loads import OF_CYCLE
 from ptmcalc.machines.shaft.spec import Shaft, Steady
 from ptmcalc.machines.shaft.steady import surely_stalls
 
@@ -73,6 +72,6 @@ WORK_BALANCE: Solver[Shaft, Steady] = Solver(
     gives=OF_CYCLE,
     run=run,
     cost=lambda spec, scene, carried, level: 5e-4,
-    source="work balance of a cycle; bounds derived in ptmcalc.machines.shaft.bounds",
+    source="work balance of a cycle; bounds derived in ptmcalc.machines.shaft.cycle.bounds",
     valid=valid,
 )

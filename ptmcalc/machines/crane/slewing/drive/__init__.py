@@ -1,0 +1,1 @@
+"""Slewing drive: reserves of motor and brake, heating, gearbox, duty."""

@@ -1,0 +1,1 @@
+"""Slewing ring: axial force, radial force and tilting moment."""

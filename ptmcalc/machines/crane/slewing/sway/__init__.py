@@ -1,0 +1,1 @@
+"""Sway of the load below the slewing jib."""

@@ -1,0 +1,1 @@
+"""Keys of a drive train: inertias, links, gears, brakes, torques."""

@@ -1,0 +1,1 @@
+"""Links: peak torque, elasticity, backlash, wear."""

@@ -1,0 +1,94 @@
+"""Checks of the links: torque and wear."""
+
+import math
+from collections.abc import Iterator
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.machines.drivetrain.judging import ALL, NO_LIMIT, AnyCheck, exactly
+from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+
+WORN_OUT, WORN_OUT_OPEN = 0.25, 0.40
+"""Largest worn part of a tooth [1], lecture notes Kramatorsk 2007 (15 to 25 % and 40 %): in gearboxes and gear
+couplings (`WORN_OUT`), and in open gears (`WORN_OUT_OPEN`). A smaller value requires an earlier renewal."""
+
+
+def torque_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """The largest torque a link may carry, from the file.
+
+    **Range** each link that has a `limit`.
+    **Error** none.
+    **Source** the maker's data.
+    """
+    return Estimate.exact(math.inf)
+
+
+def _torque_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    """One for each link with a limit; where none has one, the first says so."""
+    limited = {name: link.limit for name, link in spec.links.items() if link.limit is not None}
+    if not limited and spec.links:
+        first = next(iter(spec.links))
+        yield TORQUE.of(first, NO_LIMIT, ("links", first, "limit"), needs=(("links", first, "limit"),))
+    for name, limit in limited.items():
+        path = ("links", name, "limit")
+        yield TORQUE.of(name, exactly(limit), path, repair=path)
+
+
+TORQUE: AnyCheck = Check(
+    code="DRV101",
+    title="peak link torque",
+    question="Is the peak torque or force of every rated link within its limit?",
+    failure="link is overloaded",
+    scenes=ALL,
+    loads=("torque_peak",),
+    sense=Sense.AT_MOST,
+    limit=torque_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("links",),
+    repair=no_repair,
+    each=_torque_checks,
+    what="The peak torque (or force) of every link with a `limit` is at most this limit.",
+    why="A coupling, shaft or rope breaks at its peak load, not at its mean load.",
+    formula="max |T(t)| <= T_limit",
+    source="the maker's limit of the part",
+)
+
+
+def wear_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Largest worn part of a tooth: 25 % in gearboxes and couplings, 40 % in open gears.
+
+    **Range** links whose play comes from a `clearance` with a module.
+    **Error** none.
+    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth's thickness).
+    """
+    return Estimate.exact(WORN_OUT)
+
+
+def _wear_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, link in spec.links.items():
+        if link.clearance is not None and link.clearance.wear:
+            most = WORN_OUT_OPEN if link.clearance.kind == "open_gear" else WORN_OUT
+            path = ("links", name, "clearance", "wear")
+            yield WEAR.of(name, exactly(most), path, repair=path)
+
+
+WEAR: AnyCheck = Check(
+    code="DRV108",
+    title="gear tooth wear",
+    question="Is the tooth wear within the permissible share of the tooth thickness?",
+    failure="gear teeth are worn beyond the limit",
+    scenes=ALL,
+    loads=("wear_share",),
+    sense=Sense.AT_MOST,
+    limit=wear_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("links",),
+    repair=no_repair,
+    each=_wear_checks,
+    what="The wear of gear teeth is at most 25 % of their thickness, and at most 40 % for open gears.",
+    why="A worn tooth has a lower strength. Its backlash multiplies the impact torque of every start.",
+    formula="w/(pi m/2) <= 0.25 or 0.40",
+    source="lecture notes Kramatorsk 2007",
+)
+
+CHECKS_OF_LINKS = (TORQUE, WEAR)

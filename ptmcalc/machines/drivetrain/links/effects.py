@@ -1,0 +1,109 @@
+"""The effects a scene of a drive train may call for."""
+
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import ANYTHING, Estimate, Interval
+from ptmcalc.contract.effect import Criterion, Effect
+from ptmcalc.contract.result import family
+from ptmcalc.machines.drivetrain.links import bounds
+from ptmcalc.machines.drivetrain.motion.loads import MOVING
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Run, Start, Stop, TrainScene
+
+Loads = Mapping[str, Estimate]
+
+ELASTICITY_THRESHOLD = 0.05
+"""Bound of the torque that elasticity adds to a link, relative to the torque of the rigid train [1], from which on it
+is simulated. An engineering choice. Below it the error bar of a link torque is at most 5 %."""
+BACKLASH_THRESHOLD = 0.1
+"""Energy gained in the backlash relative to that of the link [1] from which on backlash is simulated. An engineering
+choice. Below it backlash adds at most 2.4 % to the torque of two inertias, which the error bar includes; other trains
+without backlash have no error bar."""
+CHANGED = MOVING - {"torque_steady", "energy_residual", "braking_reserve"}
+"""Loads that the links' elasticity or play can change."""
+
+
+def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
+    """Largest swing that the links' elasticity can add to a link's torque, over the rigid train's largest torque there.
+
+        E = max over links of  sum_n |c_n| g_n / T_rigid
+
+    c_n is what a step of the outer torques excites of the n-th mode in the link, g_n what their rise leaves of it
+    (`bounds.swings`).
+
+    **Range** any train; infinite where it is not linear: motors, brakes, friction, play, lossy gears.
+    **Error** an upper bound of the ratio, for an undamped train.
+    **Source** derived in `machines.drivetrain.links.bounds`; the threshold of 5 % is an engineering choice.
+    """
+    value = bounds.largest_share(spec, scene)
+    meaning = "swing the links can add to a torque, over the rigid train's"
+    return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.links.bounds")
+
+
+def elasticity_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
+    """Interval of every load of the rigid train that holds the elastic one.
+
+        |T - T_rigid| <= sum_n |c_n| g_n,    |w - w_rigid| <= sum_n |d_n| g_n/w_n,    |phi - phi_rigid| <= ...
+
+    **Range** linear trains at rest in their links at the start; anything else is unbounded.
+    **Error** a bound for the undamped train; damping only takes from it.
+    **Source** derived in `machines.drivetrain.links.bounds`.
+    """
+    if not spec.links:
+        return {}
+    found = bounds.swings(spec, scene)
+    offsets = {}
+    for name in loads:
+        if family(name) not in CHANGED:
+            continue
+        offsets[name] = found.get(name, ANYTHING) if found is not None else ANYTHING
+    return offsets
+
+
+def backlash_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
+    """What the run through the play adds to a link's torque.
+
+        Pi_b = (2 C D/M) (J1 + J2)/J2,   peak over that without play (1 + sqrt(1 + Pi_b))/2
+
+    M is the torque that closes the play, J1 the inertia on its side, J2 that on the other, all on the link's shaft.
+
+    **Range** a start through the play; infinite where a torque changes its sign and opens it again.
+    **Error** exact for two inertias under a constant torque.
+    **Source** `laws.backlash`; the threshold of 0.1 adds 2.4 %.
+    """
+    value = bounds.largest_backlash(spec, scene)
+    return Criterion(
+        "Π_b", value, BACKLASH_THRESHOLD, "energy gained in the backlash, relative to that of the link", "laws.backlash"
+    )
+
+
+def backlash_bound(spec: Drivetrain, scene: TrainScene, loads: Loads) -> Mapping[str, Interval]:
+    """Nothing is known of what play changes, but for a train of two inertias that closes it once.
+
+        T <= T_0 (1 + sqrt(1 + Pi_b))/2     two inertias, constant torque, from rest
+
+    **Range** that train; anything else is unbounded.
+    **Error** exact there: the play only ever adds.
+    **Source** `laws.backlash.backlash_peak_ratio`.
+    """
+    found = bounds.two_inertia_play(spec, scene, loads)
+    return {
+        name: found.get(name, ANYTHING) if found is not None else ANYTHING for name in loads if family(name) in CHANGED
+    }
+
+
+ELASTICITY: Effect[Drivetrain, TrainScene] = Effect(
+    name="elasticity",
+    title="elasticity of the links",
+    scenes=frozenset({Run, Start, Stop}),
+    criterion=elasticity_criterion,
+    bound=elasticity_bound,
+)
+BACKLASH: Effect[Drivetrain, TrainScene] = Effect(
+    name="backlash",
+    title="backlash in gears and couplings",
+    scenes=frozenset({Run, Start, Stop}),
+    criterion=backlash_criterion,
+    bound=backlash_bound,
+    part_of="elasticity",
+)
+EFFECTS_OF_LINKS = (ELASTICITY, BACKLASH)

@@ -1,0 +1,292 @@
+"""Checks of start and stop: times, speeds, stopping distance, clutches."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import TypeVar
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import Check, LimitState, Sense, no_needs, no_repair
+from ptmcalc.contract.result import of
+from ptmcalc.machines.drivetrain.model import brake_of, case_of
+from ptmcalc.machines.drivetrain.spec import Drivetrain, Start, Stop, TrainScene
+
+C = TypeVar("C", bound=TrainScene)
+
+
+def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
+    """The longest start of the file.
+
+    **Range** any start with a speed that ends it.
+    **Error** none.
+    **Source** a choice of the designer.
+    """
+    return Estimate.exact(spec.checks.start_time or math.inf)
+
+
+def _end_of_start(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
+    if case_of(spec, scene).until is not None:
+        return ()
+    return (("scenes", list(spec.all_scenes).index(scene), "until"),)
+
+
+def _start_needs(spec: Drivetrain, scene: Start) -> tuple[KeyPath, ...]:
+    return (*_end_of_start(spec, scene), ("checks", "start_time"))
+
+
+def _start_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    """The main part, and each other part with a motor of its own, named where there are several."""
+    yield from _of_parts(START, spec, scene, lambda part: ("checks", "start_time"))
+
+
+def _reach_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    yield from _of_parts(REACHES, spec, scene, lambda part: _motor_on(spec, part))
+
+
+def _motor_on(spec: Drivetrain, body: str) -> KeyPath:
+    return next((("motors", name) for name, one in spec.motors.items() if one.at == body), ("motors",))
+
+
+def _of_parts(
+    check: Check[Drivetrain, C], spec: Drivetrain, scene: C, key: Callable[[str], KeyPath], *, repairs: bool = False
+) -> Iterator[Check[Drivetrain, C]]:
+    """A check of the main part and of the others; `key` governs the verdict of another part."""
+    case = case_of(spec, scene)
+    if not case.others:
+        yield check
+        return
+    yield replace(check, element=case.bodies[case.main], each=None)
+    for part in case.others:
+        name = case.bodies[part.body]
+        path = key(name)
+        made = replace(check, element=name, loads=tuple(of(f"part_{load}", name) for load in check.loads), each=None)
+        yield replace(made, blame=lambda *_, path=path: path, repair=lambda *_, path=path: path if repairs else ())
+
+
+def _motor_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
+    return ("motors", next(iter(spec.motors))) if spec.motors else ("inertias",)
+
+
+START: Check[Drivetrain, Start] = Check(
+    code="DRV102",
+    title="starting time",
+    question="Does the shaft considered reach its speed within the limit?",
+    failure="start takes too long",
+    limit_state=LimitState("target speed is not reached"),
+    scenes=frozenset({Start}),
+    loads=("start_time",),
+    sense=Sense.AT_MOST,
+    limit=start_limit,
+    needs=_start_needs,
+    blame=lambda spec, scene, loads: ("checks", "start_time"),
+    repair=no_repair,
+    each=_start_checks,
+    what="The inertia considered in the scene reaches its speed within the maximum start time.",
+    why="A long start heats the motor.",
+    formula="t(w = w_end) <= t_limit",
+    source="a choice of the designer",
+)
+
+
+def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
+    """The longest stop of the file.
+
+    **Range** any stop.
+    **Error** none.
+    **Source** a choice of the designer or of a rule for the machine.
+    """
+    return Estimate.exact(spec.checks.stop_time or math.inf)
+
+
+def _stop_blame(spec: Drivetrain, scene: TrainScene, loads: Mapping[str, Estimate]) -> KeyPath:
+    if spec.brakes:
+        return ("brakes", next(iter(spec.brakes)), "torque")
+    return ("checks", "stop_time") if spec.checks.stop_time is not None else ("inertias",)
+
+
+def _brake_torque(spec: Drivetrain, scene: TrainScene) -> KeyPath:
+    return ("brakes", next(iter(spec.brakes)), "torque") if spec.brakes else ()
+
+
+def _from_rest(spec: Drivetrain, scene: TrainScene) -> bool:
+    train = case_of(spec, scene).train
+    return not train.guides and not any(body.speed for body in train.bodies)
+
+
+def _speed_before(spec: Drivetrain, scene: Stop) -> tuple[KeyPath, ...]:
+    """The key without which a stop begins at standstill."""
+    if scene.speed is not None or not _from_rest(spec, scene):
+        return ()
+    return (("scenes", list(spec.all_scenes).index(scene), "speed"),)
+
+
+def _stop_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    """A scene that the file begins at standstill has no stopping time: DRV110 judges whether the brake holds."""
+    if scene.speed is None or not _from_rest(spec, scene):
+        yield from _of_parts(STOP, spec, scene, lambda part: _brake_on(spec, scene, part), repairs=True)
+
+
+def _rest_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    yield from _of_parts(RESTS, spec, scene, lambda part: _brake_on(spec, scene, part), repairs=True)
+
+
+def _brake_on(spec: Drivetrain, scene: Stop, body: str) -> KeyPath:
+    """The torque of the brake or clutch of a part."""
+    case = case_of(spec, scene)
+    name = brake_of(spec, case, case.index(body))
+    return ("brakes", name, "torque") if name is not None else ("inertias",)
+
+
+STOP: Check[Drivetrain, Stop] = Check(
+    code="DRV103",
+    title="stopping time",
+    question="Does the shaft considered come to rest within the limit, and stay at rest?",
+    failure="stop takes too long",
+    limit_state=LimitState("shaft does not stay at rest"),
+    scenes=frozenset({Stop}),
+    loads=("stop_time",),
+    sense=Sense.AT_MOST,
+    limit=stop_limit,
+    needs=lambda spec, scene: (*_speed_before(spec, scene), ("checks", "stop_time")),
+    blame=_stop_blame,
+    repair=_brake_torque,
+    each=_stop_checks,
+    what="The inertia considered in the scene stops within the maximum stop time and stays at standstill.",
+    why="A drive train that moves on hits people or objects beyond its stopping point.",
+    formula="t(w = 0 from then on) <= t_limit",
+    source="a choice of the designer or of a rule for the machine",
+)
+
+
+def _whole(spec: Drivetrain, scene: Start) -> Estimate:
+    """All of the speed that ends the start.
+
+    **Range** any start with a speed that ends it.
+    **Error** none.
+    **Source** definition of a start.
+    """
+    return Estimate.exact(1.0)
+
+
+REACHES: Check[Drivetrain, Start] = Check(
+    code="DRV109",
+    title="speed ratio reached in the start",
+    question="Does the watched shaft reach its target speed?",
+    failure="target speed is not reached",
+    scenes=frozenset({Start}),
+    loads=("start_share",),
+    sense=Sense.AT_LEAST,
+    limit=_whole,
+    needs=_end_of_start,
+    blame=_motor_blame,
+    repair=no_repair,
+    each=_reach_checks,
+    what="The inertia considered in the scene reaches the speed that ends the start, without a time limit.",
+    why="A motor that stalls or stays below its speed overheats. The machine never operates.",
+    formula="max w/w_end >= 1",
+    source="definition of a start; surplus of the motor's torque over its speed range",
+)
+
+
+def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
+    """No speed at all.
+
+    **Range** any stop.
+    **Error** none.
+    **Source** definition of a stop.
+    """
+    return Estimate.exact(0.0)
+
+
+RESTS: Check[Drivetrain, Stop] = Check(
+    code="DRV110",
+    title="speed after the stop",
+    question="Does the watched shaft come to rest and stay at rest?",
+    failure="shaft does not stay at rest",
+    scenes=frozenset({Stop}),
+    loads=("stop_speed_share",),
+    sense=Sense.AT_MOST,
+    limit=_nothing,
+    needs=_speed_before,
+    blame=_stop_blame,
+    repair=_brake_torque,
+    each=_rest_checks,
+    what="The inertia considered in the scene stops, without a time limit, and stays at standstill.",
+    why="A brake that does not hold lets the load run away.",
+    formula="|w(end)|/|w(0)| = 0",
+    source="definition of a stop; static balance of brake and load",
+)
+
+
+def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
+    """The longest way of a stop, from the file.
+
+    **Range** a file that sets it.
+    **Error** none.
+    **Source** a choice of the designer or of a rule for the machine.
+    """
+    return Estimate.exact(spec.checks.stop_angle or math.inf)
+
+
+def _way_checks(spec: Drivetrain, scene: Stop) -> Iterator[Check[Drivetrain, Stop]]:
+    if spec.checks.stop_angle is not None and (scene.speed is None or not _from_rest(spec, scene)):
+        yield WAY
+
+
+WAY: Check[Drivetrain, Stop] = Check(
+    code="DRV104",
+    title="stopping angle or distance",
+    question="Is the travel from stop command to rest within the limit?",
+    failure="stopping travel is too long",
+    scenes=frozenset({Stop}),
+    loads=("stop_angle",),
+    sense=Sense.AT_MOST,
+    limit=way_limit,
+    needs=_speed_before,
+    blame=_stop_blame,
+    repair=_brake_torque,
+    each=_way_checks,
+    what="The angle or distance from the stop command to standstill is at most the limit `checks.stop_angle`.",
+    why="A longer stopping distance leads to contact with an end stop, a person or the next machine.",
+    formula="|phi(rest) - phi(command)| <= limit",
+    source="a choice of the designer",
+)
+
+
+def _clutch_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain, Start]]:
+    for grip in case_of(spec, scene).clutches:
+        path = ("brakes", grip.name, "torque")
+        yield CLUTCH.of(grip.name, _no_slip, path, repair=path)
+
+
+def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
+    """No slip at all.
+
+    **Range** any clutch that acts in a start.
+    **Error** none.
+    **Source** definition of a locked clutch.
+    """
+    return Estimate.exact(0.0)
+
+
+CLUTCH: Check[Drivetrain, Start] = Check(
+    code="DRV112",
+    title="clutch slip speed after the start",
+    question="Does each clutch lock in the start?",
+    failure="clutch does not lock",
+    scenes=frozenset({Start}),
+    loads=("clutch_slip",),
+    sense=Sense.AT_MOST,
+    limit=_no_slip,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("brakes",),
+    repair=no_repair,
+    each=_clutch_checks,
+    what="Each clutch that acts in the start is locked at its end.",
+    why="A clutch that slips permanently converts its power to heat, and the part behind it stays below its speed.",
+    formula="|w_1 - w_2|/max(|w_1|, |w_2|) = 0",
+    source="static balance of the clutch torque and the load behind it",
+)
+
+CHECKS_OF_MOTION = (START, STOP, WAY, REACHES, RESTS, CLUTCH)

@@ -1,0 +1,15 @@
+"""Motion of the train: start and stop, speeds, stopping distance, clutches."""
+
+from ptmcalc.contract.topic import Topic
+from ptmcalc.machines.drivetrain.motion.checks import CHECKS_OF_MOTION
+from ptmcalc.machines.drivetrain.motion.elastic import ELASTIC
+from ptmcalc.machines.drivetrain.motion.loads import LOADS_OF_MOTION, parts
+from ptmcalc.machines.drivetrain.motion.reduced import ONE_SHAFT, REDUCED
+from ptmcalc.machines.drivetrain.spec import Drivetrain
+
+MOTION: Topic[Drivetrain] = Topic(
+    loads=LOADS_OF_MOTION,
+    parts=parts,
+    solvers=(REDUCED, ONE_SHAFT, ELASTIC),
+    checks=CHECKS_OF_MOTION,
+)

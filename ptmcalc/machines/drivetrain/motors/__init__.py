@@ -1,0 +1,1 @@
+"""Motors: peak torque, heating, overhauling loads."""

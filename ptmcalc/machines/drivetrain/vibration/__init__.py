@@ -1,0 +1,1 @@
+"""Vibration of the train: natural frequencies and their distance from excitations."""

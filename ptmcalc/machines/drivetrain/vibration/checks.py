@@ -1,0 +1,48 @@
+"""Check of the distance from resonance."""
+
+from collections.abc import Iterator
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.contract.check import Check, Sense, no_needs, no_repair
+from ptmcalc.machines.drivetrain.judging import RUNNING, AnyCheck
+from ptmcalc.machines.drivetrain.keys.torques import SineTorque
+from ptmcalc.machines.drivetrain.spec import Drivetrain, TrainScene
+
+
+def resonance_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
+    """Least distance of an exciting frequency from a natural one: 20 % of it unless the file says otherwise.
+
+    **Range** harmonic excitations.
+    **Error** none: an engineering choice.
+    **Source** usual practice; at 20 % an undamped amplitude is 2.3 to 2.8 times the static one.
+    """
+    return Estimate.exact(spec.checks.resonance_margin)
+
+
+def _resonance_checks(spec: Drivetrain, scene: TrainScene) -> Iterator[AnyCheck]:
+    for name, torque in spec.torques.items():
+        if isinstance(torque, SineTorque):
+            key = "frequency" if torque.frequency is not None else "angular_frequency"
+            path = ("torques", name, key)
+            yield RESONANCE.of(name, resonance_limit, path, repair=path)
+
+
+RESONANCE: AnyCheck = Check(
+    code="DRV107",
+    title="excitation separation from resonance",
+    question="Are all excitation frequencies far enough from the natural frequencies?",
+    failure="excitation is close to a natural frequency",
+    scenes=RUNNING,
+    loads=("resonance_separation",),
+    sense=Sense.AT_LEAST,
+    limit=resonance_limit,
+    needs=no_needs,
+    blame=lambda spec, scene, loads: ("torques",),
+    repair=no_repair,
+    each=_resonance_checks,
+    what="The frequency of every harmonic torque is separated from each natural frequency of the train by at least the"
+    " margin.",
+    why="Near resonance, only damping limits the torque. The damping is not known accurately.",
+    formula="min_k |W/w_k - 1| >= margin",
+    source="usual practice",
+)

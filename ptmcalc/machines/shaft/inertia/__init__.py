@@ -1,0 +1,1 @@
+"""Inertia that changes with the angle: what its change adds to every scene."""

@@ -1,0 +1,131 @@
+"""Checks of run-up and run-out: times and angles."""
+
+import math
+from collections.abc import Mapping
+
+from ptmcalc.base.estimate import Estimate
+from ptmcalc.base.span import KeyPath
+from ptmcalc.contract.check import Check, LimitState, Sense
+from ptmcalc.machines.shaft.motor_keys import blame_motor, motor_that_can_vary
+from ptmcalc.machines.shaft.spec import RunOut, RunUp, Shaft
+from ptmcalc.machines.shaft.speed_changes.cases import is_braked
+from ptmcalc.spec.scene import Scene
+
+Loads = Mapping[str, Estimate]
+
+
+def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
+    """Longest run-up of the file.
+
+    **Range** cage motors bear 5 to 10 s of direct starting, see the maker's list.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement.
+    """
+    asked = spec.checks.run_up_time
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+RUN_UP: Check[Shaft, RunUp] = Check(
+    code="SHF103",
+    title="run-up time",
+    question="Does the motor bring the shaft to speed within the limit?",
+    failure="run-up takes too long",
+    limit_state=LimitState("motor stalls in the run-up"),
+    scenes=frozenset({RunUp}),
+    loads=("run_up_time",),
+    sense=Sense.AT_MOST,
+    limit=_run_up_limit,
+    needs=lambda spec, scene: (("checks", "run_up_time"),),
+    blame=blame_motor,
+    repair=motor_that_can_vary,
+    what="The motor accelerates the shaft from standstill to its speed within the maximum run-up time. A motor that"
+    " stalls never reaches the speed.",
+    why="A motor with a long run-up overheats. Its protection trips.",
+    formula="t = integral of J dw/M <= limit",
+    source="lecture notes Kramatorsk, chapter 6",
+)
+
+
+class _WhenBraked(Check[Shaft, RunOut]):
+    """A check of a stop: a shaft that is left to coast keeps no limit."""
+
+    def applies_to(self, scene: Scene) -> bool:
+        return Check.applies_to(self, scene) and isinstance(scene, RunOut) and scene.brake != "off"
+
+
+def _brake_key(spec: Shaft, scene: RunOut) -> KeyPath:
+    return ("brake", "torque") if is_braked(spec, scene) else ("brake",)
+
+
+def _blame_brake(spec: Shaft, scene: RunOut, loads: Loads) -> KeyPath:
+    """The delay, where no brake would do; else the torque."""
+    needed = loads.get("brake_torque_needed")
+    if spec.brake is not None and needed is not None and math.isinf(needed.value):
+        return ("brake", "delay")
+    return _brake_key(spec, scene)
+
+
+def _stop_repair(spec: Shaft, scene: RunOut) -> KeyPath:
+    return ("brake", "torque") if spec.brake is not None else ()
+
+
+def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
+    """Largest angle of a braked run-out of the file.
+
+    **Range** for presses what safeguarding allows between the signal and the closing of the tool.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement.
+    """
+    asked = spec.checks.stop_angle
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
+    """Longest braked run-out of the file.
+
+    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response.
+    **Error** none: a chosen limit.
+    **Source** the design's own requirement; walking speed of 1.6 m/s from ISO 13855.
+    """
+    asked = spec.checks.stop_time
+    return Estimate.exact(math.inf if asked is None else asked)
+
+
+STOP_ANGLE: Check[Shaft, RunOut] = _WhenBraked(
+    code="SHF105",
+    title="shaft stopping angle",
+    question="Does the shaft stop within the permissible angle?",
+    failure="shaft turns too far before it stops",
+    scenes=frozenset({RunOut}),
+    loads=("run_out_angle",),
+    sense=Sense.AT_MOST,
+    limit=_stop_angle_limit,
+    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_angle")),
+    blame=_blame_brake,
+    repair=_stop_repair,
+    what="With the drive off and the brake on, the stopping angle of the shaft is at most the limit. The stop begins"
+    " at the stated angle, otherwise at the worst angle.",
+    why="The shaft turns by this angle after the stop command. A larger angle endangers a hand in the machine.",
+    formula="phi = integral of w dt from the command until w = 0;   T_0 = A_loss + A_brake",
+    source="lecture notes Kramatorsk, chapter 6",
+)
+STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
+    code="SHF106",
+    title="shaft stopping time",
+    question="Does the shaft stop within the limit?",
+    failure="shaft takes too long to stop",
+    scenes=frozenset({RunOut}),
+    loads=("run_out_time",),
+    sense=Sense.AT_MOST,
+    limit=_stop_time_limit,
+    needs=lambda spec, scene: (("brake", "torque"), ("checks", "stop_time")),
+    blame=_blame_brake,
+    repair=_stop_repair,
+    what="With the drive off and the brake on, the stopping time of the shaft is at most the limit. The stop begins at"
+    " the stated angle, otherwise at the worst angle.",
+    why="The stopping time determines the required distance of a safeguard.",
+    formula="t from the command until w = 0",
+    source="lecture notes Kramatorsk, chapter 6; ISO 13855 for what follows from the time",
+)
+
+CHECKS_OF_SPEED_CHANGES = (RUN_UP, STOP_ANGLE, STOP_TIME)
