@@ -25,6 +25,9 @@ FloatArray = NDArray[np.float64]
 COURANT = 1 - 1e-6
 """Step over the time in which a wave crosses an element: at 1 a uniform belt has no dispersion."""
 _ROUNDING = 1e-9
+_BELT, _HOLDING, _BEHIND, _TENSION, _DRUMS = range(5)
+"""Unknowns of a step: belt speed, what holds, speed behind the take-up, tension behind the drums; from the last on the
+speeds of the drums, and behind them their pulls."""
 
 
 def no_pull(time: float, speed: float) -> float:
@@ -196,62 +199,23 @@ class _Place:
         weight: tuple[float, float, float, float] | None,
         lift: float,
     ) -> tuple[float, float | None, list[float], list[float], list[float]] | None:
+        """Belt speed, speed behind the take-up, and speeds, pulls and tensions of the drums; None in a state that does
+        not fit."""
         n = len(self.rollers)
         stuck = [j for j in range(n) if not senses[j]]
         if (way in ("forward", "backward", "held", "stopped") or self.at_rated) and not stuck:
             way = "free"  # what holds a drum does not hold the belt
-        at_v, at_h, at_r, at_t, at_w, at_f = 0, 1, 2, 3, 4, 4 + n
-        a, b = np.zeros((4 + 2 * n, 4 + 2 * n)), np.zeros(4 + 2 * n)
-        before, after = masses
-        # belt before the drums: m v'/dt - sum f - at_t = m v/dt - S_on
-        a[0, at_v], a[0, at_t] = before / dt, -1.0
-        a[0, at_f : at_f + n] = -1.0
-        b[0] = before * belt / dt - on
-        # belt behind them: m v'/dt + at_t = m v/dt + S_off, or the weight
-        a[1, at_t], a[1, at_v] = 1.0, after / dt
-        b[1] = off + after * belt / dt
-        a[2, at_r] = 1.0
-        if weight:
-            tension, heavy, node, back = weight
-            a[1, at_v], a[1, at_r], b[1] = heavy / 4 / dt, -heavy / 4 / dt, tension + heavy / 4 / dt * (belt - back)
-            a[2, at_r], a[2, at_t], b[2] = node / dt, 1.0, off + node * back / dt
-        # how what holds works: h is the share of the brakes, the backstop's force, or the whole driving force
-        if way == "imposed" and self.at_rated:
-            a[3, at_v], b[3] = 1.0, self.rated
-        elif way == "imposed":
-            assert self.imposed is not None
-            a[3, at_v], b[3] = 1.0, self.imposed(time + dt / 2)
-        elif way in ("held", "stopped"):
-            a[3, at_v] = 1.0
-        else:
-            a[3, at_h], b[3] = 1.0, {"forward": 1.0, "backward": -1.0, "free": 0.0}[way]
         first_way = next((j for j in stuck if self.rollers[j].one_way), None)
-        for j, (roller, sense) in enumerate(zip(self.rollers, senses, strict=True)):
-            row, grip_row, w, f = 4 + j, 4 + n + j, at_w + j, at_f + j
-            # drum: m w'/dt + f + what holds = F + m w/dt
-            a[row, w], a[row, f] = roller.mass / dt, 1.0
-            b[row] = self.drives[j] + roller.mass * self.speeds[j] / dt
-            if way == "imposed" and self.at_rated and not sense:
-                b[row] -= self.drives[j]
-            if way == "imposed" and not (self.at_rated and sense):
-                a[row, at_h] = -roller.share / sum(one.share for one in self.rollers)
-            elif way == "stopped":
-                a[row, at_h] = -1.0 if j == first_way else 0.0
-            elif not sense:
-                a[row, at_h] = roller.hold(time)
-            if not sense:
-                a[grip_row, w], a[grip_row, at_v] = 1.0, -1.0
-            else:
-                grown = math.exp(sense * (roller.exponent or 0.0)) - 1
-                a[grip_row, f], a[grip_row, at_t] = 1.0, -grown
-                a[grip_row, f + 1 : at_f + n] = -grown
-                b[grip_row] = -grown * lift
+        a, b = np.zeros((_DRUMS + 2 * n, _DRUMS + 2 * n)), np.zeros(_DRUMS + 2 * n)
+        self._belt_rows(a, b, dt, masses, belt, on, off, weight)
+        self._holding_row(a, b, way, time + dt / 2)
+        self._drum_rows(a, b, senses, way, first_way, time, dt, lift)
         try:
             x = np.linalg.solve(a, b)
         except np.linalg.LinAlgError:
             return None
-        new, held, behind = float(x[at_v]), float(x[at_h]), float(x[at_r]) if weight else None
-        drums, pulls = [float(v) for v in x[at_w : at_w + n]], [float(f) for f in x[at_f : at_f + n]]
+        new, held, behind = float(x[_BELT]), float(x[_HOLDING]), float(x[_BEHIND]) if weight else None
+        drums, pulls = [float(v) for v in x[_DRUMS : _DRUMS + n]], [float(f) for f in x[_DRUMS + n :]]
         if way in ("held", "stopped"):
             new = 0.0
         if way == "imposed" and self.at_rated:
@@ -262,9 +226,97 @@ class _Place:
             return None
         if way in ("free", "backward") and new < 0 and first_way is not None:
             return None
-        tensions = [float(x[at_t])]
+        tensions = [float(x[_TENSION])]
         for pull in reversed(pulls):
             tensions.insert(0, tensions[0] + pull)
+        fits = self._drums_fit(senses, time, dt, lift, new, drums, pulls, tensions)
+        return (new, behind, drums, pulls, tensions) if fits else None
+
+    def _belt_rows(
+        self,
+        a: FloatArray,
+        b: FloatArray,
+        dt: float,
+        masses: tuple[float, float],
+        belt: float,
+        on: float,
+        off: float,
+        weight: tuple[float, float, float, float] | None,
+    ) -> None:
+        """Balance of the belt before and behind the drums, and of the node behind the take-up."""
+        n, (before, after) = len(self.rollers), masses
+        # belt before the drums: m v'/dt - sum f - S_behind = m v/dt - S_on
+        a[0, _BELT], a[0, _TENSION] = before / dt, -1.0
+        a[0, _DRUMS + n :] = -1.0
+        b[0] = before * belt / dt - on
+        # belt behind them: m v'/dt + S_behind = m v/dt + S_off, or the weight
+        a[1, _TENSION], a[1, _BELT] = 1.0, after / dt
+        b[1] = off + after * belt / dt
+        a[2, _BEHIND] = 1.0
+        if weight:
+            tension, heavy, node, back = weight
+            a[1, _BELT], a[1, _BEHIND] = heavy / 4 / dt, -heavy / 4 / dt
+            b[1] = tension + heavy / 4 / dt * (belt - back)
+            a[2, _BEHIND], a[2, _TENSION], b[2] = node / dt, 1.0, off + node * back / dt
+
+    def _holding_row(self, a: FloatArray, b: FloatArray, way: str, middle: float) -> None:
+        """How what holds works: the share of the brakes, the backstop's force, or the whole driving force."""
+        if way == "imposed" and self.at_rated:
+            a[3, _BELT], b[3] = 1.0, self.rated
+        elif way == "imposed":
+            assert self.imposed is not None
+            a[3, _BELT], b[3] = 1.0, self.imposed(middle)
+        elif way in ("held", "stopped"):
+            a[3, _BELT] = 1.0
+        else:
+            a[3, _HOLDING], b[3] = 1.0, {"forward": 1.0, "backward": -1.0, "free": 0.0}[way]
+
+    def _drum_rows(
+        self,
+        a: FloatArray,
+        b: FloatArray,
+        senses: tuple[int, ...],
+        way: str,
+        first_way: int | None,
+        time: float,
+        dt: float,
+        lift: float,
+    ) -> None:
+        """Balance of every drum, and its grip: one speed with the belt, or a pull by the friction law."""
+        n = len(self.rollers)
+        for j, (roller, sense) in enumerate(zip(self.rollers, senses, strict=True)):
+            row, grip_row, w, f = _DRUMS + j, _DRUMS + n + j, _DRUMS + j, _DRUMS + n + j
+            # drum: m w'/dt + f + what holds = F + m w/dt
+            a[row, w], a[row, f] = roller.mass / dt, 1.0
+            b[row] = self.drives[j] + roller.mass * self.speeds[j] / dt
+            if way == "imposed" and self.at_rated and not sense:
+                b[row] -= self.drives[j]
+            if way == "imposed" and not (self.at_rated and sense):
+                a[row, _HOLDING] = -roller.share / sum(one.share for one in self.rollers)
+            elif way == "stopped":
+                a[row, _HOLDING] = -1.0 if j == first_way else 0.0
+            elif not sense:
+                a[row, _HOLDING] = roller.hold(time)
+            if not sense:
+                a[grip_row, w], a[grip_row, _BELT] = 1.0, -1.0
+            else:
+                grown = math.exp(sense * (roller.exponent or 0.0)) - 1
+                a[grip_row, f], a[grip_row, _TENSION] = 1.0, -grown
+                a[grip_row, f + 1 :] = -grown
+                b[grip_row] = -grown * lift
+
+    def _drums_fit(
+        self,
+        senses: tuple[int, ...],
+        time: float,
+        dt: float,
+        lift: float,
+        new: float,
+        drums: list[float],
+        pulls: list[float],
+        tensions: list[float],
+    ) -> bool:
+        """Whether every drum slips the way it is taken to, or sticks within its grip; sets the speeds of the drums."""
         for j, (roller, sense) in enumerate(zip(self.rollers, senses, strict=True)):
             if sense:
                 free = self.speeds[j] + dt / roller.mass * (self.drives[j] - pulls[j])
@@ -273,14 +325,14 @@ class _Place:
                 drums[j] = min(drums[j], roller.rated) if self.drives[j] > 0 else drums[j]
                 drums[j] = self.rated if self.at_rated else drums[j]
                 if sense * (drums[j] - new) < 0:
-                    return None
+                    return False
             else:
                 drums[j] = new
                 if roller.exponent is not None:
                     above, below, e = tensions[j] - lift, tensions[j + 1] - lift, math.exp(roller.exponent)
                     if max(above - e * below, below - e * above) > _ROUNDING * (abs(above) + abs(below)):
-                        return None
-        return new, behind, drums, pulls, tensions
+                        return False
+        return True
 
 
 def simulate(

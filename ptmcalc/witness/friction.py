@@ -9,6 +9,7 @@ import numpy as np
 from ptmcalc.base.errors import NumericsError
 from ptmcalc.witness.mechanism import Equations, Mechanism, shares_at_rest
 from ptmcalc.witness.mechanism_coordinates import OPEN, Branch, FloatArray, State
+from ptmcalc.witness.rest_programme import RestProgramme
 
 _SMALL = 1e-9
 
@@ -164,96 +165,9 @@ class Friction:
             meshes = list(state.meshes)
             for i, sign in zip(resting, signs, strict=True):
                 meshes[i] = sign
-            best = max(best, self._programme(state._replace(meshes=tuple(meshes)), applied, w, inside))
+            tried = RestProgramme(one, state._replace(meshes=tuple(meshes)), applied, w, inside)
+            best = max(best, tried.share())
         return best
-
-    def _programme(self, state: State, applied: FloatArray, w: FloatArray, inside: float) -> float:
-        """Groups at rest and what locked clutches and shut contacts tie to them: the largest share by which every
-        limit of friction can be undercut at once, by a linear programme over all torques between them."""
-        from scipy.optimize import linprog
-
-        one, train = self.of, self.of.train
-        n, m, j = one.count, len(train.meshes), len(train.grips)
-        shut = [k for k, (name, _) in enumerate(state.branches) if name == "shut"]
-        guides = list(range(len(train.guides)))
-        width = n + 2 * m + j + len(shut) + len(guides) + 1
-        caps = [float(one.capacity(k, state, inside) @ w) for k in range(j)]
-        size = max(float(np.abs(applied).max(initial=0.0)), 1e-30, *caps)
-        balance, right = np.zeros((one.count_bodies, width)), applied / size
-        for b in range(one.count_bodies):
-            balance[b, one.of[b]] = one.inertia[b] * one.ratio[b] / one.weights[one.of[b]]
-        bounds: list[tuple[float | None, float | None]] = [(None, None)] * width
-        equal, even, above, limit = [balance], [right], [], []
-        for k, mesh in enumerate(train.meshes):
-            balance[mesh.inner, n + m + k] += 1
-            balance[mesh.outer, n + k] -= 1
-            row = np.zeros(width)
-            if k in one.lossy and state.turning[one.of[mesh.inner]] == 0:
-                sign = state.meshes[one.lossy.index(k)]
-                bounds[n + k] = (0, None) if sign > 0 else (None, 0)
-                for share, way in zip(shares_at_rest(mesh), (-1, 1), strict=True):
-                    row = np.zeros(width)
-                    row[n + m + k], row[n + k] = way * sign, -way * share * sign
-                    above.append(row)
-                    limit.append(0.0)
-                continue
-            row[n + m + k], row[n + k] = 1, -one.share(k, state)
-            equal.append(row[None])
-            even.append(np.zeros(1))
-        for k, grip in enumerate(train.grips):
-            column, slip = n + 2 * m + k, one.slip(k, state)
-            balance[grip.first, column] -= 1
-            if grip.second is not None:
-                balance[grip.second, column] += 1
-            if slip != 0:
-                bounds[column] = (0, 0)  # it is among the applied forces
-                continue
-            for way in (1, -1):
-                row = np.zeros(width)
-                row[column], row[-1] = way, caps[k] / size
-                above.append(row)
-                limit.append(grip.static * caps[k] / size)
-        for i, k in enumerate(shut):
-            column = n + 2 * m + j + i
-            spring = train.springs[k]
-            for body, sign in ((spring.first, 1), (spring.second, -1), (spring.over, -1)):
-                if body is not None:
-                    balance[body, column] -= sign
-            bounds[column] = (None, 0) if state.branches[k][1] > 0 else (0, None)
-            equal.append(self._together(one.rows[k], width))
-            even.append(np.zeros(1))
-        for i, k in enumerate(guides):
-            body = train.guides[k].body
-            balance[body, n + 2 * m + j + len(shut) + i] -= 1
-            wanted = float(one.signal_row(train.guides[k].acceleration) @ w)
-            bounds[one.of[body]] = (wanted * one.weights[one.of[body]] / size / one.ratio[body],) * 2
-        for k, slip in zip(one.clutches, state.slips, strict=True):
-            if slip == 0:
-                grip = train.grips[k]
-                equal.append(self._together(one.group_row(grip.first, grip.second), width))
-                even.append(np.zeros(1))
-        for g, turn in enumerate(state.turning):
-            if turn == 0:
-                bounds[g] = (0, 0)
-        bounds[-1] = (None, 10.0)
-        cost = np.zeros(width)
-        cost[-1] = -1.0
-        found = linprog(
-            cost,
-            A_ub=np.array(above) if above else None,
-            b_ub=np.array(limit) if above else None,
-            A_eq=np.vstack(equal),
-            b_eq=np.concatenate(even),
-            bounds=bounds,
-            method="highs",
-        )
-        return min(float(found.x[-1]), 1.0) if found.status == 0 else -1.0
-
-    def _together(self, row: FloatArray, width: int) -> FloatArray:
-        """Equal accelerations, in the unit the programme counts them in."""
-        found = np.zeros((1, width))
-        found[0, : self.of.count] = row / self.of.weights
-        return found
 
     # -- links -----------------------------------------------------------------------------------------------------
 

@@ -20,6 +20,7 @@ from ptmcalc.base.diagnostic import BROKEN
 from ptmcalc.engine import load
 from ptmcalc.engine.check import Options, check
 from ptmcalc.report import json as report_json
+from ptmcalc.spec import problems
 
 FIRST, IN_CI, ALL, PART = 1_000, 19_500, 1_000_000, 1_850
 """The first ones are separated below and must hold too; hypothesis makes 100 more."""
@@ -163,7 +164,7 @@ def test_an_input_that_hangs_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_an_input_that_breaks_the_program_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(report_json, "finite", lambda value: value / 0)
-    monkeypatch.setattr(load, "problems_of", lambda *_: iter([None]))
+    monkeypatch.setattr(problems, "problems_of", lambda *_: iter([None]))
     found = failures(range(40))
     assert found
     assert all(re.match(r"made\([0-9]+\): [A-Za-z]+Error in \w+\.py:[0-9]+ ", one) for one in found)

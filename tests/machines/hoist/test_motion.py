@@ -11,8 +11,9 @@ from support.machines import changed, check_of, load_of, report_of, scene_of
 
 from ptmcalc.base.diagnostic import Verdict
 from ptmcalc.contract.report import SceneReport
-from ptmcalc.machines.hoist.motion import course, train
 from ptmcalc.machines.hoist.motion import scene as motion
+from ptmcalc.machines.hoist.motion import train
+from ptmcalc.machines.hoist.motion.course import Course, cost, play
 
 G = 9.81
 PRINTED = 1e-5
@@ -321,7 +322,7 @@ def test_a_start_along_a_curve_follows_it_from_its_first_moment(shape: str) -> N
     """Its first acceleration is small beside all stiffness there is; who leaves it out ends slower, with a residual."""
     data = changed(CRANE, scenes=[{"type": "start", "profile": {"shape": shape, "time": "2 s"}}])
     spec = hoist_of(data)
-    played = course.play(train.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
+    played = play(train.case_of(spec, spec.all_scenes[0], frozenset()), 1e-6)  # type: ignore[arg-type]
     assert played.ledger.residual < 1e-12
     mains = played.case.named("body", "set speed")
     assert mains is not None
@@ -340,7 +341,7 @@ STIFF = {
 }
 
 
-def stiff(rope: float, gear: float) -> course.Course:
+def stiff(rope: float, gear: float) -> Course:
     """A lift with rope and gear of these stiffnesses at the hook [N/m]."""
     arm = 0.16 / 4
     data = reduced(5000.0, 1.0, 1.0, 0.1, 1.0, {"type": "lift"}) | STIFF
@@ -352,7 +353,7 @@ def stiff(rope: float, gear: float) -> course.Course:
     spec = hoist_of(data)
     case = train.case_of(spec, spec.all_scenes[0], WHOLE)  # type: ignore[arg-type]
     assert case.stiffness == pytest.approx(rope, rel=1e-9)
-    return course.play(case, 1e-6)
+    return play(case, 1e-6)
 
 
 class TestStiffness:
@@ -389,7 +390,7 @@ class TestStiffness:
         """Within a factor 3, also where nothing but the gear is fast."""
         for gear in (1e8, 1e10, 1e12, 1e14):
             course = stiff(1e6, gear)
-            assert 1 / 3 <= course.cost(course.case, 0) / (2 * motion.spent(course)) <= 3
+            assert 1 / 3 <= cost(course.case, 0) / (2 * motion.spent(course)) <= 3
 
 
 @pytest.mark.parametrize("seed", range(6))
