@@ -99,6 +99,12 @@ def check(
         bool,
         typer.Option("--verbose", "-v", help="The whole table: every load, check, effect, event and run."),
     ] = False,
+    ledger: Annotated[
+        bool,
+        typer.Option(
+            "--ledger", help="Change of a load without each effect near its threshold; with -v and --html too."
+        ),
+    ] = False,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -164,7 +170,15 @@ def check(
     terminal = sys.stdout.isatty()
     chosen = Format(form.value if form else CheckFormat.TABLE if terminal else CheckFormat.PLAIN)
     shapes = chosen is Format.TABLE and len(paths) == 1 and os.path.isfile(paths[0])  # of one file somebody looks at
-    asked = (tuple(scene or ()), accuracy, effects_of(effects), bool(history), shapes, bool(html))
+    asked = (
+        tuple(scene or ()),
+        accuracy,
+        effects_of(effects),
+        bool(history),
+        shapes,
+        bool(html),
+        ledger or verbose or bool(html),
+    )
     sought = ANY if store else choice  # what is kept serves every choice
     options = Options(*asked, seconds_of(budget), repairs, sought, run=not validate_only)
     forms = {chosen, *(target for target, _ in files)}

@@ -65,6 +65,8 @@ class Options:
     """whether reports show the shapes of histories"""
     figures: bool = False
     """whether there is somebody who looks at pictures"""
+    ledger: bool = False
+    """whether a run without each effect near its threshold tells what it changes"""
     budget: float = WORK_BUDGET
     repairs: bool = True
     counting: Choice = ANY
@@ -186,7 +188,7 @@ def _conflicts(
 
 def _again(options: Options, loaded: Loaded, scenes: tuple[str, ...], most: float) -> FileReport:
     """A plain check of a changed file, without repairs of its own."""
-    plain = replace(options, histories=False, courses=False, figures=False, repairs=False)
+    plain = replace(options, histories=False, courses=False, figures=False, ledger=False, repairs=False)
     return check(loaded, replace(plain, scenes=scenes, budget=most))
 
 
@@ -329,7 +331,7 @@ class _Assembly:
         return replace(report, figures=tuple(figures_of(self.kind, report, self.spec, histories, self._textbooks())))
 
     def _effects(self) -> Iterator[EffectReport]:
-        near = {planned.effect.name for planned in self.settled.near}
+        near = {planned.effect.name for planned in self.settled.near} if self.options.ledger else set()
         carried = self.settled.carried
         for planned in self.settled.plan.effects:
             name = planned.effect.name

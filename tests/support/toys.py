@@ -122,7 +122,7 @@ def loaded(kind: AnyKind, **data: Any) -> Loaded:
 
 def report(kind: AnyKind, **data: Any) -> FileReport:
     """The whole report of a toy."""
-    return check(loaded(kind, **data), Options())
+    return check(loaded(kind, **data), Options(ledger=True))
 
 
 def judgement(found: FileReport) -> Judgement:

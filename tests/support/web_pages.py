@@ -93,7 +93,7 @@ def without_texts(text: str) -> str:
 @cache
 def reported(path: str) -> FileReport:
     """The report of a file of the project with its figures, made once."""
-    return check(load_file(ROOT / path, path), Options(figures=True, repairs=False))
+    return check(load_file(ROOT / path, path), Options(figures=True, ledger=True, repairs=False))
 
 
 @cache
@@ -110,5 +110,5 @@ def as_document(report: FileReport) -> dict[str, object]:
 
 def page_of_text(text: str, **options: bool) -> tuple[FileReport, str]:
     """Report and page of a design file that is only a text."""
-    report = check(load_text(text.encode(), "case.yaml"), Options(figures=True, **options))
+    report = check(load_text(text.encode(), "case.yaml"), Options(figures=True, ledger=True, **options))
     return report, html.page(report, text)
