@@ -13,7 +13,7 @@ from ptmcalc.machines.chain_drive.spec import ChainDrive, Run
 
 
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
-    """Resonance speeds of all tooth harmonics and modes, and the safe speeds between them.
+    """Resonance speeds of all tooth harmonics and modes, and the safe speed ranges between them.
 
         V_nk = p f_k/n,   too near: |V/V_nk - 1| < max(band, 2 zeta_k) where W_nk reaches the weight of the file
 

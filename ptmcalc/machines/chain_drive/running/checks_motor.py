@@ -27,7 +27,7 @@ def _at_least_once(spec: ChainDrive, scene: ChainScene) -> bool:
 
 
 def _reserve_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
-    """The motors must reach the resistance.
+    """The motors reach at least the resistance.
 
     **Range** steady running.
     **Error** none.

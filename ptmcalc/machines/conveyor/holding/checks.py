@@ -25,7 +25,7 @@ Checks = Iterable[AnyCheck]
 
 
 def _backstop_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """Torque that backstop and closed brakes hold at the head pulley, with the reserve of a backstop.
+    """Holding torque of backstop and closed brakes at the head pulley, divided by the reserve of the backstop.
 
         M = (M_backstop + sum F_brake R)/reserve
 

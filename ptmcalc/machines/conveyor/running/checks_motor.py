@@ -33,7 +33,7 @@ def _at_least_once(spec: Conveyor, scene: ConveyorScene) -> bool:
 
 
 def _reserve_limit(spec: Conveyor, scene: ConveyorScene) -> Estimate:
-    """The motors must reach the resistance.
+    """The motors reach at least the resistance.
 
     **Range** steady running.
     **Error** none.

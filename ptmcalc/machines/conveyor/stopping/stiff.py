@@ -26,8 +26,9 @@ def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: in
 
         M v' = -(W + B(t)),   S(s) = S_static(s) - a r(s)
 
-    **Range** a belt round which a wave goes a thousand times while it stops; one slope, one drive, brakes at the head.
-    **Error** no bar of its own: the bound of the waves is that of `stopping.stiff_bounds`.
+    **Range** a belt with a stopping time of at least a thousand wave circuits; one slope, one drive, brakes at the
+    head.
+    **Error** no error bar of its own: the wave bound is that of `stopping.stiff_bounds`.
     **Source** Newton's law.
     """
     stop = stiff_bounds.short_stop(spec, scene)

@@ -61,16 +61,16 @@ _OVERHEAD = 3e-3
 
 
 def run(spec: Conveyor, scene: Start, carried: frozenset[str], level: int) -> Result:
-    """Loads of a start from the waves of both strands, exact in transport (`numerics.strand`).
+    """Loads of a start from the waves of both strands, with exact wave transport (`numerics.strand`).
 
-    Carried effects: `belt_wave` always; `tail_jump` (without it the return strand has the impedance of the carry
+    Simulated effects: `belt_wave` always; `tail_jump` (without it the return strand has the impedance of the carrying
     strand), `tail_mass`, `slip`, `sag`. Refinement `level` halves the cells of both of its grids.
 
-    **Range** linear belt, idler resistance as if the whole belt slid forward; a belt that goes slack or runs
-    backward leaves it, which the result says.
-    **Error** estimated from the differences of grids of halved step, two without sag and three with it; of second
-    order without slip and sag, else of first. The bars are derived in `_straight_bars` and `_sagging_bars`.
-    **Source** method of characteristics; drum and tail by the exponential step; derived in `numerics.strand`.
+    **Range** linear belt, idler resistance as if the whole belt slid forward; the result reports a belt that goes slack
+    or runs backward.
+    **Error** estimated from the differences of grids of halved step, two without sag and three with it; second order
+    without slip and sag, otherwise first order. The error bars are derived in `_straight_bars` and `_sagging_bars`.
+    **Source** method of characteristics; pulley and tail by the exponential step; derived in `numerics.strand`.
     """
     case = start_case(spec, scene)
     if not case.moves:

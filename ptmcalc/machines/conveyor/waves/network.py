@@ -70,9 +70,10 @@ no record is kept. Wrong values change the order of the solvers and the length o
 def run(spec: Conveyor, scene: ConveyorScene, carried: frozenset[str], level: int) -> Result:
     """Loads of a scene in which the belt moves, from three grids.
 
-    **Range** any scene in motion; a belt whose tension falls below 0 is not what this computes, and says so. Of a belt
-    that sags too deep on the way only what came before is told (`deep_sag`).
-    **Error** as the module says: an estimate from three grids, held on the seeded sample of the coverage tests.
+    **Range** any scene in motion of a taut belt; the result reports a belt whose tension falls below 0. If the belt
+    sags too far, only the results before that moment are reported (`deep_sag`).
+    **Error** as described in the module: an estimate from three grids, verified by the seeded sample of the coverage
+    tests.
     **Source** method of characteristics with lumped idlers; derived in `numerics.belt`.
     """
     case = moving(spec, scene)

@@ -180,7 +180,7 @@ DEAD_WRAPS: OneCheck = only(loaded)(
 
 
 def _fleet_limit(spec: Hoist, scene: Run) -> Estimate:
-    """Largest fleet angle: 4 deg, 2 deg for rotation-resistant ropes, or what the file says.
+    """Largest fleet angle: 4 deg, 2 deg for rotation-resistant ropes, or the value of the file.
 
     **Range** drums and sheaves with grooves of the usual depth.
     **Error** none: a chosen limit.
