@@ -37,11 +37,11 @@ _NO_LIMIT = _exactly(math.inf)
 
 
 def torque_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """The largest torque a link may carry, from the file.
+    """Permissible torque of a link, given in the file.
 
     **Range** each link that has a `limit`.
     **Error** none.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     return Estimate.exact(math.inf)
 
@@ -81,9 +81,9 @@ TORQUE: AnyCheck = Check(
 
 
 def start_limit(spec: Drivetrain, scene: Start) -> Estimate:
-    """The longest start of the file.
+    """Maximum starting time given in the file.
 
-    **Range** any start with a speed that ends it.
+    **Range** any start with a target speed.
     **Error** none.
     **Source** a choice of the designer.
     """
@@ -155,7 +155,7 @@ START: Check[Drivetrain, Start] = Check(
 
 
 def stop_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """The longest stop of the file.
+    """Maximum stopping time given in the file.
 
     **Range** any stop.
     **Error** none.
@@ -228,9 +228,9 @@ STOP: Check[Drivetrain, Stop] = Check(
 
 
 def _whole(spec: Drivetrain, scene: Start) -> Estimate:
-    """All of the speed that ends the start.
+    """1: the full target speed of the start.
 
-    **Range** any start with a speed that ends it.
+    **Range** any start with a target speed.
     **Error** none.
     **Source** definition of a start.
     """
@@ -258,7 +258,7 @@ REACHES: Check[Drivetrain, Start] = Check(
 
 
 def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
-    """No speed at all.
+    """0: standstill.
 
     **Range** any stop.
     **Error** none.
@@ -288,9 +288,9 @@ RESTS: Check[Drivetrain, Stop] = Check(
 
 
 def way_limit(spec: Drivetrain, scene: Stop) -> Estimate:
-    """The longest way of a stop, from the file.
+    """Permissible stopping angle or distance, given in the file.
 
-    **Range** a file that sets it.
+    **Range** files with this limit.
     **Error** none.
     **Source** a choice of the designer or of a rule for the machine.
     """
@@ -329,7 +329,7 @@ def _clutch_checks(spec: Drivetrain, scene: Start) -> Iterator[Check[Drivetrain,
 
 
 def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
-    """No slip at all.
+    """0: no slip.
 
     **Range** any clutch that acts in a start.
     **Error** none.
@@ -362,12 +362,12 @@ CLUTCH: Check[Drivetrain, Start] = Check(
 
 
 def heating_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Rated torque of all motors of a name.
+    """Rated torque of all motors of one name.
 
     **Range** motors whose rated torque is given or follows from power and speed.
     **Error** none.
-    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors whose loss goes with the square
-    of the torque.
+    **Source** IEC 60034-1: the rms torque of a cycle against the rated one, for motors with losses proportional to the
+    square of the torque.
     """
     return Estimate.exact(math.inf)
 
@@ -403,11 +403,11 @@ HEATING: AnyCheck = Check(
 
 
 def overload_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """The largest torque a motor may give for a short time, from the file.
+    """Permissible short-time motor torque, given in the file.
 
     **Range** motors with `largest_torque`.
     **Error** none.
-    **Source** the maker's overload limit.
+    **Source** the manufacturer's overload limit.
     """
     return Estimate.exact(math.inf)
 
@@ -441,9 +441,9 @@ OVERLOAD: AnyCheck = Check(
 
 
 def _at_least_all(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Braking torque of all motors at least as large as the overhauling torque.
+    """1: the braking torque of all motors is at least the overhauling torque.
 
-    **Range** motors that a load drives at their no-load speed.
+    **Range** motors driven by the load at their no-load speed.
     **Error** none.
     **Source** torque balance at steady speed.
     """
@@ -485,7 +485,8 @@ BRAKES: AnyCheck = Check(
 
 
 def resonance_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Least distance of an exciting frequency from a natural one: 20 % of it unless the file says otherwise.
+    """Minimum separation of an excitation frequency from a natural frequency: 20 % of the natural frequency, or the
+    value of the file.
 
     **Range** harmonic excitations.
     **Error** none: an engineering choice.
@@ -524,11 +525,11 @@ RESONANCE: AnyCheck = Check(
 
 
 def wear_limit(spec: Drivetrain, scene: TrainScene) -> Estimate:
-    """Largest worn part of a tooth: 25 % in gearboxes and couplings, 40 % in open gears.
+    """Permissible tooth wear relative to the tooth thickness: 25 % in gearboxes and couplings, 40 % in open gears.
 
-    **Range** links whose play comes from a `clearance` with a module.
+    **Range** links with a backlash from a `clearance` with a module.
     **Error** none.
-    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth's thickness).
+    **Source** lecture notes Kramatorsk 2007 (15 to 25 % and 40 % of the tooth thickness).
     """
     return Estimate.exact(WORN_OUT)
 

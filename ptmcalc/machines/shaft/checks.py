@@ -40,7 +40,7 @@ def _blame_motor(spec: Shaft, scene: ShaftScene, loads: Loads) -> KeyPath:
 
 
 def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """The loss factor must stay below 1.
+    """1: the loss factor stays below it.
 
     **Range** any machine.
     **Error** none.
@@ -50,12 +50,12 @@ def _motion_limit(spec: Shaft, scene: Steady) -> Estimate:
 
 
 def _motion_value(spec: Shaft, scene: Steady, loads: Loads) -> Estimate:
-    """The loss factor; a cycle that surely keeps moving has one below 1.
+    """Loss factor of the cycle; a cycle with guaranteed motion has a loss factor below 1.
 
-    A machine that runs idle has a loss factor of 1, too, and one that its load drives has none: both move.
+    An idling machine also has a loss factor of 1, and a machine driven by its load has none: both move.
 
     **Range** any machine.
-    **Error** that of the load; none where the smallest speed of the cycle surely is above 0, or the motor stalls.
+    **Error** that of the load; none if the minimum speed of the cycle is above 0 for certain, or the motor stalls.
     **Source** the Poincare map of the cycle.
     """
     factor = loads["loss_factor"]
@@ -88,7 +88,7 @@ MOTION: Check[Shaft, Steady] = Check(
 
 
 def _even_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """Largest irregularity of the file.
+    """Permissible coefficient of speed fluctuation of the file.
 
     **Range** 1/5 to 1/30 for presses and pumps, 1/40 to 1/100 for machine tools and looms, 1/100 to 1/300 for
     generators.
@@ -128,9 +128,9 @@ def _inertia_key(spec: Shaft) -> KeyPath:
 
 
 def _run_up_limit(spec: Shaft, scene: RunUp) -> Estimate:
-    """Longest run-up of the file.
+    """Maximum run-up time of the file.
 
-    **Range** cage motors bear 5 to 10 s of direct starting, see the maker's list.
+    **Range** cage motors withstand 5 to 10 s of direct-on-line starting, see the manufacturer's catalogue.
     **Error** none: a chosen limit.
     **Source** the design's own requirement.
     """
@@ -164,7 +164,7 @@ RUN_UP: Check[Shaft, RunUp] = Check(
 def _heat_limit(spec: Shaft, scene: Steady) -> Estimate:
     """Rated torque of the motor.
 
-    **Range** continuous duty S6 of IEC 60034-1: the same cycle over and over, never at rest.
+    **Range** continuous-operation periodic duty S6 of IEC 60034-1: identical cycles without standstill.
     **Error** none: the rating.
     **Source** IEC 60034-1; `laws.duty.rms_torque`.
     """
@@ -221,9 +221,9 @@ def _stop_repair(spec: Shaft, scene: RunOut) -> KeyPath:
 
 
 def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Largest angle of a braked run-out of the file.
+    """Permissible stopping angle of the file.
 
-    **Range** for presses what safeguarding allows between the signal and the closing of the tool.
+    **Range** for presses the angle permitted by safeguarding between the signal and the closing of the tool.
     **Error** none: a chosen limit.
     **Source** the design's own requirement.
     """
@@ -232,9 +232,9 @@ def _stop_angle_limit(spec: Shaft, scene: RunOut) -> Estimate:
 
 
 def _stop_time_limit(spec: Shaft, scene: RunOut) -> Estimate:
-    """Longest braked run-out of the file.
+    """Permissible stopping time of the file.
 
-    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response.
+    **Range** for a safeguard at a distance S from the tool at most S/(1.6 m/s) less its own response time.
     **Error** none: a chosen limit.
     **Source** the design's own requirement; walking speed of 1.6 m/s from ISO 13855.
     """
@@ -284,9 +284,9 @@ STOP_TIME: Check[Shaft, RunOut] = _WhenBraked(
 
 
 def _overload_limit(spec: Shaft, scene: Steady) -> Estimate:
-    """The most the motor may give: the limit of the file, that of the converter, or a share of the breakdown torque.
+    """Permissible motor torque: the limit of the file, that of the converter, or a share of the breakdown torque.
 
-        0.81 M_k:  the torque goes with the square of the voltage, and the voltage may be 10 % low
+        0.81 M_k:  the torque is proportional to the square of the voltage, and the voltage may be 10 % low
 
     **Range** induction motors by their breakdown torque; others by `largest_torque`.
     **Error** none: a chosen limit.

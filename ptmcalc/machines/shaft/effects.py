@@ -32,15 +32,15 @@ def _anything(names: frozenset[str], loads: Loads) -> Offsets:
 
 
 def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
-    """Torque that the change of the inertia takes, over that on the main shaft.
+    """Ratio of the torque due to the change of inertia to the torque on the main shaft.
 
         q = max |J'| w^2/(2 |M|)
 
-    w is the speed at which the motor carries the mean load (steady), the speed asked for (run-up) or that at the
-    beginning (run-out); M the mean torque of the drive, in a run-out that of losses and brake.
+    w is the speed at which the motor drives the mean load (steady cycle), the target speed (run-up) or the initial
+    speed (stop); M is the mean drive torque, in a stop the torque of losses and brake.
 
-    **Range** any shaft; infinite where the motor cannot carry the mean load, or nothing stops the shaft.
-    **Error** exact for the torques named.
+    **Range** any shaft; infinite if the motor cannot drive the mean load, or nothing stops the shaft.
+    **Error** exact for the stated torques.
     **Source** `laws.shaft.inertia_criterion`; the threshold of 5 % is an engineering choice.
     """
     machine = machine_in(spec, scene)
@@ -54,13 +54,13 @@ def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
 
 
 def inertia_bound(spec: Shaft, scene: ShaftScene, loads: Loads) -> Offsets:
-    """Interval of every load of the shaft with its mean inertia that holds any change between the extremes of J.
+    """Interval of every load of the shaft with mean inertia that covers any variation between the extremes of J.
 
         steady:   delta from x = 2 T/J with T and J anywhere in their ranges, (w_max + w_min)/2 = w_0
         run-up:   J_low/(D - R_low - J'_low w^2/2) <= dt/dw <= J_high/(D - R_high - J'_high w^2/2)
         run-out:  delay, rise and viscous torque at both ends of the rate of the reduced time
 
-    **Range** q below 0.05; unbounded above, and where the gear could be driven from the wrong side.
+    **Range** q below 0.05; unbounded above, and if the power flow through the gear may reverse.
     **Error** a bound.
     **Source** derived in `machines.shaft.bounds`: comparison of first-order differential equations.
     """
@@ -104,14 +104,14 @@ def _steady_inertia(spec: Shaft, loads: Loads, machine) -> Offsets:  # type: ign
 
 
 def slope_criterion(spec: Shaft, scene: Steady) -> Criterion:
-    """Period of the useful load over the time in which the motor would even out a change of speed.
+    """Ratio of the load period to the time constant of the motor for a speed change.
 
         h = t k/J
 
-    t is the time of a cycle, k the fall of the drive's torque with the speed where it carries the mean load, J the
-    mean inertia, all on the main shaft.
+    t is the cycle time, k the decrease of the drive torque per speed at the mean load, J the mean inertia, all at the
+    main shaft.
 
-    **Range** any machine that its motor can drive; infinite else.
+    **Range** any machine that its motor can drive; otherwise infinite.
     **Error** exact.
     **Source** `laws.shaft.slope_criterion`; the threshold of 1 from the lecture notes Kramatorsk, section on the
     flywheel.
@@ -129,16 +129,16 @@ def slope_criterion(spec: Shaft, scene: Steady) -> Criterion:
 
 
 def slope_bound(spec: Shaft, scene: Steady, loads: Loads) -> Offsets:
-    """Interval of every load of a cycle with the motor's torque held that holds a working motor.
+    """Interval of every load of a cycle with constant motor torque that covers a motor with torque-speed slope.
 
-        |A - A_held| <= k dw Theta/4 but for a constant,  w = w_0 somewhere
+        |A - A_held| <= k dw Theta/4 except for a constant,  w = w_0 somewhere
         M_rms^2 <= M_0^2 + R^2/4 + M_high R dw/(2 w_low),  R = k_m dw,  M_rms >= M_0
 
-    **Range** h below 1, a torque that falls with the speed all over the range, power through the gear from the motor
-    throughout; unbounded else.
+    **Range** h below 1, a torque that decreases with the speed over the whole range, power flow from the motor
+    throughout; otherwise unbounded.
     **Error** a bound.
-    **Source** derived in `machines.shaft.bounds`: a function without a mean and with a range L has an integral that
-    swings by no more than L Theta/4; the torque's mean over the angle is that of the load.
+    **Source** derived in `machines.shaft.bounds`: a function without a mean and with a range L has an integral with a
+    range of at most L Theta/4; the mean torque over the angle is that of the load.
     """
     machine = machine_in(spec, scene)
     cycle = bounds.held(machine)

@@ -201,7 +201,7 @@ def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> R
         de/dphi = w'(phi, w),  e = w^2/2,   P(w) = w by the secant
 
     **Range** rigid links; a motor that does not stall.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first.
     **Source** Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed.
     """
     machine, wanted = _machine(spec, scene, carried), spec.checks.irregularity
@@ -226,9 +226,9 @@ def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> R
 
 
 def run_up(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up, by steps in time from break to break.
+    """Time and angle of a run-up, by time steps between discontinuities.
 
-    **Range** rigid links, rotation in one sense, no more than some sixty cycles.
+    **Range** rigid links, rotation in one sense, at most about sixty cycles.
     **Error** as `steady`.
     **Source** as `steady`.
     """
@@ -299,11 +299,11 @@ def _stage(machine: Machine, stage: int, time: float, w: float) -> int:
 
 
 def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-out from the steady cycle: from an angle, or at the worst of many at once.
+    """Time and angle of a stop from the steady cycle: from a given angle, or from the worst of many angles.
 
-    **Range** rigid links, no useful load in it; the worst angle by narrowing down around the best of 32.
-    **Error** three times what two runs differ by, of a step and of half of it, with three
-    times what the last narrowing has changed.
+    **Range** rigid links, no useful load; the worst angle by refinement around the worst of 32 angles.
+    **Error** three times the difference of two runs with one step and half of it, plus three times the change by the
+    last refinement.
     **Source** the classical Runge-Kutta method; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I.
     """
     machine, braked = _machine(spec, scene, carried), is_braked(spec, scene)

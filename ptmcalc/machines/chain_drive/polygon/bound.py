@@ -14,7 +14,7 @@ from ptmcalc.machines.chain_drive.strength import OF_TENSION, loads_of_tension
 def run(spec: ChainDrive, scene: Run, carried: frozenset[str], level: int) -> Result:
     """Upper bound of the tension added by the polygon effect.
 
-        S <= sum |D(w_n)| |b_n|/w_n^2,   w_n = 2 pi n V/p,   and what lies behind the last harmonic
+        S <= sum |D(w_n)| |b_n|/w_n^2,   w_n = 2 pi n V/p,   plus the remainder after the last harmonic
 
     **Range** linear taut strands with any end conditions; infinite at a resonance without damping.
     **Error** a bound: up to twice the maximum tension near a resonance and several times that tension between two

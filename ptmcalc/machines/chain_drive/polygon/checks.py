@@ -119,7 +119,7 @@ def _pressure_limit(spec: ChainDrive, scene: Run) -> Estimate:
 
     **Range** 20 to 30 MPa is usual, less for fast chains and poor lubrication.
     **Error** none: a chosen limit.
-    **Source** chain makers' handbooks.
+    **Source** chain manufacturers' handbooks.
     """
     asked = spec.checks.joint_pressure
     return Estimate.exact(math.inf if asked is None else asked)

@@ -279,7 +279,7 @@ def _power_limit(spec: ChainDrive, scene: Run) -> Estimate:
     """Rated power of the chain from the manufacturer's chart.
 
     **Range** one chain on 19 teeth at the speed of the file.
-    **Error** none: the maker's figure.
+    **Error** none: the manufacturer's figure.
     **Source** rating charts after ISO 10823.
     """
     rated = spec.layout.rated_power if isinstance(spec.layout, TwoShafts) else None

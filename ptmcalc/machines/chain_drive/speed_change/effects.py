@@ -84,7 +84,7 @@ def elastic_bound(spec: ChainDrive, scene: ChainScene, loads: Loads) -> Offsets:
 
         start: S_static + a r - a b g <= S <= S_static + a r + a b g,   phase by phase
         stop:  S_static + min(0, -a r) - b sum |da| <= S <= S_static + max(0, -a r) + b sum |da|
-               S_ov <= 2 m a with a constant tension at the run-off, a (|r| + b) at either end of a fixed loop
+               S_ov <= 2 m a with a constant leaving tension, a (|r| + b) at either end of a fixed loop
 
     **Range** a taut chain that slides forward, any tail mass and jump of impedance, any internal damping; a take-up
     without mass. If the interval reaches below 0, the chain may go slack and no bound exists. No bound exists for a
@@ -219,7 +219,7 @@ def modes_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
 def sticking_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     """Ratio of the resistance of a relaxed chain to the accelerating force.
 
-        W/(m a);   0 for a start with the tensions of the running chain in it
+        W/(m a);   0 for a start with the running tensions
 
     **Range** any start. A chain that starts with its running tensions slides forward from the beginning.
     **Error** exact.
@@ -236,7 +236,7 @@ def sticking_criterion(spec: ChainDrive, scene: Start) -> Criterion:
 def sticking_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     """Zero for a chain with its running tensions; no bound for a relaxed chain.
 
-        the drive winds the chain up before its load breaks loose: no sum of modes holds that
+        the drive tightens the chain before its load breaks away: no superposition of modes describes this
 
     **Range** any start.
     **Error** exact for the first case, none for the second.
@@ -278,7 +278,7 @@ def _weight_numbers(spec: ChainDrive, case: StartCase) -> tuple[float, float]:
 def weight_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
     """Change of any tension if the inertia of the take-up weight is neglected.
 
-        run-on, by its dynamic part:  d = 3 (M a_0/4 + kappa a M_chain)
+        entering tension, by its dynamic part:  d = 3 (M a_0/4 + kappa a M_chain)
         any other:                    d = T_0 (3.4 a_0/(2 g) + kappa)
 
     The motion is linear; the change due to the weight is proportional to the starting force.

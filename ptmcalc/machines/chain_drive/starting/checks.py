@@ -118,7 +118,7 @@ def _safety_limit(spec: ChainDrive, scene: Start) -> Estimate:
 
     **Range** starts and stops, which are rare compared with tooth engagements.
     **Error** none: a chosen limit.
-    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
     """
     return Estimate.exact(spec.checks.safety_start)
 

@@ -141,7 +141,7 @@ def _torque_limit(spec: ChainDrive, scene: Stopping) -> Estimate:
 
     **Range** a brake at full torque; the stopping distance (CHN124) includes delay and rise.
     **Error** none for a brake on the motor shaft; on the sprocket shaft the gear losses are neglected.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     brake = acting_brake(spec, scene)
     if brake is None:
@@ -215,7 +215,7 @@ def _safety_limit(spec: ChainDrive, scene: ChainScene) -> Estimate:
 
     **Range** stops and speed changes, which are rare compared with tooth engagements.
     **Error** none: a chosen limit.
-    **Source** makers of conveyor chains: 5 and more for short peaks; handbooks differ.
+    **Source** manufacturers of conveyor chains: 5 and more for short peaks; handbooks differ.
     """
     return Estimate.exact(spec.checks.safety_start)
 

@@ -106,7 +106,7 @@ def _stroke_limit(spec: Conveyor, scene: Run) -> Estimate:
 
     **Range** any take-up with a given stroke.
     **Error** none.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     return Estimate.exact(spec.takeup.stroke or math.inf)
 

@@ -53,7 +53,7 @@ def curve_number(spec: SlewingCrane, path: KeyPath) -> KeyPath:
 
 
 def _reserve_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Least starting torque over that of steady slewing, 1.1 by default.
+    """Minimum ratio of starting torque to steady slewing torque, 1.1 by default.
 
     **Range** motors that start against friction, steady wind and slope.
     **Error** none: an engineering rule.
@@ -85,7 +85,7 @@ STALL: OneCheck = Check(
 
 
 def _longest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Longest start, 10 s by default.
+    """Maximum starting time, 10 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule; 4 to 10 s are usual.
@@ -117,9 +117,9 @@ SLOW: OneCheck = only(reaches)(
 
 
 def _at_least_steady(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """As much torque as steady slewing takes.
+    """The steady slewing torque.
 
-    **Range** curves over speed, from standstill to the speed of the crane.
+    **Range** torque-speed curves, from standstill to the slewing speed.
     **Error** none: a balance of torques.
     **Source** balance of torques about the slewing axis.
     """
@@ -150,7 +150,7 @@ SPEED: OneCheck = only(lambda spec, scene: model.least_torque(spec, scene) is no
 
 
 def _shortest_start(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Shortest start, 1 s by default.
+    """Minimum starting time, 1 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule.
@@ -181,11 +181,11 @@ HARSH: OneCheck = only(turns)(
 
 
 def _whole_rotation(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The whole rotation.
+    """The whole slewing angle.
 
     **Range** any rotation.
     **Error** none: a definition.
-    **Source** start and stop end in one rotation.
+    **Source** start and stop are parts of one slewing motion.
     """
     return Estimate.exact(1.0)
 
@@ -214,7 +214,7 @@ SHORT: OneCheck = only(turns)(
 
 
 def _allowed_angle(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Allowed angle of a stop, of the file.
+    """Permissible stopping angle, given in the file.
 
     **Range** 15 deg in light duty.
     **Error** none: a given value.
@@ -246,7 +246,7 @@ BRAKE_ANGLE: OneCheck = only(starts)(
 
 
 def _longest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Longest stop, 10 s by default.
+    """Maximum stopping time, 10 s by default.
 
     **Range** slewing cranes in service.
     **Error** none: an engineering rule.
@@ -280,9 +280,9 @@ BRAKE_TIME: OneCheck = only(starts)(
 
 
 def _shortest_stop(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Shortest stop, 1 s by default.
+    """Minimum stopping time, 1 s by default.
 
-    **Range** slewing cranes in service; an emergency stop may be harder.
+    **Range** slewing cranes in service; an emergency stop may be shorter.
     **Error** none: an engineering rule.
     **Source** handbooks of lifting machines.
     """
@@ -317,9 +317,9 @@ def _rating(spec: SlewingCrane, scene: SlewingScene) -> KeyPath:
 
 
 def _all_of_it(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """All that the rating allows.
+    """The full rating.
 
-    **Range** ratings of the maker.
+    **Range** ratings of the manufacturer.
     **Error** none: a definition.
     **Source** IEC 60034-1; catalogues.
     """
@@ -349,11 +349,11 @@ HEATING: OneCheck = only(turns)(
 
 
 def _largest_torque(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Most the motors may be loaded with for a short time, all of them.
+    """Permissible short-time torque of all motors together.
 
-    **Range** the maker's overload limit.
+    **Range** the manufacturer's overload limit.
     **Error** none: a given value.
-    **Source** the maker's data.
+    **Source** the manufacturer's data.
     """
     most = spec.motor.largest_torque
     return Estimate.exact(math.inf if most is None else spec.motor.count * most)
@@ -381,11 +381,11 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
 
 
 def _gearbox_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Torque that the gearbox bears on its fast shaft, in its group of the mechanism.
+    """Rated torque of the gearbox at its input shaft, for its mechanism group.
 
-    **Range** the catalogue's rating at the speed of the motor.
+    **Range** the catalogue rating at the motor speed.
     **Error** none: a given value.
-    **Source** the maker's catalogue.
+    **Source** the manufacturer's catalogue.
     """
     rated = spec.gear.rated_torque
     return Estimate.exact(math.inf if rated is None else rated)
@@ -414,9 +414,9 @@ GEARBOX: OneCheck = only(lambda spec, scene: spec.gear.rated_torque is not None)
 
 
 def _pinion_rating(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Torque that the open pinion bears for its life.
+    """Permissible torque of the open pinion for its service life.
 
-    **Range** of the designer's own calculation of the teeth.
+    **Range** from the designer's calculation of the teeth.
     **Error** none: a given value.
     **Source** the file.
     """
@@ -481,9 +481,9 @@ LOCKS: OneCheck = only(_driven_back)(
 
 
 def _holding(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Least torque over that of the largest wind in service, 1 by default.
+    """Minimum ratio of the torque to that of the maximum in-service wind, 1 by default.
 
-    **Range** wind in service; out of service cranes turn freely or are locked.
+    **Range** in-service wind; out of service the crane slews freely or is locked.
     **Error** none: an engineering rule.
     **Source** handbooks of lifting machines; FEM 1.001 and EN 13001-2 for the wind itself.
     """
@@ -528,10 +528,10 @@ WIND_MOTOR: OneCheck = only(_blown)(
 
 
 def _overhauling_limit(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Braking torque of the motors at least that with which wind and slope drive them.
+    """1: the braking torque of the motors is at least the overhauling torque of wind and slope.
 
-    **Range** motors of which the file gives a curve.
-    **Error** none: a balance.
+    **Range** motors with a curve in the file.
+    **Error** none: an equilibrium.
     **Source** balance of torques about the slewing axis.
     """
     return Estimate.exact(1.0)

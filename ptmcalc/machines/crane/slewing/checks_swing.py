@@ -12,9 +12,9 @@ from ptmcalc.machines.crane.slewing.spec import SlewingCrane, SlewingScene
 
 
 def _allowed_sway(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """Largest angle of the load's rope, 10 deg by default.
+    """Maximum angle of the hoist rope, 10 deg by default.
 
-    **Range** an agreement between maker and user; grabs and containers ask less.
+    **Range** an agreement between manufacturer and user; grabs and containers require less.
     **Error** none: an engineering rule.
     **Source** practice of cranes: 3 to 10 deg in service.
     """
@@ -87,11 +87,11 @@ TANGENTIAL: OneCheck = only(_swings)(
 
 
 def _curve(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """What the limiting load curve of the catalogue allows at this axial force.
+    """Permissible moment of the limiting load curve of the catalogue at this axial force.
 
-    **Range** straight between the points of the curve; nothing beyond the last one.
+    **Range** linear between the points of the curve; zero beyond the last point.
     **Error** none: a given curve.
-    **Source** the maker's catalogue.
+    **Source** the manufacturer's catalogue.
     """
     return Estimate.exact(1.0)
 
@@ -121,7 +121,7 @@ RING: OneCheck = only(lambda spec, scene: spec.ring.curve is not None)(
 
 
 def _group(spec: SlewingCrane, scene: SlewingScene) -> Estimate:
-    """The declared group of the crane.
+    """Declared crane group.
 
     **Range** A1 to A8.
     **Error** none: a given class.

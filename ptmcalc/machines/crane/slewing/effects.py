@@ -52,13 +52,13 @@ _BY_DIRECTION = (
 
 
 def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How far the direction of the power moves the torques of the gear in the stop.
+    """Influence of the direction of power on the gear torques in the stop.
 
         (1 - eta) M_in/M_steady
 
     **Range** every rotation.
     **Error** an engineering measure.
-    **Source** theory of reduction: the efficiency goes by the direction of the power through the mesh.
+    **Source** theory of reduction: the efficiency depends on the direction of the power flow through the gear.
     """
     inertia = model.slew_inertia(spec, scene) * spec.speed / chain.allowed_stop(spec)[0]
     steady = model.steady_torque(spec, scene)
@@ -70,12 +70,12 @@ def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
 
 
 def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What the torques of the stop are when the brake holds the rotor and the losses help: the difference itself.
+    """Change of the torques of the stop if the brake acts on the rotor and the losses help: the exact difference.
 
         M_brake: less gamma J_1 u^2 eta w/t_b;   M_worm of the stop: M eta_r/u instead of M/(u eta)
 
-    **Range** torques of an even stop over the allowed angle.
-    **Error** exact: it is computed both ways.
+    **Range** torques of a uniform stop over the permissible angle.
+    **Error** exact: both cases are computed.
     **Source** power balance of the mesh; `laws.gearing`.
     """
     start, at_column, _ = start_of(spec, scene)
@@ -95,7 +95,7 @@ def direction_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Of
 
 
 def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How far the motor's torque departs from its mean on the way up.
+    """Relative range of the motor torque up to full speed.
 
         (M_max - M_min)/M_mean
 
@@ -109,13 +109,13 @@ def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
 
 
 def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """The start lies between those with the smallest and with the largest torque of the curve.
+    """The starting time is between those with the minimum and with the maximum torque of the curve.
 
         J w/(M_max - M_r) <= t_s <= J w/(M_min - M_r)
 
-    **Range** a start time of the rigid crane; anything where the smallest torque does not turn the crane, and of a run
-    in which the load swings: another start leaves it another swing, with which the stop begins.
-    **Error** a bound: the momentum given grows faster than with M_min, slower than with M_max.
+    **Range** the starting time of the rigid crane; unbounded if the minimum torque does not turn the crane, and for a
+    run with load sway: a different start leaves a different sway for the stop.
+    **Error** a bound: the angular momentum increases faster than with M_min and more slowly than with M_max.
     **Source** change of angular momentum.
     """
     spread = model.torque_range(spec, scene)
@@ -134,7 +134,7 @@ def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
 
 
 def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
-    """How much of the torque that accelerates the crane a gust takes.
+    """Share of the accelerating torque that a gust consumes.
 
         M_gust/(M_start - M_steady)
 
@@ -149,13 +149,13 @@ def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
 
 
 def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """A gust against the start holds it up at most as if it lasted.
+    """A gust delays the start at most as much as a steady wind of its strength.
 
         t_s <= J w/(M_start - M_steady - M_gust)
 
-    **Range** a start time of the rigid crane; anything where the gust stops it, and of a run in which the load swings:
-    another start leaves it another swing, with which the stop begins.
-    **Error** a bound: the gust is never stronger than that, and never helps.
+    **Range** the starting time of the rigid crane; unbounded if the gust stops the crane, and for a run with load sway:
+    a different start leaves a different sway for the stop.
+    **Error** a bound: the gust is never stronger and never helps.
     **Source** change of angular momentum.
     """
     gust = spec.wind.gust_torque
@@ -181,12 +181,12 @@ def _hangs(spec: SlewingCrane, scene: SlewingScene) -> bool:
 
 
 def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load swings behind the jib.
+    """Sway angle of the load behind the jib.
 
         2 a/g,   a = R w/t of the start or of the stop, whichever is the shorter
 
     **Range** loads on a rope of known length.
-    **Error** an engineering measure: below 0.02 the load moves as one with the jib.
+    **Error** an engineering measure: below 0.02 the load moves with the jib.
     **Source** pendulum under a constant acceleration, 2 atan(a/g).
     """
     if not _hangs(spec, scene):
@@ -199,18 +199,18 @@ def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None
 
 
 def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What a swinging load can do to start, stop and ring, however it swings.
+    """Bounds of start, stop and slewing ring loads for any sway of the load.
 
         start:  t_s = (J' w + h)/N,   h = m rho w (rho -+ (rho^2 + J'/m)^(1/2))       (`laws.slewing.momentum_range`)
         stop:   beta_b <= beta_c + E/(M_B u + M_r),   t_b <= t_c + (J' w + h - h_end)/(M_B u eta + M_r)
         ring:   V <= m (g + w_rel^2/L + w^2 R + a R)
 
-    E is the largest energy of crane and load as the stop begins, t_c delay and rise of the brake.
+    E is the maximum energy of crane and load at the start of the stop, t_c the delay and rise time of the brake.
 
-    **Range** a start in which the motor never ceases to drive, which is proved from the largest pull of the rope; a
-    stop whose brake outweighs the wind; anything else is unbounded.
-    **Error** a bound, derived: never exceeded in that model. That of the ring is wide: more than three times what any
-    crane of the seeded sample showed of its axial force and its moment.
+    **Range** a start in which the motor drives throughout, proved by the maximum rope force; a stop with a brake torque
+    above the wind torque; otherwise unbounded.
+    **Error** a derived bound. The bound of the ring is wide: more than three times the axial force and moment of any
+    crane of the seeded sample.
     **Source** derived: Jacobi's integral of the load, energy and angular momentum of the crane.
     """
     if not _hangs(spec, scene):
@@ -219,7 +219,7 @@ def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offset
 
 
 def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None:
-    """How far the load hangs out in steady slewing.
+    """Radial sway angle of the load in steady slewing.
 
         w^2 R/g
 
@@ -235,12 +235,12 @@ def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion 
 
 
 def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
-    """What the lean of the load adds to the radial force of the ring, and to its moment at the head of the jib.
+    """Radial ring force, and ring moment at the jib head, added by the radial sway of the load.
 
         dH = m w^2 L sin(theta),   tan(theta) = w^2 (R + L sin(theta))/g;   dM = dH h
 
-    **Range** steady slewing; what it does beside the swing of start and stop lies inside the bound of that.
-    **Error** exact for the steady lean.
+    **Range** steady slewing; the bound of the load sway covers start and stop.
+    **Error** exact for the steady angle.
     **Source** `laws.pendulum.slewing_lean`.
     """
     load = spec.load

@@ -55,13 +55,13 @@ class _Course(Course):
 
 
 def run(spec: Travelling, scene: Moving, carried: frozenset[str], level: int) -> Result:
-    """A whole start or stop with the load in Cartesian coordinates, twice.
+    """A complete start or stop with the load in Cartesian coordinates, computed twice.
 
         d'' = g + f/M - x'' e + lambda d,   (m + k m_r) x'' = k F - W - M (lambda d).e
 
-    **Range** as the simulated start: a taut rope without mass, one plane, wheels that do not slide.
-    **Error** three times what two runs differ by, the second with a hundredth of the tolerance of the first and shorter
-    steps; extremes by looks that close in on the highest of 17 in a step.
+    **Range** as the simulated start: a taut massless rope, one plane, wheels without slip.
+    **Error** three times the difference of two runs, the second with a hundredth of the tolerance of the first and
+    shorter steps; extremes by refined sampling around the maximum of 17 samples per step.
     **Source** the load's equation with the rope as a constraint; Hairer, Nørsett and Wanner, Solving Ordinary
     Differential Equations I, 2nd ed.
     """

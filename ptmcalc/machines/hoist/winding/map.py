@@ -21,14 +21,14 @@ from ptmcalc.numerics.hauling import haul
 
 
 def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Result:
-    """Stretch and stress of the rope from the climb to the end of the layer, or until the hook is up.
+    """Elongation and stress of the rope from the layer change to the end of the layer, or to the highest hook position.
 
         (s e')' + 2 zeta (kappa s)^(1/2) e' + kappa e = V',   V = w R(f),   s' = -V/(1 + e_0)
 
-    R goes straight between the corners of `laws.winding.winding_radius`.
+    R is linear between the corners of `laws.winding.winding_radius`.
 
-    **Range** a load that hung still before the climb, an even drum, a rope without mass that stays taut.
-    **Error** told: `numerics.hauling`.
+    **Range** a load at rest before the layer change, constant drum speed, a taut massless rope.
+    **Error** stated in `numerics.hauling`.
     **Source** `numerics.hauling`.
 
     Raises:

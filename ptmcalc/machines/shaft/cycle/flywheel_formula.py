@@ -16,14 +16,14 @@ from ptmcalc.machines.shaft.spec import Shaft, Steady
 
 
 def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Result:
-    """Irregularity and inertia to be added, from the swing of the work under a constant motor torque.
+    """Speed fluctuation and additional inertia from the work fluctuation under a constant motor torque.
 
         delta = Delta_A/(J w^2),   J_f = Delta_A/(delta w^2) - J
 
-    w is the mean speed of the steady cycle, J the smallest inertia over the angle: what changes is left out.
+    w is the mean speed of the steady cycle, J the minimum inertia over the angle: the variable part is neglected.
 
-    **Range** a motor whose torque does not follow the speed within the cycle; small changes of the inertia.
-    **Error** no bound: with a working motor slope half as much again as is needed. It never decides.
+    **Range** a motor with a torque independent of the speed within the cycle; small changes of the inertia.
+    **Error** no bound: with an active motor slope the inertia is 50 % too large. The formula never decides a verdict.
     **Source** `laws.shaft.flywheel_inertia`.
     """
     cycle = cycle_of(spec, scene.load)

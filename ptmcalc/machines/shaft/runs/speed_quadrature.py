@@ -17,11 +17,11 @@ from ptmcalc.machines.shaft.spec import RunUp, Shaft
 
 
 def run(spec: Shaft, scene: RunUp, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up with the mean inertia against the mean of the torques over the angle.
+    """Time and angle of a run-up with the mean inertia and the mean torques over the angle.
 
         t = integral of J dw/(D(w) - b w - R),   phi = integral of w dt
 
-    **Range** a motor whose torque depends on its speed alone, and that drives all the way.
+    **Range** a motor with a torque that depends on its speed alone and drives throughout.
     **Error** the load anywhere between its extremes over the angle is the bar; infinite where one of them stalls the
     motor. The quadrature itself is good to ten digits.
     **Source** Newton's law, separated.

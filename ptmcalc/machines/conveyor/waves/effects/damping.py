@@ -34,7 +34,7 @@ of 360 machines was 0.55. A smaller value loses the safety of the bound; a large
 def damping_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """Frequency shift of the slowest wave due to the belt damping.
 
-        d = |EA*/EA - 1|/2 at w = pi/(2 T);   infinite in a jam, whose front holds every frequency
+        d = |EA*/EA - 1|/2 at w = pi/(2 T);   infinite in a jam, whose front contains every frequency
 
     **Range** a file that gives `belt.damping`; not an instantaneous jam of a Kelvin-Voigt belt, whose response to a
     speed jump is an infinite force.
@@ -57,9 +57,9 @@ def jumps(spec: Conveyor, scene: ConveyorScene) -> bool:
 def damping_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension if the belt is assumed undamped.
 
-        c = min(k sqrt(d (1 + n)), 2) (S_max - S_min)/2,   n the contour times of the window
-        k = T/t_r a start of a running profile that rises over t_r, a contour time T at least; else 6, and 3 at a drum
-            while its grip is worst
+        c = min(k sqrt(d (1 + n)), 2) (S_max - S_min)/2,   n wave circuits in the window
+        k = T/t_r a start of a running profile that rises over t_r, at least one wave circuit T; else 6, and 3
+            at a pulley at its worst traction
 
     After n circuits a front is about sqrt(d n) of the loop wide, and peaks result from fronts that meet. A rise of one
     wave circuit or longer produces no front but a slope; damping rounds its corners only, by the rise relative to the

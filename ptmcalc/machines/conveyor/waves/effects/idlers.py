@@ -40,7 +40,7 @@ was 1.5, of the leaving tension. A smaller value loses the safety of the bound; 
 def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Ratio of the idler friction to the accelerating force of the belt.
 
-        W_idlers/(m_belt a);   0 for a start of a belt with the running friction frozen in it
+        W_idlers/(m_belt a);   0 for a start with the running tensions
 
     **Range** any scene in motion. A belt that starts with its running tensions slides forward from the beginning,
     unless an imposed speed rises so fast that waves reverse it (`model.thrown_back`).
@@ -103,7 +103,7 @@ def speed_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
 def speed_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension if the whole resistance is assumed independent of the speed.
 
-        d = k s W_idlers,   k = 3 a start, 12 any other scene, 2 the lowest tensions and the grip of a stop
+        d = k s W_idlers,   k = 3 a start, 12 any other scene, 2 the minimum tensions and the traction of a stop
 
     At standstill W_idlers is too large by s W_idlers; a wave reflection may double this difference. A stop lasts longer
     with less resistance, and fronts that meet again before standstill add up. The minimum tensions and the worst

@@ -20,7 +20,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """Maximum traction utilisation of a pulley in the scene.
 
         U_b = (S_on - rho v^2)/((S_off - rho v^2) exp(mu alpha)) at the bounds of both sides       start, one drive
-        the same with the rigid body's tensions, the dynamic part twice, drum by drum             anything else
+        the same with the tensions of the rigid body, twice the dynamic part, each pulley   all other scenes
 
     **Range** given friction of the pulley.
     **Error** an upper bound in a start with one drive, else an estimate.
@@ -40,7 +40,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
 def slip_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """A belt that never reaches its traction limit never slips: zero change; otherwise unbounded.
 
-        U_max < 1 with its whole bar  =>  no change
+        U_max < 1 with its error bar  =>  no change
 
     **Range** any run that computes the utilisation.
     **Error** exact.

@@ -52,7 +52,7 @@ def _force_on_drum(spec: Conveyor, scene: ConveyorScene, line: BeltLine) -> floa
 def takeup_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of any tension if the inertia of the take-up weight is neglected.
 
-        d = k T_0 a_0/(2 g),   k = 9, and 3 at a drum while its grip is worst
+        d = k T_0 a_0/(2 g),   k = 9, and 3 at a pulley at its worst traction
 
     The weight moves by half of the displacement difference of the belt ends at the take-up. Its inertia force is
     proportional to its acceleration, which in a linear belt is proportional to that of the pulley alone, a_0. Echoes

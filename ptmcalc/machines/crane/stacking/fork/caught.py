@@ -22,12 +22,12 @@ _MARKS = frozenset({"combination_force"})
 
 
 def handbook(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """The formula of a motor that pulls as much as the weight.
+    """Formula for a motor force equal to the weight.
 
         F = Q + v (K m_1)^(1/2)
 
-    **Range** a carriage that the rack stops dead.
-    **Error** no bound: a motor at its largest torque pulls more, a rack that gives throws the carriage back.
+    **Range** a carriage that the rack stops at once.
+    **Error** no bound: a motor at its maximum torque pulls more; an elastic rack rebounds the carriage.
     **Source** energy of the drive; lecture notes Kramatorsk 2007 name the event, not the formula.
     """
     case = catch_of(spec, scene)
@@ -37,11 +37,11 @@ def handbook(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: i
 
 
 def stopped(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """The largest force of the motor, all the way, on a carriage that the rack stops dead.
+    """Maximum motor force throughout, on a carriage that the rack stops at once.
 
         F = P + ((P - Q)^2 + K m_1 v^2)^(1/2)
 
-    **Range** every caught fork; what a soft motor, a limiter and a rack that gives change is bounded by their effects.
+    **Range** every snagged fork; the effects bound the influence of motor slope, limiter and rack elasticity.
     **Error** exact for that motor and rack.
     **Source** energy of the drive, `laws.fork.caught_force`.
     """
@@ -63,15 +63,16 @@ def too_weak(spec: Stacker, scene: ForkCaught, case: Catch) -> tuple[Finding, ..
 
 
 def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -> Result:
-    """Drive, rope, carriage and rack, exact from event to event.
+    """Drive, rope, carriage and rack, exact between events.
 
         m_1 x'' = P(x') - F,   M y'' = F - Q - R,   F = max(0, Q + K (x - y)),   R = max(0, K_r y),
         P = min(P_max, Q + h (v - x')); after the limiter has tripped and reacted P = 0 and a brake holds
 
-    Looked at for six periods of its slowest vibration: the rope may go slack and the rack throw the carriage back.
+    Simulated for six periods of the slowest vibration: the rope may go slack, and the rack may rebound the carriage.
 
-    **Range** a rope and a rack without mass or damping; a brake that grips at once and sticks.
-    **Error** exact between events; bars from runs that divide time otherwise, trusted only if the energy ledger closes.
+    **Range** a rope and a rack without mass or damping; a brake that acts at once and holds.
+    **Error** exact between events; error bars from runs with other time steps, accepted only if the energy balance
+    closes.
     **Source** `numerics.train`; the equations of theory and case C20.
     """
     whole = catch_of(spec, scene)

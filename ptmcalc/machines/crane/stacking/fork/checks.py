@@ -22,7 +22,7 @@ PUSHES: frozenset[type[Scene]] = frozenset({ForkPush})
 
 
 def _factor_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the ropes over the weight with which the hoist has been calculated.
+    """Design factor of the hoist: permissible ratio of rope force to weight.
 
     **Range** any hoist.
     **Error** none: a limit of the file.
@@ -46,10 +46,10 @@ def _hoist_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 
 def _of_rated(spec: Stacker, scene: StackerScene, loads: Mapping[str, Estimate]) -> Estimate:
-    """Force of the ropes over the weight with the rated load, whatever is on the fork: the hoist is built for that.
+    """Ratio of the rope force to the weight of carriage and rated load, for any load on the fork.
 
     **Range** any load on the fork; the weight is that of carriage and rated load.
-    **Error** that of the force, over the weight.
+    **Error** that of the force, relative to the weight.
     **Source** lecture notes Kramatorsk 2007, tables 11.1 and 11.2.
     """
     one = loads["rope_force_caught"]
@@ -83,11 +83,11 @@ FACTOR: OneCheck = only(lambda spec, scene: spec.checks.fork_caught_factor is no
 
 
 def _rope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Breaking force of all falls together.
+    """Breaking force of all rope falls together.
 
-    **Range** falls that share evenly.
+    **Range** falls with equal shares of the load.
     **Error** none: a limit of the file.
-    **Source** the maker of the rope.
+    **Source** the manufacturer of the rope.
     """
     rope = spec.hoisting.rope
     return given(None if rope.breaking_force is None else rope.falls * rope.breaking_force)
@@ -115,11 +115,11 @@ ROPE: OneCheck = Check(
 
 
 def _rack_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the lifting fork on the rack.
+    """Permissible uplift of the fork on the rack.
 
     **Range** any rack.
     **Error** none: a limit of the file.
-    **Source** the maker of the rack.
+    **Source** the manufacturer of the rack.
     """
     return given(spec.rack.rating_vertical)
 
@@ -148,11 +148,11 @@ RACK: OneCheck = only(
 
 
 def _push_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the pushing fork on the rack.
+    """Permissible thrust of the fork on the rack.
 
     **Range** any rack.
     **Error** none: a limit of the file.
-    **Source** the maker of the rack.
+    **Source** the manufacturer of the rack.
     """
     return given(spec.rack.rating_push)
 
@@ -177,11 +177,11 @@ PUSH: OneCheck = Check(
 
 
 def _telescope_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the telescope.
+    """Permissible thrust of the telescopic fork.
 
     **Range** any fork.
     **Error** none: a limit of the file.
-    **Source** the maker of the fork.
+    **Source** the manufacturer of the fork.
     """
     return given(spec.fork.rating if spec.fork is not None else None)
 
@@ -220,7 +220,7 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
 
 
 def _limiter_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The limiter trips above what normal hoisting asks.
+    """1: the limiter trips above the force of normal hoisting.
 
     **Range** any limiter.
     **Error** none: statics.

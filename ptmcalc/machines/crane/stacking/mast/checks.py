@@ -41,11 +41,11 @@ def _rate_repair(spec: Stacker, scene: StackerScene) -> KeyPath:
 
 
 def _deflection_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest swing of the far end of the column that the file allows.
+    """Permissible dynamic deflection of the mast tip, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
-    **Source** the file: the formula of the lecture notes is lost, and no other is known.
+    **Source** the file: the lecture notes do not contain the formula, and no other source is known.
     """
     return given(spec.checks.mast_deflection)
 
@@ -76,7 +76,7 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
 
 
 def _force_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force of the column on what holds it that the file allows.
+    """Permissible mast force on its support, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -115,11 +115,11 @@ PULL: OneCheck = only(_asks_force)(
 
 
 def _wait_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Longest wait for the column to stay in the window, from the standstill on.
+    """Permissible settling time of the mast into the positioning tolerance, from standstill.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
-    **Source** the file: no standard fixes it.
+    **Source** the file: no standard specifies it.
     """
     return given(spec.settling.wait)
 
@@ -163,7 +163,7 @@ SETTLES: OneCheck = only(_asks_wait)(
 
 
 def _window_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """The window of the fork to either side.
+    """The positioning tolerance of the fork to either side.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -228,7 +228,7 @@ BLOW: OneCheck = only(_asks_force)(
 
 
 def _contact_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest force between the column and an obstacle that the file allows.
+    """Permissible contact force between mast and obstacle, given in the file.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.
@@ -263,7 +263,7 @@ STRUCK: OneCheck = only(_asks_contact)(
 
 
 def _speed_limit(spec: Stacker, scene: StackerScene) -> Estimate:
-    """Largest speed at which an obstacle may be met.
+    """Permissible collision speed.
 
     **Range** any stacker crane.
     **Error** none: a limit of the file.

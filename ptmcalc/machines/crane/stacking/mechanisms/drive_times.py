@@ -10,12 +10,13 @@ from ptmcalc.machines.crane.stacking.spec import Stacker
 
 
 def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Result:
-    """Time of a start or a stop, by the momentum of all that travels; starts per hour over the permitted ones.
+    """Starting or stopping time from the momentum of the travelling masses; ratio of starts per hour to permitted
+    starts.
 
         t = v/a + t_r  of a ramp,   M v = integral of P  of a force
 
     **Range** as `starts.time`.
-    **Error** the swing of the column: bounded in the bar.
+    **Error** the error bar bounds the mast oscillation.
     **Source** momentum (`starts.time`).
     """
     name = "brake_time" if isinstance(scene, Brake) else "start_time"
