@@ -58,7 +58,7 @@ def inertia_bound(spec: Shaft, scene: ShaftScene, loads: Loads) -> Offsets:
 
         steady:   delta from x = 2 T/J with T and J anywhere in their ranges, (w_max + w_min)/2 = w_0
         run-up:   J_low/(D - R_low - J'_low w^2/2) <= dt/dw <= J_high/(D - R_high - J'_high w^2/2)
-        run-out:  delay, rise and viscous torque at both ends of the rate of the reduced time
+        stop:     delay, rise and viscous torque at both ends of the rate of the reduced time
 
     **Range** q below 0.05; unbounded above, and if the power flow through the gear may reverse.
     **Error** a bound.

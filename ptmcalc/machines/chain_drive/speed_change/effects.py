@@ -320,7 +320,7 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
     """Upper bound of the tension added to the entering strand by the teeth during a speed change, relative to the
     static tension.
 
-        P/S_static,   P of `passing.Passing.teeth_bound`;   infinite where the run-on has no tension
+        P/S_static,   P of `passing.Passing.teeth_bound`;   infinite if the entering strand has no tension
 
     **Range** any start and any range of speeds; infinite with a driven tail and on a motor curve.
     **Error** an upper bound.

@@ -13,7 +13,7 @@ def run(spec: Hoist, scene: Moving, carried: frozenset[str], level: int) -> Resu
     """Loads of a scene with the rope as a rod between drum and load.
 
         F = f(t - x/c) + g(t + x/c),   v = (f - g)/Z,   Z = (K m_r)^(1/2),   transit (m_r/K)^(1/2)
-        F_top = Z (v_drum - z') + 2 g,   F_load = 2 f - Z v_load;   forces are the largest and smallest of the rope
+        F_top = Z (v_drum - z') + 2 g,   F_load = 2 f - Z v_load;   forces are the maximum and minimum along the rope
 
     At the start of a lift the rope is at rest and the drum runs, so that the rope end starts the first wave. The solver
     includes the inertia of the rope, not its weight, which the loads of steady motion include.

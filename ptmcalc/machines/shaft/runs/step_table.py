@@ -29,13 +29,13 @@ machines, a larger one allows longer runs. No verdict depends on it."""
 
 
 def run(spec: Shaft, scene: Scene, carried: frozenset[str], level: int) -> Result:
-    """Time and angle of a run-up or a run-out by steps of constant acceleration (6.1).
+    """Time and angle of a run-up or a stop by steps of constant acceleration (6.1).
 
         w_(i+1) = w_i + eps_i dt,   phi_(i+1) = phi_i + w_i dt + eps_i dt^2/2
 
-    with dt = min(0.02 2 pi/w, 0.1 J/|dM/dw|) at the largest speed and the steepest fall of the motor's curve.
+    with dt = min(0.02 2 pi/w, 0.1 J/|dM/dw|) at the maximum speed and the steepest decrease of the motor curve.
 
-    **Range** any machine that comes to its end in 1500 steps.
+    **Range** any machine that reaches the end of its motion in 1500 steps.
     **Error** first order: the difference to steps of twice the length (Richardson) is shown as its bar; it is no bound
     and never decides.
     **Source** lecture notes Kramatorsk, chapter 6; step size from its section on accuracy.

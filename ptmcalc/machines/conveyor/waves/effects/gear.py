@@ -49,7 +49,7 @@ def _gear_change(spec: Conveyor, scene: ConveyorScene) -> GearChange:
 def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
     """Change of the loads of a stop if the gear losses change their side during the stop.
 
-        dS = 2 dF,   dF the largest difference of the gear's force;   dt, ds: 1.2 times those of the rigid conveyor
+        dS = 2 dF,   dF the maximum difference of the gear force;   dt, ds: 1.2 times those of the rigid conveyor
 
     A pulley that already slips keeps its traction.
 

@@ -23,7 +23,7 @@ def slip_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
         the same with the tensions of the rigid body, twice the dynamic part, each pulley   all other scenes
 
     **Range** given friction of the pulley.
-    **Error** an upper bound in a start with one drive, else an estimate.
+    **Error** an upper bound in a start with one drive, otherwise an estimate.
     **Source** Euler-Eytelwein (`laws.capstan`), tensions from `laws.loop_bounds`; the threshold is 1/k_T of the file.
     """
     if all(drive.drum.friction is None for drive in spec.all_drives.values()):

@@ -27,7 +27,7 @@ while its traction is worst. Calibrated: the largest value for `_TAKEUP_FACTOR` 
 def takeup_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Influence of the inertia of the take-up weight on the tension of the leaving strand.
 
-        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 of a rigid take-up
+        max(kappa/0.1, (a_0/g)/0.03),   kappa = T_0 w_1/(2 g Z_2),   a_0 = |F|/m_drive;   0 for a fixed take-up
 
     a_0 is the acceleration of the pulley alone, w_1 a lower bound of the lowest frequency.
 

@@ -38,7 +38,7 @@ def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """Maximum deviation of the tension from that of the rigid body, relative to the static tension of the same section.
 
         E = max over the belt of a b(s) g / S_static(s)           start
-        E = m_belt |a| / S_static,min                             stop, a the largest rigid deceleration
+        E = m_belt |a| / S_static,min                             stop, a the maximum rigid deceleration
         E = max(Z) v / S_static,min                               jam
 
     a b(s) is the bound for a torque step (`laws.loop_bounds.stray`), and g the share that remains with the profile
