@@ -102,29 +102,31 @@ class Law(StrEnum):
 
 ScenesOption = Annotated[list[str] | None, typer.Option("--scene", help="Only this scene; may be repeated.")]
 AccuracyOption = Annotated[str, typer.Option("--accuracy", help="Relative error of the governing loads, e.g. 1%.")]
-BudgetOption = Annotated[str, typer.Option("--budget", help="Predicted time each scene may take at most, e.g. 2s.")]
+BudgetOption = Annotated[str, typer.Option("--budget", help="Maximum predicted time of a scene, e.g. 2s.")]
 EffectsOption = Annotated[
     list[str] | None,
-    typer.Option("--effects", help="NAME=on|off|auto, replaces the setting of the file; may be repeated."),
+    typer.Option("--effects", help="NAME=on|off|auto; overrides the setting of the file; may be repeated."),
 ]
 ExcludeOption = Annotated[
     list[str] | None,
-    typer.Option("--exclude", metavar="PATTERN", help="Leave out of folders, as .gitignore writes it; repeatable."),
+    typer.Option("--exclude", metavar="PATTERN", help="Exclude files by a .gitignore pattern; may be repeated."),
 ]
 GitignoreOption = Annotated[
-    bool, typer.Option("--gitignore/--no-gitignore", help="Leave out of folders what their .gitignore leaves out.")
+    bool, typer.Option("--gitignore/--no-gitignore", help="Exclude the files that .gitignore excludes.")
 ]
 JobsOption = Annotated[
-    str, typer.Option("--jobs", "-j", metavar="auto|N", help="Processes; auto: all cores where the work is worth it.")
+    str,
+    typer.Option(
+        "--jobs", "-j", metavar="auto|N", help="Number of processes; auto: all cores if the work justifies them."
+    ),
 ]
 ShardOption = Annotated[
-    str, typer.Option("--shard", metavar="I/N", help="Every N-th file from the I-th; `merge` unites the reports.")
+    str,
+    typer.Option("--shard", metavar="I/N", help="Check every N-th file from the I-th; `merge` combines the reports."),
 ]
 StoreOption = Annotated[
     str,
-    typer.Option(
-        "--store", metavar="FILE", help="Keep results there, go on from them, re-use those of unchanged files."
-    ),
+    typer.Option("--store", metavar="FILE", help="Store results there; reuse the results of unchanged files."),
 ]
 ExecutorOption = Annotated[
     str,
@@ -135,12 +137,12 @@ ExecutorOption = Annotated[
     ),
 ]
 StudyBudgetOption = Annotated[
-    str, typer.Option("--budget", help="Predicted time of all points that need a run of their own, e.g. 5min.")
+    str, typer.Option("--budget", help="Maximum predicted time of all points that require separate runs, e.g. 5min.")
 ]
 RepairsOption = Annotated[
-    bool, typer.Option("--repairs/--no-repairs", help="Look for the value at which a failed check would pass.")
+    bool, typer.Option("--repairs/--no-repairs", help="Compute the value at which a failed check would pass.")
 ]
-ListOption = Annotated[ListFormat, typer.Option("--format", help="How to print.")]
+ListOption = Annotated[ListFormat, typer.Option("--format", help="Output format.")]
 
 
 def main() -> None:
@@ -231,7 +233,7 @@ def check(
     ],
     form: Annotated[
         CheckFormat | None,
-        typer.Option("--format", help="How to print; a table on a terminal, else plain lines."),
+        typer.Option("--format", help="Output format; a table on a terminal, otherwise plain lines."),
     ] = None,
     output: Annotated[
         list[str] | None,
@@ -239,7 +241,7 @@ def check(
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option("--verbose", "-v", help="The whole table: every load, check, effect, event and run."),
+        typer.Option("--verbose", "-v", help="The complete table: every load, check, effect, event and run."),
     ] = False,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
@@ -247,14 +249,14 @@ def check(
     budget: BudgetOption = "60 s",
     repairs: RepairsOption = True,
     validate_only: Annotated[
-        bool, typer.Option("--validate-only", help="Read and validate the files; compute nothing, judge nothing.")
+        bool, typer.Option("--validate-only", help="Read and validate the files without a computation.")
     ] = False,
     history: Annotated[
         list[str] | None,
         typer.Option(
             "--history",
             metavar="[FILE.csv]",
-            help="Loads over time: in the JSON, and in a file when one is named; may be repeated.",
+            help="Loads over time: in the JSON, and in a named CSV file; may be repeated.",
         ),
     ] = None,
     html: Annotated[
@@ -330,7 +332,7 @@ def check(
             say("ptmcalc: a history is in the JSON (--format json) or in a file (--history FILE.csv)\n", err=True)
         tallies = list(tallies_of(reports))
     if tallies and all(one.unchosen for one in tallies):
-        say("ptmcalc: no check is left by --select and --ignore; nothing was checked\n", err=True)
+        say("ptmcalc: --select and --ignore exclude all checks; nothing was checked\n", err=True)
     elif unchosen := sum(one.unchosen for one in tallies):
         files_are = "1 file has" if unchosen == 1 else f"{unchosen} files have"
         say(f"ptmcalc: {files_are} no check that --select and --ignore leave\n", err=True)
@@ -380,7 +382,7 @@ def _budget(text: str) -> float:
     except units.UnitError as error:
         raise UsageError(f"--budget: {error.reason}", error.hint) from None
     if seconds < 0:
-        raise UsageError(f"--budget: `{text}` is less than no time", "e.g. --budget 2s")
+        raise UsageError(f"--budget: `{text}` is negative", "e.g. --budget 2s")
     return seconds
 
 
@@ -388,7 +390,7 @@ def _budget(text: str) -> float:
 def merge(
     parts: Annotated[list[str], typer.Argument(help="JSON reports of the shards of a run, or their stores.")],
     output: Annotated[
-        str, typer.Option("--output", "-o", metavar="FILE", help="Where to; a report is printed when left out.")
+        str, typer.Option("--output", "-o", metavar="FILE", help="Output file; without it a report is printed.")
     ] = "",
 ) -> None:
     """Unite the JSON reports, or the stores, of the shards of a run.
@@ -402,10 +404,10 @@ def merge(
 
 @app.command()
 def diff(
-    old: Annotated[str, typer.Argument(help="A design file, a folder of them, or a JSON report, as it was.")],
-    new: Annotated[str, typer.Argument(help="The same as it is now.")],
+    old: Annotated[str, typer.Argument(help="Previous state: a design file, a folder of them, or a JSON report.")],
+    new: Annotated[str, typer.Argument(help="Present state.")],
     form: Annotated[
-        CostFormat, typer.Option("--format", help="How to print; markdown is a comment on a pull request.")
+        CostFormat, typer.Option("--format", help="Output format; markdown is a comment on a pull request.")
     ] = CostFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
@@ -446,20 +448,22 @@ def plan(
 def cost(
     paths: Annotated[list[str] | None, typer.Argument(help="Design files, and folders of them.")] = None,
     form: Annotated[
-        CostFormat, typer.Option("--format", help="How to print; markdown is the table of a line per file.")
+        CostFormat, typer.Option("--format", help="Output format; markdown is a table with one line per file.")
     ] = CostFormat.TABLE,
     accuracy: Annotated[
         list[str] | None,
-        typer.Option("--accuracy", help="An accuracy to price; may be repeated. 5 %, 1 % and 0.1 % when left out."),
+        typer.Option(
+            "--accuracy", help="Accuracy for which the cost is measured; may be repeated. Default: 5 %, 1 % and 0.1 %."
+        ),
     ] = None,
     plot: Annotated[str, typer.Option("--plot", metavar="FILE.html", help="Draw error against time as a page.")] = "",
     all_files: Annotated[
-        bool, typer.Option("--all", help="A line per file, of all in specs/ when no path is named.")
+        bool, typer.Option("--all", help="One line per file; without a path all files in specs/.")
     ] = False,
     scene: ScenesOption = None,
     effects: EffectsOption = None,
     budget: Annotated[
-        str, typer.Option("--budget", help="Predicted time of running every setting of a file once, e.g. 10s.")
+        str, typer.Option("--budget", help="Maximum predicted time of one run of every setting of a file, e.g. 10s.")
     ] = "10 s",
 ) -> None:
     """Measure what accuracy costs: every solver and setting with its time, bar and true error.
@@ -479,8 +483,8 @@ def explain(
     name: Annotated[
         str, typer.Argument(help="A code such as CNV101, or the name of an effect, a solver or a load.")
     ] = "",
-    everything: Annotated[bool, typer.Option("--all", help="Of every name: the handbook.")] = False,
-    form: Annotated[ExplainFormat, typer.Option("--format", help="How to print.")] = ExplainFormat.TEXT,
+    everything: Annotated[bool, typer.Option("--all", help="Explain every name: the handbook.")] = False,
+    form: Annotated[ExplainFormat, typer.Option("--format", help="Output format.")] = ExplainFormat.TEXT,
     where: Annotated[
         bool, typer.Option("--where", help="Print file and line of its definition and of its functions instead.")
     ] = False,
@@ -499,7 +503,7 @@ def explain(
 
 
 @app.command()
-def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "") -> None:
+def schema(kind: Annotated[str, typer.Argument(help="Machine kind; default: all kinds.")] = "") -> None:
     """Print the JSON Schema of design files, for completion and checks in an editor."""
     from ptmcalc.cli.listing import json_schema
 
@@ -510,7 +514,7 @@ def schema(kind: Annotated[str, typer.Argument(help="A kind; all of them when le
 def new(
     kind: Annotated[str, typer.Argument(help="A kind of `ptmcalc kinds`.")],
     type_of_it: Annotated[
-        str, typer.Argument(metavar="[TYPE]", help="A type of the kind, where it has several; the first when left out.")
+        str, typer.Argument(metavar="[TYPE]", help="Type of a kind with several types; default: the first type.")
     ] = "",
 ) -> None:
     """Print a commented design file to start from."""
@@ -529,7 +533,7 @@ def kinds(form: ListOption = ListFormat.TABLE) -> None:
 
 @app.command()
 def solvers(
-    kind: Annotated[str, typer.Argument(help="A kind; all of them when left out.")] = "",
+    kind: Annotated[str, typer.Argument(help="Machine kind; default: all kinds.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
     """List the solvers: scene, effects they carry, predicted cost on the kind's template, error, source."""
@@ -541,20 +545,20 @@ def solvers(
 @app.command()
 def solve(
     path: Annotated[str, typer.Argument(help="A design file.")],
-    code: Annotated[str, typer.Option("--check", help="The check that is to pass, e.g. CNV101.")],
+    code: Annotated[str, typer.Option("--check", help="The check to be passed, e.g. CNV101.")],
     vary: Annotated[
         list[str],
         typer.Option(
             "--vary",
             metavar="KEY",
-            help="The key that may move, e.g. takeup.tension. A second one with values, e.g. 'belt.mass=10 kg/m:30"
+            help="The key to be varied, e.g. takeup.tension. A second one with values, e.g. 'belt.mass=10 kg/m:30"
             " kg/m:5', gives the curve on which the check just passes.",
         ),
     ],
     margin: Annotated[
         str, typer.Option("--margin", help="Required distance from the limit: a share of it, e.g. 10%, or in its unit.")
     ] = "",
-    scene: Annotated[str, typer.Option("--scene", help="Only this scene; all scenes of the check when left out.")] = "",
+    scene: Annotated[str, typer.Option("--scene", help="Only this scene; default: all scenes of the check.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
     """Find the value of one key at which a check just passes, its error bar included, and the other verdicts there.
@@ -582,8 +586,8 @@ def sweep(
         Sample, typer.Option("--sample", help="All combinations, or a Latin hypercube of --points points.")
     ] = Sample.GRID,
     points: Annotated[int | None, typer.Option("--points", help="Points of a Latin hypercube.")] = None,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the points that are drawn.")] = 0,
-    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random points.")] = 0,
+    form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -609,12 +613,15 @@ def sweep(
 @app.command()
 def tolerances(
     path: Annotated[str, typer.Argument(help="A design file with `tolerances:`.")],
-    samples: Annotated[int, typer.Option("--samples", help="Machines to draw.")] = 10_000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Of the machines that are drawn.")] = 0,
+    samples: Annotated[int, typer.Option("--samples", help="Number of random machines.")] = 10_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random machines.")] = 0,
     confidence: Annotated[
-        str, typer.Option("--confidence", help="Of the intervals, and share of machines that have the margin shown.")
+        str,
+        typer.Option(
+            "--confidence", help="Confidence level of the intervals, and share of machines with the stated margin."
+        ),
     ] = "95 %",
-    form: Annotated[StudyFormat, typer.Option("--format", help="How to print.")] = StudyFormat.TABLE,
+    form: Annotated[StudyFormat, typer.Option("--format", help="Output format.")] = StudyFormat.TABLE,
     scene: ScenesOption = None,
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
@@ -641,7 +648,9 @@ def tolerances(
 def scale(
     path: Annotated[str, typer.Argument(help="A design file.")],
     length: Annotated[str, typer.Option("--length", help="Model to prototype, e.g. 1:10 or 0.1.")],
-    law: Annotated[Law, typer.Option("--law", help="What the model keeps: all, all but gravity, or that by ballast.")],
+    law: Annotated[
+        Law, typer.Option("--law", help="Similarity of the model: full, without gravity, or gravity by ballast.")
+    ],
     modulus: Annotated[str, typer.Option("--modulus", help="Elastic modulus, model to prototype.")] = "",
     density: Annotated[str, typer.Option("--density", help="Density of the material, model to prototype.")] = "",
     gravity: Annotated[str, typer.Option("--gravity", help="Gravity, model to prototype: a centrifuge.")] = "",

@@ -117,9 +117,7 @@ def known_as(name: str, known: Collection[str]) -> str:
     if wanted not in known:
         alike = name[:3].upper() + name[3:].upper().translate(_DIGITS_ALIKE)
         close = [alike] if alike in known else difflib.get_close_matches(name, known, 1)
-        raise UsageError(
-            f"nothing is called `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`"
-        )
+        raise UsageError(f"unknown name `{name}`", f"did you mean `{close[0]}`?" if close else "try `ptmcalc solvers`")
     return wanted
 
 
@@ -204,7 +202,7 @@ def label_of(kinds: Sequence[AnyKind]) -> str:
 
 
 def _finding(code: str, text: CodeText) -> Explanation:
-    parts = [Part("", text.why), Part("What to do", text.fix), *_example(EXAMPLES.get(code))]
+    parts = [Part("", text.why), Part("Corrective action", text.fix), *_example(EXAMPLES.get(code))]
     return Explanation(code, text.title, "", tuple(parts))
 
 

@@ -48,7 +48,9 @@ class Motor(Fragment):
         yield from ratings_that_differ(given)
         rated, most = given.number("speed"), given.number("no_load_speed")
         if rated is not None and most is not None and most < rated:
-            yield Conflict(("no_load_speed",), "a motor runs slower under load than without", "check both speeds")
+            yield Conflict(
+                ("no_load_speed",), "a motor runs more slowly with load than without load", "check both speeds"
+            )
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         if largest not in given and smallest not in given:
             if "curve" not in given:
@@ -57,8 +59,12 @@ class Motor(Fragment):
             for key in (largest, smallest):
                 yield from at_most_one(given, mean, key)
         else:
-            yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
-            yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+            yield from together(
+                given, largest, smallest, "the largest and the smallest starting torque are given together"
+            )
+            yield from together(
+                given, smallest, largest, "the largest and the smallest starting torque are given together"
+            )
             high, low = given.number(largest), given.number(smallest)
             if high is not None and low is not None and low > high:
                 yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")

@@ -179,7 +179,7 @@ class InductionBase(Motor):
         overload, full = given.number("overload"), given.word("formula") == "full"
         if "stator_ratio" in given and given.word("formula") == "simplified":
             hint = "delete `stator_ratio`, or write `formula: full`"
-            yield Conflict(("stator_ratio",), "the simplified formula knows no resistance of the stator", hint)
+            yield Conflict(("stator_ratio",), "the simplified formula does not contain the stator resistance", hint)
         if speed is None or synchronous is None:
             return
         if speed >= synchronous:
@@ -278,10 +278,10 @@ class RheostatMotor(InductionBase):
         steps, times = _numbers(given, "steps", _ABOVE_ONE), _numbers(given, "switch_times", _DURATION)
         if index := _out_of_order([None if step is None else -step for step in steps]):
             yield Conflict(
-                ("steps", index), "the resistances do not fall from step to step", "sort them, largest first"
+                ("steps", index), "the resistances do not decrease from step to step", "sort them, largest first"
             )
         if index := _out_of_order(times):
-            yield Conflict(("switch_times", index), "the times do not rise from step to step", "sort them")
+            yield Conflict(("switch_times", index), "the times do not increase from step to step", "sort them")
         if steps and times and len(steps) != len(times):
             reason = f"{len(steps)} steps are cut out at {len(steps)} times, not at {len(times)}"
             yield Conflict(("switch_times",), reason, "give one time for each of the `steps`")
@@ -295,14 +295,14 @@ class RheostatMotor(InductionBase):
             return
         most, slip_of_most, ratio = natural
         if smallest >= most:
-            reason = f"no step gives more than the breakdown torque, {units.show(most, units.TORQUE)}"
+            reason = f"no step reaches more than the breakdown torque, {units.show(most, units.TORQUE)}"
             yield Conflict(("smallest_torque",), reason, f"write less, e.g. `{units.show(most / 2, units.TORQUE)}`")
             return
         slip = float(motor.kloss_slip(smallest, *natural))
         for index, step in enumerate(steps):
             if step is not None and step * slip >= 1:
                 at_rest = float(motor.kloss(1.0, most, motor.stage_breakdown_slip(slip_of_most, step), ratio / step))
-                reason = f"it gives {units.show(at_rest, units.TORQUE)} at rest, no more than `smallest_torque`"
+                reason = f"its starting torque is {units.show(at_rest, units.TORQUE)}, at most `smallest_torque`"
                 yield Conflict(("steps", index), reason, f"write a number below {_below(1 / slip)}")
 
     @property
@@ -348,7 +348,7 @@ class ConverterMotor(RatedMotor):
             yield Conflict(("rated_speed",), reason, "delete `rated_speed`")
         limit, rated = given.number("torque_limit"), cls.rated_by(given)
         if limit is not None and rated is not None and limit < rated:
-            reason = f"the motor could not give its rated torque, {units.show(rated, units.TORQUE)}"
+            reason = f"the motor could not reach its rated torque, {units.show(rated, units.TORQUE)}"
             yield Conflict(("torque_limit",), reason, f"write e.g. `{units.show(1.5 * rated, units.TORQUE)}`")
 
     @classmethod

@@ -13,11 +13,12 @@ class Suspension(Fragment):
 
     length: PositiveSpan
     """from where the ropes are held to the middle of the load, where a scene names no other; not the height of lift"""
-    hoist_speed: Annotated[PositiveSpeed | None, Absent("nothing is hoisted while the crane travels")] = None
+    hoist_speed: Annotated[PositiveSpeed | None, Absent("no hoisting while the crane travels")] = None
     """of the hook; needed to hoist while travelling"""
-    creep_speed: Annotated[PositiveSpeed | None, Absent("loads are lifted off at the full `hoist_speed`")] = None
+    creep_speed: Annotated[PositiveSpeed | None, Absent("lift-off at the full `hoist_speed`")] = None
     """slow speed of the hook; with HD2 and HD3 the load is lifted off the ground with it"""
     height: Annotated[
-        Annotated[float, Measure(units.SPAN, at_least=0)] | None, Absent("the ropes are held on the trolley, as high")
+        Annotated[float, Measure(units.SPAN, at_least=0)] | None,
+        Absent("the rope suspension point is at trolley height"),
     ] = None
     """of the place where the ropes are held, above the rails; that of the trolley when left out"""

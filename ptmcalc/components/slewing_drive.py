@@ -55,7 +55,7 @@ class SlewMotor(Fragment):
     power: Annotated[PositivePower | None, Limit()] = None
     """rated power of one motor"""
     rated_duty: Annotated[
-        PositiveShare, Absent("continuous: the smallest torque for which a motor of this rating is designed")
+        PositiveShare, Absent("continuous duty: the smallest design torque of a motor of this rating")
     ] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
@@ -66,8 +66,8 @@ class SlewMotor(Fragment):
         """The starting torque, the rating and the coupling are given in one way each."""
         mean, largest, smallest = (f"{size}_starting_torque" for size in ("mean", "largest", "smallest"))
         yield from at_most_one(given, mean, largest, "curve")
-        yield from together(given, largest, smallest, "the largest and the smallest starting torque go together")
-        yield from together(given, smallest, largest, "the largest and the smallest starting torque go together")
+        yield from together(given, largest, smallest, "the largest and the smallest starting torque are given together")
+        yield from together(given, smallest, largest, "the largest and the smallest starting torque are given together")
         high, low = given.number(largest), given.number(smallest)
         if high is not None and low is not None and low > high:
             yield Conflict((smallest,), "the smallest starting torque is above the largest", "swap them")
@@ -133,9 +133,9 @@ class SlewGear(Fragment):
     """from crane to motor; 2 - 1/efficiency when left out, negative for a self-locking worm"""
     open: OpenGear | None = None
     """the open stage; needed for the torque of the pinion"""
-    rotating_factor: Annotated[PartsFactor, Assumed(1.15, 1.1, 1.2, "shafts and wheels of the gear add 10 to 20 %")] = (
-        1.15
-    )
+    rotating_factor: Annotated[
+        PartsFactor, Assumed(1.15, 1.1, 1.2, "the rotating parts of the gear add 10 to 20 %")
+    ] = 1.15
     """all rotating parts of the drive over those on the motor shaft, 1.1 to 1.2"""
     rated_torque: Annotated[PositiveTorque | None, Limit()] = None
     """of the gearbox on its fast shaft, in its group of the mechanism; needed to check it"""
@@ -151,11 +151,11 @@ class SlewGear(Fragment):
         ratio, efficiency = stage.number("ratio"), stage.number("efficiency")
         if ratio is not None and whole is not None and ratio > whole:
             reason = f"the whole ratio is {whole:g} only, and the open stage is a part of it"
-            yield Conflict(("open", "ratio"), reason, "let `ratio` be that of all stages, from motor to crane")
+            yield Conflict(("open", "ratio"), reason, "give the total `ratio` of all stages, from motor to crane")
         if efficiency is not None and loss is not None and efficiency < loss:
             reason = f"the whole efficiency is {loss:g}, and the open stage is a part of it"
             yield Conflict(
-                ("open", "efficiency"), reason, "let `efficiency` be that of all stages, from motor to crane"
+                ("open", "efficiency"), reason, "give the total `efficiency` of all stages, from motor to crane"
             )
 
     @property
@@ -173,7 +173,9 @@ class SlewBrake(Fragment):
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "crane"] = "motor"
     """the shaft it sits on: the motor's, or the slewing axis"""
-    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes close 0.1 to 0.3 s after they are switched off")] = (
+        0.0
+    )
     """from switching off until it begins to act"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until its full torque, in a straight line"""

@@ -32,7 +32,7 @@ class TravelGear(Gear):
         forward = given.number("efficiency")
         locks = forward is not None and forward <= _SELF_LOCKING
         if locks and "efficiency" in given and "reverse_efficiency" not in given:
-            reason = "a gear of half the power or less locks itself: its wheels slide at every stop"
+            reason = "a gear with an efficiency of 50 % or less is self-locking: the wheels slip at every stop"
             yield Conflict(("efficiency",), reason, "write more, or give its `reverse_efficiency: 0.1`")
 
 
@@ -41,7 +41,7 @@ class TravelBrake(Fragment):
 
     torque: PositiveTorque
     """of all brakes together, fully applied"""
-    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "travel brakes act 0.1 to 0.3 s after they are switched off")] = 0.0
+    delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "travel brakes close 0.1 to 0.3 s after they are switched off")] = 0.0
     """from switching off until they begin to act"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
     """from then until their full torque, in a straight line"""
@@ -71,7 +71,7 @@ class TravelDrive(Fragment):
         """The ramp is given in one way; something stops the machine."""
         yield from at_most_one(given, "acceleration", "ramp_time")
         if "brake" not in given and "deceleration" not in given:
-            yield given.missing("brake", "nothing stops the machine: give `brake` or `deceleration`")
+            yield given.missing("brake", "the machine has no brake: give `brake` or `deceleration`")
 
     @property
     def torque(self) -> float:

@@ -245,7 +245,7 @@ def chosen_scenes(spec: MachineSpec, names: tuple[str, ...]) -> list[Scene] | No
     scenes = {scene.label: scene for scene in spec.all_scenes}
     for name in names:
         if name not in scenes:
-            raise UsageError(f"no scene is called `{name}`", f"scenes: {', '.join(scenes)}")
+            raise UsageError(f"unknown scene `{name}`", f"scenes: {', '.join(scenes)}")
     return [scenes[name] for name in names]
 
 

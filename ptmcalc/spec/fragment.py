@@ -137,7 +137,7 @@ def names_of_parts(given: Given, *keys: str) -> Iterator[Conflict]:
                 continue
             plain = re.sub(r"[^\w-]+", "_", name).strip("_") or "part"
             taken.add(word := next(word for word in _numbered(plain) if word not in taken))
-            reason = "a part is called by one word of letters, digits, `_` and `-`: loads and paths are read by it"
+            reason = "a name is one word of letters, digits, `_` and `-`: loads and paths use it"
             yield Conflict((key, name), reason, f"write `{word}:`")
 
 

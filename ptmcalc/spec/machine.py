@@ -91,7 +91,7 @@ class MachineSpec(Fragment):
         for index, scene in enumerate(given.blocks("scenes")):
             label = _label(scene) if scene else ""
             if label and label in seen:
-                reason = f"two scenes are called {quote(label)}"
+                reason = f"two scenes have the name {quote(label)}"
                 yield Conflict(("scenes", index), reason, "give this one a `name:` of its own")
             seen.add(label)
 

@@ -270,7 +270,7 @@ def test_what_cannot_be_merged_is_refused(folder: Path) -> None:
         (("a.json", "b.json"), "`specs/0.yaml` is in `a.json` and in `b.json`"),
         (("a.json", "a.json"), "`a.json` is named twice"),
         (("a.json", "./a.json"), "`a.json` is named twice"),
-        (("a.json", "c.json"), "`c.json` is no JSON report of ptmcalc"),
+        (("a.json", "c.json"), "`c.json` is not a JSON report of ptmcalc"),
         (("a.json", "nowhere.json"), "the report `nowhere.json` cannot be read"),
         (("a.json", "a.store"), "stores and reports do not mix"),
         (("a.store",), "a store is not printed"),

@@ -197,7 +197,7 @@ def test_a_load_of_the_only_drive_is_not_told_twice(states: Path) -> None:
     [
         ("nowhere", "new", "there is no `nowhere`"),
         ("old", "nowhere.yaml", "there is no `nowhere.yaml`"),
-        ("notes.json", "new", "`notes.json` is no JSON report of ptmcalc"),
+        ("notes.json", "new", "`notes.json` is not a JSON report of ptmcalc"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(states: Path, old: str, new: str, said: str) -> None:

@@ -49,7 +49,7 @@ def test_the_longer_prefix_wins_and_what_is_left_out_is_counted(
 def test_a_run_that_checks_nothing_has_not_passed(options: tuple[str, ...]) -> None:
     done = checked(SLIPPING, *options)
     assert (done.status, last(done)) == (3, "1 file, 0 checks passed, 8 ignored")
-    assert done.err == "ptmcalc: no check is left by --select and --ignore; nothing was checked\n"
+    assert done.err == "ptmcalc: --select and --ignore exclude all checks; nothing was checked\n"
     (entry,) = json.loads(ptmcalc("check", "--no-repairs", "--format", "json", SLIPPING, *options).out)["files"]
     assert (entry["verdict"], entry["ignored_checks"]) == ("undecided", 8)
 

@@ -207,7 +207,7 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
 @pytest.mark.parametrize(
     ("block", "place", "message"),
     [
-        ("  takeup.tenson: {plus: 1 kN}\n", "1:3", "`takeup.tenson` is no key of a number in this file; did you mean"),
+        ("  takeup.tenson: {plus: 1 kN}\n", "1:3", "`takeup.tenson` is not a numerical key of this file; did you mean"),
         ("  takeup.type: {plus: 1 kN}\n", "1:3", "`takeup.type` is no key of a number"),
         ("  takeup.tension: {plus: 1 m}\n", "1:26", "`tolerances.takeup.tension.plus`: `1 m` is a length, not a force"),
         ("  takeup.tension: {plus: 1}\n", "1:26", "`1` has no unit"),
@@ -221,7 +221,7 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
         ("  takeup.tension: {normal: {sd: 1 kN}, plus: 1 kN}\n", "1:20", "give it or `plus`, not both"),
         ("  takeup.tension: {normal: {sd: 1 kN}, uniform: {min: 1 kN, max: 2 kN}}\n", "1:40", "not both"),
         ("  takeup.tension: {}\n", "1:3", "give `normal` or `uniform`"),
-        ("  takeup.tension: {plus: 0 kN}\n", "1:3", "plus and minus nothing is no tolerance"),
+        ("  takeup.tension: {plus: 0 kN}\n", "1:3", "a tolerance of plus and minus zero has no effect"),
         ("  takeup.tension: 1 kN\n", "1:19", "takes a mapping"),
         ("  takeup.tension: {plus: 1 kN}\n  takeup.tension: {plus: 2 kN}\n", "2:3", "is written twice"),
         ("  - takeup.tension\n", "1:3", "takes a mapping"),
@@ -263,13 +263,13 @@ MANY = "".join(
         ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some machines have values that none can have"),
         ("  takeup.tension: {minus: 40 kN}\n", (), "it must be greater than 0 N"),
         ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "the probability between"),
-        ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is no number of samples"),
+        ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is not a number of samples"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "1000001"), "write one from 1 to 1000000"),
         (MANY, ("--samples", "1000000"), "`--samples 1000000` of 21 values are too many (write one from 1 to 952380"),
         ("".join(f"  belt.mass{n}: {{plus: 1 kg}}\n" for n in range(101)), (), "at most 100"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "100%"), "is not from 50 % to below 100 %"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--confidence", "sure"), "--confidence:"),
-        ("  takeup.tension: {plus: 1 kN}\n", ("--scene", "stop"), "no scene is called `stop`"),
+        ("  takeup.tension: {plus: 1 kN}\n", ("--scene", "stop"), "unknown scene `stop`"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_is_refused(block: str, options: tuple[str, ...], reason: str) -> None:

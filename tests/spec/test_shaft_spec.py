@@ -374,7 +374,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "{type: steady}\n  - {type: steady, load: idle}",
         "scenes[2]",
         "{type: steady, load: idle}",
-        "two scenes are called `steady`",
+        "two scenes have the name `steady`",
         "give this one a `name:` of its own",
     ),
 }
