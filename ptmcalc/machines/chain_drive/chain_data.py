@@ -48,7 +48,7 @@ class Damping(Fragment):
     """damping ratio of the first natural frequency; 0.05 is assumed when it is left out"""
     time: Annotated[PositiveTime | None, OneOf("ratio")] = None
     """retardation time (kelvin_voigt, instead of `ratio`) or relaxation time (zener)"""
-    stiffening: Annotated[PositiveRatio | None, OneOf("a law that needs none")] = None
+    stiffening: Annotated[PositiveRatio | None, OneOf("a law without this key")] = None
     """zener: by what share a fast pull finds the chain stiffer than a slow one"""
 
     @classmethod
@@ -63,7 +63,9 @@ class Damping(Fragment):
                 yield Conflict(("ratio",), "`zener` damps by `time` and `stiffening`", "delete `ratio`")
             return
         if "stiffening" in given:
-            yield Conflict(("stiffening",), "only `zener` stiffens", "delete `stiffening`, or write `law: zener`")
+            yield Conflict(
+                ("stiffening",), "only `zener` has a stiffening", "delete `stiffening`, or write `law: zener`"
+            )
         if law == KELVIN_VOIGT:
             yield from at_most_one(given, "ratio", "time")
         elif law == HYSTERETIC and "time" in given:
@@ -133,7 +135,7 @@ def wrong_teeth(given: Given) -> Iterator[Conflict]:
         return
     if number < LEAST_TEETH:
         reason = (
-            f"{number} teeth do not make a sprocket: the chain would turn by {360 / max(number, 1):.0f} deg a tooth"
+            f"a sprocket cannot have {number} teeth: the chain would turn by {360 / max(number, 1):.0f} deg a tooth"
         )
         yield Conflict(("teeth",), reason, "write `teeth: 8`; traction chains run on 6 and more, roller chains on 17")
     elif number > MOST_TEETH:
@@ -155,7 +157,7 @@ def wrong_size(given: Given, pitch: float | None, path: tuple[str, ...]) -> Iter
     where = (*path, "diameter")
     if diameter <= pitch:
         size, step = units.show(diameter, units.LENGTH), units.show(pitch, units.LENGTH)
-        reason = f"a pitch of {step} is no smaller than the sprocket itself, {size}"
+        reason = f"a pitch of {step} is not smaller than the sprocket diameter, {size}"
         yield Conflict(where, reason, "correct the pitch or the diameter")
     elif teeth is not None:
         fits = 2 * sprocket.pitch_radius(pitch, teeth)

@@ -53,7 +53,9 @@ class TakeUp(Fragment):
     """`gravity`: a weight next to the drive keeps the leaving tension; `screw`: a fixed length of loop"""
     tension: PositiveForce
     """of the strand: leaving tension (gravity), or the mean of the loop when it was set (screw)"""
-    mass: Annotated[PositiveMass | None, Absent("the take-up keeps its tension; its inertia is only bounded")] = None
+    mass: Annotated[
+        PositiveMass | None, Absent("the take-up tension is constant; its inertia is covered by a bound")
+    ] = None
     """of the weight with its carriage (gravity, on two falls); without it the tension stays constant"""
 
     @classmethod
@@ -88,7 +90,7 @@ class ConveyorLayout(Fragment):
         yield from exactly_one(given, "load", "capacity")
         length, lift = given.number("length"), given.number("lift")
         if length is not None and lift is not None and abs(lift) > length:
-            yield Conflict(("lift",), "it rises more than it is long", "write a `lift` within the `length`")
+            yield Conflict(("lift",), "the lift exceeds the length", "write a `lift` within the `length`")
 
 
 _SLACK_SAG = Assumed(0.02, 0.01, 0.03, "slack strands of chain drives: sag 1 to 3 % of the span")
@@ -130,7 +132,7 @@ class TwoShafts(Fragment):
         pitches = given.raw.get("pitches")
         if isinstance(pitches, int) and not isinstance(pitches, bool) and pitches % 2 == 1:
             if given.word("cranked_link") != "yes":
-                reason = f"{pitches} pitches do not close: inner and outer links alternate"
+                reason = f"an odd number of {pitches} pitches cannot be closed: inner and outer links alternate"
                 hint = f"write `pitches: {even(pitches)}`, or `cranked_link: yes`"
                 yield Conflict(("pitches",), reason, hint)
         elif given.word("cranked_link") == "yes":

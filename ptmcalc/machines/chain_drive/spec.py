@@ -78,7 +78,9 @@ class Backstop(Fragment):
 class Equalising(Fragment):
     """A drive that varies the sprocket speed to keep the chain speed constant."""
 
-    residual: Annotated[Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to a tenth is left")] = 0.0
+    residual: Annotated[
+        Fraction, Assumed(0.0, 0.0, 0.1, "equalising sprockets: up to 10 % of the fluctuation remains")
+    ] = 0.0
     """what is left of the polygon effect, as a share of it: how imperfectly the law is followed"""
 
 
@@ -194,7 +196,9 @@ class Coast(Stopping):
     """The drive is switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value without influence on the checks")] = (
+        None
+    )
     """distance of a real run-out from the speed of the file"""
 
 
@@ -297,12 +301,12 @@ def _of_layout(layout: Given, driver: Given | None, pitch: float | None) -> Iter
     distance, pitches = layout.number(apart), layout.raw.get("pitches")
     if distance is not None and distance <= least:
         room = units.show(least, units.LENGTH)
-        reason = f"the sprockets touch: their pitch radii together are {room}"
+        reason = f"the sprockets touch: the sum of their pitch radii is {room}"
         yield Conflict(("layout", named, apart), reason, "write about 40 pitches, or correct the pitch of the chain")
     elif isinstance(pitches, int):
         needed = chain_selection.chain_pitches(least, pitch, one, two)
         if pitches <= needed:
-            reason = f"{pitches} pitches do not reach round both sprockets, which touch at {needed:.1f}"
+            reason = f"{pitches} pitches are too few for both sprockets, which touch at {needed:.1f}"
             hint = f"write `pitches: {even(2 * needed)}`"
             yield Conflict(("layout", named, "pitches"), reason, hint)
 
@@ -321,7 +325,7 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             hint = "add `drive: {motor: {inertia: 0.35 kg*m^2, mean_starting_torque: 160 N*m}, gear: {ratio: 40}}`"
             yield Conflict(("scenes", index), reason, hint)
         if what == "backstop" and between_shafts:
-            yield Conflict(("scenes", index), "nothing runs back between two shafts", "delete the scene")
+            yield Conflict(("scenes", index), "a two-shaft drive does not roll back", "delete the scene")
         profile = scene.raw.get("profile") if scene and what == "start" else None
         if isinstance(profile, dict) and profile.get("shape") == "curve" and not _has_curve(given):
             hint = "add `curve: {type: induction, ...}` to the motor, or write `shape: step`"

@@ -74,7 +74,7 @@ def _of_a_drive(path: KeyPath, drive: PlacedDrive) -> Iterator[Finding]:
         yield from one.finding(value)
     if motor.speed is not None and motor.inertia * motor.speed > _SLOWEST_MOTOR * motor.mean_torque:
         time = units.show(motor.inertia * motor.speed / motor.mean_torque, units.TIME)
-        reason = f"the motor takes {time} to bring its own rotor to speed; real ones take 0.05 s to 5 s"
+        reason = f"the motor requires {time} to accelerate its own rotor; usual motors require 0.05 s to 5 s"
         yield Finding("SPC201", reason, (*path, "motor", "inertia"), "check `inertia` and the starting torque")
 
 

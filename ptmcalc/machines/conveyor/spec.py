@@ -69,7 +69,7 @@ class PlacedDrive(Drive):
     at: Literal["head", "tail"] = "head"
     """where its drum is; those at the head stand in the order in which the belt meets them, the first on the tight
     side"""
-    delay: Annotated[Time, Absent("all drives are switched on at once, which gives the largest tensions")] = 0.0
+    delay: Annotated[Time, Absent("simultaneous switch-on of all drives results in the maximum tensions")] = 0.0
     """how much later than the first it is switched on in a start"""
 
 
@@ -115,7 +115,7 @@ class TakeUp(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """Only a weight has a mass, and what hangs on two falls pulls with half of it."""
         if given.word("type") == "rigid" and "mass" in given:
-            yield Conflict(("mass",), "a rigid take-up does not move", "delete `mass`, or write `type: gravity`")
+            yield Conflict(("mass",), "a fixed take-up does not move", "delete `mass`, or write `type: gravity`")
 
 
 class TailDrum(Fragment):
@@ -148,7 +148,7 @@ class ConveyorChecks(CheckSettings):
     sag: Annotated[PositiveRatio, Limit()] = 0.01
     """largest sag of the belt over the idler pitch, in steady running"""
     slack_sag: Annotated[PositiveRatio, Limit()] = DEEPEST
-    """sag over idler pitch at which the belt counts as slack, in every scene"""
+    """sag ratio at which the belt counts as slack, in every scene"""
     stop_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance of the belt in a `stop`"""
     emergency_stop_distance: Annotated[PositiveSpan | None, Limit()] = None
@@ -193,7 +193,7 @@ class Aborted(Fragment):
 
     run: PositiveTime
     """how long the drives pull"""
-    pause: Annotated[Time, Setting("part of the scene: 0 switches the drives on again at once")] = 0.0
+    pause: Annotated[Time, Setting("part of the scene: 0 is an immediate restart")] = 0.0
     """how long they are off before they start again"""
 
 
@@ -216,7 +216,7 @@ class Start(ConveyorScene, TransientScene):
         if "aborted" not in given or profile is None or profile.word("shape") in ("step", "curve", None):
             return
         if profile.word("control") != "torque":
-            yield Conflict(("aborted",), "an imposed speed is not broken off", "write `control: torque`")
+            yield Conflict(("aborted",), "an imposed speed is not aborted", "write `control: torque`")
 
 
 class Stopping(ConveyorScene, TransientScene):
@@ -241,7 +241,9 @@ class Coast(Stopping):
     """The drives are switched off and no brake acts; the resistance is computed from a measured distance."""
 
     type: Literal["coast"] = "coast"
-    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value, which no check reads")] = None
+    measured_distance: Annotated[PositiveSpan | None, Setting("a measured value without influence on the checks")] = (
+        None
+    )
     """distance of a real run-out from rated speed, from which the resistance coefficient is computed"""
 
 
@@ -251,7 +253,7 @@ class Jam(ConveyorScene, TransientScene):
     type: Literal["jam"] = "jam"
     at: Literal["head", "tail"] = "head"
     """the drum that jams; the drives at the other end go on"""
-    time: Annotated[Time, Setting("part of the scene: at once is the worst case")] = 0.0
+    time: Annotated[Time, Setting("part of the scene: an instantaneous jam is the worst case")] = 0.0
     """in which the pulley comes to rest at a constant rate; 0 for an instantaneous stop"""
     duration: Annotated[PositiveTime | None, Setting("the window is printed with the loads")] = None
     """simulated time; twice round the belt for a wave when left out"""
@@ -326,8 +328,8 @@ class Conveyor(MachineSpec):
             and drives
             and all(isinstance(drive, dict) and drive.get("at") == "tail" for drive in drives.values())
         ):
-            reason = "no drive is at the head: take-up and tension are counted from there"
-            yield Conflict(("drives",), reason, "turn the route round, so that the drive is at its head")
+            reason = "no drive is at the head, the reference point of take-up and tension"
+            yield Conflict(("drives",), reason, "reverse the route, so that a drive is at its head")
         yield from _no_motor_there(given)
         yield from _without_density(given)
         route, resistance = given.block("route"), given.block("resistance")

@@ -302,9 +302,9 @@ def valid(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     """
     case = moving(spec, scene)
     if case.window <= 0:
-        return Criterion("W/F", 1.0, 1.0, "static resistance over the drives' force: the belt stays at rest", "Newton")
+        return Criterion("W/F", 1.0, 1.0, "static resistance / drive force: the belt does not move", "Newton")
     rounds = case.window / case.line.contour_time
-    return Criterion("n", rounds, MOST_ROUNDS, "rounds of a wave in the time of the scene: too much work", "cost")
+    return Criterion("n", rounds, MOST_ROUNDS, "wave circuits during the scene: too much work", "cost")
 
 
 ELEMENTS: Solver[Conveyor, ConveyorScene] = Solver(

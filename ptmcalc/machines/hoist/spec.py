@@ -110,7 +110,7 @@ class HoistScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the hook, or the hook block alone"""
-    hook_height: Annotated[Span | None, Setting("the lowest position, where loads are lifted off and set down")] = None
+    hook_height: Annotated[Span | None, Setting("the lowest position, at which loads are lifted and set down")] = None
     """of the hook above its lowest position; at the lowest when left out"""
 
     def default_name(self) -> str:
@@ -130,7 +130,7 @@ class Lift(HoistScene, TransientScene):
     type: Literal["lift"] = "lift"
     rope: Literal["slack", "taut"] = "slack"
     """whether the drive must take up slack rope first, or the rope is taut without force"""
-    slack: Annotated[PositiveLength | None, Setting("as much as brings the drive to its speed: the worst case")] = None
+    slack: Annotated[PositiveLength | None, Setting("slack sufficient for full drive speed: the worst case")] = None
     """travel of the hook before the rope is taut; enough for the drive to come to its speed when left out"""
     speed: Literal["main", "creep"] = "main"
     """of the hoist"""
@@ -170,7 +170,7 @@ class Release(HoistScene, TransientScene):
     """A part of the hanging load comes off at once: a grab, a magnet, a cut sling."""
 
     type: Literal["release"] = "release"
-    share: Annotated[Fraction, Setting("all of the load: the worst case")] = 1.0
+    share: Annotated[Fraction, Setting("the full load: the worst case")] = 1.0
     """part of the rated load that comes off"""
     manner: Literal["quick", "slow"] = "quick"
     """how it comes off: by a magnet, or by a grab"""
@@ -180,7 +180,9 @@ class WindUp(HoistScene, TransientScene):
     """The rope climbs from a layer to the next one while the drum turns at constant speed."""
 
     type: Literal["winding"] = "winding"
-    layer: Annotated[int, Field(ge=2, le=20, strict=True), Setting("the first climb, which is the steepest")] = 2
+    layer: Annotated[
+        int, Field(ge=2, le=20, strict=True), Setting("the first layer change, the largest relative step")
+    ] = 2
     """the layer it climbs to"""
 
 
@@ -197,7 +199,7 @@ class Hoist(MachineSpec):
     kind: Literal["hoist"]
     load: PositiveMass
     """rated load on the hook"""
-    hook_block: Annotated[Mass, Absent("the rated load includes it, or it is written")] = 0.0
+    hook_block: Annotated[Mass, Absent("included in the rated load, or stated here")] = 0.0
     """hook block and whatever stays on the hook"""
     height: PositiveSpan
     """lifting height"""
@@ -287,12 +289,12 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             yield Conflict(("scenes", index, what, "speed"), "the hoist has no creep speed", hint)
         hook = scene.number("hook_height")
         if hook is not None and height is not None and hook > height:
-            reason = f"the hook is lifted by {units.show(height, units.SPAN)} only"
+            reason = f"the lifting height is only {units.show(height, units.SPAN)}"
             yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or correct the `height`")
         if what == "winding" and drum is not None:
             layers, wanted = drum.raw.get("layers", 1), scene.raw.get("layer", 2)
             if isinstance(layers, int) and isinstance(wanted, int) and wanted > layers:
-                reason = f"the rope never climbs to layer {wanted}: the drum has {layers}"
+                reason = f"the rope never reaches layer {wanted}: the drum has {layers}"
                 yield Conflict(("scenes", index), reason, f"write `layers: {wanted}` under `drum`")
         yield from _nothing_that_hangs(given, index, scene, what)
         profile = scene.raw.get("profile")
@@ -304,13 +306,13 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
 def _nothing_that_hangs(given: Given, index: int, scene: Given, what: str) -> Iterator[Conflict]:
     """What moves on its rope has a mass, and rope to hang on."""
     if what != "run" and scene.word("load") == "empty" and not given.number("hook_block"):
-        reason = "an empty hook without a mass does not move on its rope"
+        reason = "an empty hook without a mass cannot be simulated"
         yield Conflict(("scenes", index, what, "load"), reason, "add `hook_block: 90 kg`, or write `load: full`")
     reeving = given.block("reeving")
     hook, height = scene.number("hook_height"), given.number("height")
     spare = (given.number("least_fall") or 0.0) + ((reeving.number("lead_length") or 0.0) if reeving else 0.0)
     if hook is not None and hook == height and spare <= 0:
-        reason = "no rope is free with the hook so high"
+        reason = "the free rope length is zero at this hook height"
         yield Conflict(("scenes", index, what, "hook_height"), reason, "write less, or add `least_fall: 1 m`")
 
 

@@ -97,7 +97,9 @@ def _near_a_step(spec: ChainDrive) -> tuple[Finding, ...]:
 def _without_damping(spec: ChainDrive, scene: Run) -> tuple[Finding, ...]:
     if not undamped(spec, scene):
         return ()
-    message = "a chain without damping has no bound for its polygon tension: its high harmonics meet modes at any speed"
+    message = (
+        "the polygon tension of a chain without damping has no bound: at any speed, high harmonics coincide with modes"
+    )
     return (Finding("NUM102", message, ("chain", "damping"), "write `damping: {ratio: 0.05}`, or a measured ratio"),)
 
 

@@ -84,7 +84,11 @@ def polygon_criterion(spec: ChainDrive, scene: Run) -> Criterion:
     scale, bound = static_scale(spec, scene), answer_bound(spec, scene, frozenset({FAR}), near=True)
     value = bound / scale if scale > 0 else math.inf if bound > 0 else 0.0
     return Criterion(
-        "E", value, POLYGON_THRESHOLD, "tension the polygon effect can add, over the static one", "numerics.harmonic"
+        "E",
+        value,
+        POLYGON_THRESHOLD,
+        "maximum tension added by the polygon effect / static tension",
+        "numerics.harmonic",
     )
 
 
@@ -115,7 +119,7 @@ def far_criterion(spec: ChainDrive, scene: Run) -> Criterion:
         "E_2",
         value,
         FAR_THRESHOLD,
-        "share of the polygon effect that the motion of the far end can have",
+        "share of the far end motion in the polygon effect",
         "numerics.harmonic",
     )
 
@@ -149,7 +153,7 @@ def weak_criterion(spec: ChainDrive, scene: Run) -> Criterion | None:
     if spec.drive is None:
         return None
     value = chain_line(spec, scene).moving_mass / drive_mass(spec, inertia.ENERGY)
-    return Criterion("e", value, WEAK_THRESHOLD, "mass of the chain over that of the drive", "Mahalingam")
+    return Criterion("e", value, WEAK_THRESHOLD, "mass of the chain / mass of the drive", "Mahalingam")
 
 
 def weak_bound(spec: ChainDrive, scene: Run, loads: Loads) -> Offsets:

@@ -48,7 +48,7 @@ def has_curve(spec: ChainDrive, scene: ChainScene) -> Criterion:
     **Source** the file.
     """
     lacks = motors_of(spec) is None
-    return Criterion("curve", float(lacks), 1.0, "0 where the file gives the motor a curve, else 1", "the file")
+    return Criterion("curve", float(lacks), 1.0, "0 if the file gives the motor a curve, otherwise 1", "the file")
 
 
 STEADY_DRIVE: Solver[ChainDrive, ChainScene] = Solver(

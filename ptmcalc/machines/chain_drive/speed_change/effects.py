@@ -75,7 +75,7 @@ def elastic_criterion(spec: ChainDrive, scene: ChainScene) -> Criterion:
         case = stop_case(spec, scene)
         found, least = extremes(spec, case), min(case.line.ends)
         value = (found.smallest - found.lowest) / least if least > 0 else math.inf
-    meaning = "tension the waves of the chain can add, over the static tension"
+    meaning = "maximum tension added by chain waves / static tension"
     return Criterion("E", value, ELASTIC_THRESHOLD, meaning, "laws.loop_bounds")
 
 
@@ -167,7 +167,7 @@ def modes_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     rest, _ = _behind_the_first(case)
     whole = abs(float(loop_bounds.quasi_static(case.masses, CARRY, 1.0)))
     value = rest / whole if whole > 0 else math.inf
-    meaning = "part of the start's tension that is in higher modes"
+    meaning = "share of higher modes in the starting tension"
     return Criterion("n", value, MODES_THRESHOLD, meaning, "laws.chain_resonance")
 
 
@@ -230,7 +230,7 @@ def sticking_criterion(spec: ChainDrive, scene: Start) -> Criterion:
     value = 0.0
     if scene.chain == "relaxed":
         value = abs(case.line.static_resistance) / pulled if pulled > 0 else math.inf
-    return Criterion("W/(m a)", value, STICKING_THRESHOLD, "resistance over the inertia of the chain", "Newton's law")
+    return Criterion("W/(m a)", value, STICKING_THRESHOLD, "resistance / inertia force of the chain", "Newton's law")
 
 
 def sticking_bound(spec: ChainDrive, scene: Start, loads: Loads) -> Offsets:
@@ -328,7 +328,7 @@ def teeth_criterion(spec: ChainDrive, scene: Start | SpeedRange) -> Criterion:
     """
     static = chain_line(spec, scene).run_on
     value = _teeth(spec, scene) / static if static > 0 else math.inf
-    meaning = "what teeth that pass can add to the tension, over the static one"
+    meaning = "maximum tension added by tooth engagement / static tension"
     return Criterion("P/S", value, TEETH_THRESHOLD, meaning, "laws.chain_start.passing_bound")
 
 

@@ -320,7 +320,7 @@ def start_valid(spec: ChainDrive, scene: Start) -> Criterion:
     case = start_case(spec, scene)
     unknown = case.follows_curve or not case.moves
     count = float(has_driven_tail(spec)) + float(unknown)
-    return Criterion("n", count, 1.0, "driven tails, motors' curves: none", "count")
+    return Criterion("n", count, 1.0, "driven tails, motor curves: none", "count")
 
 
 RANGE_NOTES: Solver[ChainDrive, SpeedRange] = Solver(

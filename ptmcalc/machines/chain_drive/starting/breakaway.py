@@ -62,7 +62,7 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     """
     case = start_case(spec, scene)
     count = sum(_hindrances(scene, case))
-    return Criterion("n", float(count), 1.0, "what two masses and a spring do not have: nothing of it", "count")
+    return Criterion("n", float(count), 1.0, "features outside the two-mass model: none", "count")
 
 
 def _hindrances(scene: Start, case: StartCase) -> tuple[bool, ...]:

@@ -348,7 +348,7 @@ def valid(spec: ChainDrive, scene: Start) -> Criterion:
     case = start_case(spec, scene)
     own = getattr(spec.layout, "tail", None)
     count = (not case.moves) + case.follows_curve + (own is not None and own.driven == "on")
-    meaning = "too weak a drive, a motor's curve, a driven tail: none of them"
+    meaning = "insufficient drive force, motor curve, driven tail: none of them"
     return Criterion("n", float(count), 1.0, meaning, "count")
 
 

@@ -194,7 +194,7 @@ def waves_valid(spec: ChainDrive, scene: Stopping) -> Criterion:
     else:
         time, _ = stop_case(spec, scene).rest()
         value = math.inf if math.isinf(time) else time * float(natural_frequencies(spec, scene)[0]) / (2e3 * math.pi)
-    return Criterion("n", value, 1.0, "swings of the chain before it rests, in thousands", "count")
+    return Criterion("n", value, 1.0, "oscillations of the chain before standstill, in thousands", "count")
 
 
 def _waves_cost(spec: ChainDrive, scene: Stopping, carried: frozenset[str], level: int) -> float:

@@ -65,6 +65,6 @@ BACKSTOP: Check[Conveyor, ConveyorScene] = Check(
     what="Idler resistance, backstop and closed brakes hold the force of the load on the stopped belt. The rollback"
     " torque is at most the torque of backstop and brakes, divided by the reserve.",
     why="A belt that rolls back buries its tail and drives the motors backward.",
-    formula="(climb of the load - idler friction at rest) D/2 <= (M_backstop + M_brakes)/reserve",
+    formula="(slope resistance of the load - idler friction at standstill) D/2 <= (M_backstop + M_brakes)/reserve",
     source="lecture notes Kramatorsk 2007",
 )

@@ -66,7 +66,7 @@ class Belt(Fragment):
             yield given.missing("width", f"{per_width} per width: `width` is missing")
         yield from at_most_one(given, "minimum_drum_diameter", "carcass_thickness")
         yield from together(
-            given, "carcass_thickness", "warp", "the minimum pulley diameter depends on the material too"
+            given, "carcass_thickness", "warp", "the minimum pulley diameter also depends on the material"
         )
         carcass, warp = given.word("carcass"), given.word("warp")
         if carcass is not None and warp is not None and (carcass == "steel_cord") != (warp == "steel_cord"):
@@ -78,7 +78,7 @@ class IdlerRow(Fragment):
     """The idlers of one strand."""
 
     pitch: Annotated[
-        PositiveLength | None, Absent("sag is `not checked`, and waves are those of a taut belt, the stiffest")
+        PositiveLength | None, Absent("sag is `not checked`, and the wave speed is that of a taut belt without sag")
     ] = None
     """distance of the idler sets; needed for sag and with `set_mass`"""
     set_mass: Annotated[Mass | None, OneOf("line_mass")] = None
@@ -138,9 +138,9 @@ class Load(Fragment):
     """load per length of the carry strand, or give `capacity`"""
     capacity: Annotated[MassFlow | None, OneOf("mass")] = None
     """mass flow; the load per length is capacity over belt speed"""
-    density: Annotated[PositiveDensity | None, Absent("the check of the cross-section needs it and does not apply")] = (
-        None
-    )
+    density: Annotated[
+        PositiveDensity | None, Absent("the check of the cross-section requires it and is not applied")
+    ] = None
     """bulk density; with it the cross-section of the load is checked"""
     surcharge_angle: Annotated[SurchargeAngle | None, Assumed()] = None
     """slope of the moving material at the edges of its bed; 15 deg is assumed when it is left out"""
@@ -150,7 +150,7 @@ class Load(Fragment):
         """The load is given in one way."""
         yield from exactly_one(given, "mass", "capacity")
         if "surcharge_angle" in given and "density" not in given:
-            reason = "the cross-section is compared with the stream: `density` is missing"
+            reason = "the capacity of the cross-section is checked: `density` is missing"
             yield Conflict((), reason, "add `density: 1600 kg/m^3`")
 
 
@@ -159,7 +159,9 @@ class Transition(Fragment):
 
     length: PositiveSpan
     """from the drum's axis to the first full trough"""
-    pulley_lift: Annotated[Length, Absent("a pulley at the height of the middle roll strains the edges most")] = 0.0
+    pulley_lift: Annotated[
+        Length, Absent("the edge strain is largest for a pulley at the height of the centre roll")
+    ] = 0.0
     """height of the drum's face over the middle roll; a third of the trough's depth is usual"""
 
 

@@ -26,7 +26,7 @@ class Damping(Fragment):
         """Only a Zener belt has a second stiffness."""
         model = given.word("model")
         if model == "zener" and "stiffening" not in given:
-            yield given.missing("stiffening", "a Zener belt is stiffer for sudden changes")
+            yield given.missing("stiffening", "a Zener belt is stiffer under rapid changes")
         elif model == "kelvin_voigt" and "stiffening" in given:
             reason = "a Kelvin-Voigt belt has one stiffness"
             yield Conflict(("stiffening",), reason, "delete `stiffening`, or write `model: zener`")

@@ -51,7 +51,7 @@ class Scraper(Fragment):
 class Loading(Fragment):
     """Material that the belt brings to its speed."""
 
-    speed: Annotated[SignedSpeed, Absent("material without speed along the belt takes the most force")] = 0.0
+    speed: Annotated[SignedSpeed, Absent("material without speed along the belt requires the largest force")] = 0.0
     """of the material along the belt when it falls on"""
 
 
@@ -74,7 +74,7 @@ class ExtraForce(Fragment):
         """A force is given, or follows from one thing; nothing is conveyed on the return strand."""
         yield from exactly_one(given, "force", "skirt", "scraper", "loading")
         if given.word("at") == "return" and (of_stream := [key for key in _OF_THE_STREAM if key in given]):
-            reason = f"nothing is conveyed on the return strand, where `{of_stream[0]}` could act"
+            reason = f"the return strand carries no material on which `{of_stream[0]}` could act"
             yield Conflict(("at",), reason, "write `at: tail`, or `at: carry`")
 
 
@@ -110,7 +110,7 @@ class Resistance(Fragment):
     """secondary resistances as a force at the loading point, instead of `secondary`"""
     cema: Cema | None = None
     """the CEMA method, instead of `coefficient` and `secondary`; pulleys and loading go to `secondary_force`"""
-    speed_share: Annotated[Fraction, Absent("the resistance does not depend on the speed, as ISO 5048 takes it")] = 0.0
+    speed_share: Annotated[Fraction, Absent("the resistance is independent of the speed, as in ISO 5048")] = 0.0
     """part of the idlers' resistance at rated speed that is proportional to the speed"""
     forces: dict[str, ExtraForce] = Field(default_factory=dict, max_length=50)
     """special resistances by name, in addition to main and secondary ones"""
@@ -127,11 +127,11 @@ class Resistance(Fragment):
         yield from at_most_one(given, "secondary", "secondary_force")
         for key in ("coefficient", "secondary"):
             if "cema" in given and key in given:
-                reason = "it belongs to ISO 5048 and DIN 22101, `cema` is another method: results of both are not mixed"
+                reason = "it is a key of ISO 5048 and DIN 22101; `cema` is another method, and the two are not combined"
                 yield Conflict((key,), reason, f"delete `{key}`, or `cema`")
         if "secondary_force" in given or "cema" in given:
             return
         for name, force in given.raw.get("forces", {}).items() if isinstance(given.raw.get("forces"), dict) else ():
             if isinstance(force, dict) and "loading" in force:
-                reason = "the length factor C holds the resistance at the loading point already"
-                yield Conflict(("forces", name, "loading"), reason, "give `secondary_force` for all that C stands for")
+                reason = "the length factor C already includes the resistance at the loading point"
+                yield Conflict(("forces", name, "loading"), reason, "give `secondary_force` instead of C")

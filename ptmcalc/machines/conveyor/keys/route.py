@@ -24,7 +24,7 @@ class Section(Fragment):
     carry_pitch: Annotated[PositiveLength | None, OneOf("idlers.carry.pitch")] = None
     """idler pitch of the carry strand there, instead of that of `idlers.carry`"""
     curve_radius: Annotated[
-        PositiveSpan | None, Absent("no curve is described: lift-off and edges there are not checked")
+        PositiveSpan | None, Absent("no curve is described: its lift-off and edge tension are not checked")
     ] = None
     """radius of the vertical curve that leads from the section before into this one"""
 
@@ -92,8 +92,8 @@ class Route(Fragment):
         yield from _too_steep(given)
         first = next(iter(given.blocks("sections")), None)
         if first is not None and "curve_radius" in first:
-            reason = "a curve leads into a section from the one before: the first has none"
-            yield Conflict(("sections", 0, "curve_radius"), reason, "write it under the section behind the curve")
+            reason = "a curve connects a section with the section before it: the first section has none"
+            yield Conflict(("sections", 0, "curve_radius"), reason, "write it under the section after the curve")
 
     @property
     def parts(self) -> tuple[Section, ...]:

@@ -59,7 +59,7 @@ def has_curve(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     **Source** the file.
     """
     lacks = not motors_of(spec)
-    return Criterion("curve", float(lacks), 1.0, "0 where the file gives each motor a curve, else 1", "the file")
+    return Criterion("curve", float(lacks), 1.0, "0 if the file gives each motor a curve, otherwise 1", "the file")
 
 
 STEADY_DRIVE: Solver[Conveyor, ConveyorScene] = Solver(

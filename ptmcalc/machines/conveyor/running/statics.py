@@ -74,7 +74,7 @@ def run(spec: Conveyor, scene: Run, carried: frozenset[str], level: int) -> Resu
         return {"tension_max": course, "tension_min": course}
 
     beyond = _unshared(spec, found)
-    state = "the slip lines of different motors decide how they share the pull" if beyond else ""
+    state = "the slip curves of the motors determine their load sharing" if beyond else ""
     return Result(found, work=1, histories=histories, beyond=beyond, open_end=state)
 
 

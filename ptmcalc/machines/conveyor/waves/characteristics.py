@@ -465,7 +465,7 @@ def _findings(case: StartCase, motion: loop.Motion, sagging: bool) -> list[Findi
         found.append(
             Finding(
                 "NUM104",
-                "a part of the belt runs backward for a moment; its idler resistance is taken as if it ran forward",
+                "a part of the belt runs backward briefly; its idler resistance is that of forward motion",
             )
         )
     return found
@@ -504,7 +504,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
         "W/F",
         0.0 if case.moves else max(case.line.static_resistance / case.available_force, 1.0),
         1.0,
-        "static resistance over the drive's force: at 1 the belt stays at rest",
+        "static resistance / drive force: at 1 the belt does not move",
         "Newton's law",
     )
 

@@ -93,7 +93,7 @@ def valid(spec: Conveyor, scene: Start) -> Criterion:
         "u",
         ratio,
         1.0 + 1e-12,
-        "window, impedance jump and tail mass over what the closed form allows",
+        "window, impedance jump and tail mass relative to the limits of the closed form",
         "laws.wave",
     )
 

@@ -191,7 +191,7 @@ def _of_a_drive(key: str, drive: TravelDrive) -> Iterator[Assumption[Stacker]]:
         units.INERTIA,
         lambda spec: 0.15 * rotor,
         lambda spec: Interval(0.10 * rotor, 0.25 * rotor),
-        "couplings and gear take 1.1 to 1.25 times the rotor's inertia (lecture notes, Kramatorsk 2007)",
+        "couplings and gear increase the rotor inertia by a factor of 1.1 to 1.25 (lecture notes, Kramatorsk 2007)",
     )
 
 

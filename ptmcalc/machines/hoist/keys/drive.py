@@ -31,11 +31,11 @@ class Gearbox(drive.Gear):
     """from drum to motor; 2 - 1/efficiency when left out, negative for a self-locking gear"""
     stiffness: Annotated[
         Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
-        Absent("rigid: impacts in the gear are only checked with it"),
+        Absent("rigid; impacts in the gear are checked only with this key"),
     ] = None
     """of shafts and gear between rotor and drum, on the drum shaft; rigid when left out"""
     backlash: Annotated[
-        float, Measure(units.ANGLE, at_least=0), Absent("no backlash: its impact is only checked with it")
+        float, Measure(units.ANGLE, at_least=0), Absent("no backlash; its impact is checked only with this key")
     ] = 0.0
     """total backlash between rotor and drum, as an angle of the drum"""
     damping: Annotated[

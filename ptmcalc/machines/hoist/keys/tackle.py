@@ -42,7 +42,7 @@ class Reeving(Fragment):
     sheave_efficiency: Annotated[Efficiency | None, Assumed()] = None
     """of a sheave in the tackle; 0.98 is assumed when it is left out"""
     deflection_sheaves: Annotated[
-        int, Field(ge=0, le=40, strict=True), Absent("no sheaves between drum and tackle")
+        int, Field(ge=0, le=40, strict=True), Absent("no sheaves between drum and hook block reeving")
     ] = 0
     """sheaves between drum and tackle that only turn the rope, on each rope"""
     deflection_efficiency: Annotated[Efficiency | None, Assumed()] = None
@@ -51,9 +51,9 @@ class Reeving(Fragment):
     """of the sheaves of the tackle at the bottom of the groove; needed to check how sharply they bend the rope"""
     equaliser_diameter: Annotated[PositiveLength | None, Checked()] = None
     """of the equalising sheave at the bottom of the groove"""
-    lead_length: Annotated[Span, Absent("the rope falls straight to the hook block, which is stiffest")] = 0.0
+    lead_length: Annotated[Span, Absent("vertical falls to the hook block, the stiffest case")] = 0.0
     """rope between the drum and the tackle: to the first sheave; 0 where it falls straight to the hook block"""
-    lead_offset: Annotated[Span, Setting("the middle of the travel, as drums are laid out")] = 0.0
+    lead_offset: Annotated[Span, Setting("the middle of the rope travel, the usual drum layout")] = 0.0
     """of the first sheave, or that of the hook block, from the middle of the rope's travel along the drum, towards the
     turns wound last"""
 
@@ -64,12 +64,12 @@ class Reeving(Fragment):
         if falls is None:
             return
         if falls < 1:
-            reason = f"a load does not hang on {falls} parts of rope"
-            yield Conflict(("falls",), reason, "write the number of parts the hook block hangs on, e.g. `falls: 4`")
+            reason = f"a load cannot hang on {falls} rope falls"
+            yield Conflict(("falls",), reason, "write the number of falls at the hook block, e.g. `falls: 4`")
         elif falls > MOST_FALLS:
-            yield Conflict(("falls",), f"no tackle has {falls} falls", f"write at most `falls: {MOST_FALLS}`")
+            yield Conflict(("falls",), f"{falls} falls are too many", f"write at most `falls: {MOST_FALLS}`")
         elif ropes == 2 and falls % 2:
-            reason = f"{falls} falls do not share out on two ropes"
+            reason = f"{falls} falls cannot be divided between two ropes"
             yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
 
 
@@ -92,7 +92,7 @@ class Rope(Fragment):
     """minimum breaking force; needed to check the safety of the rope"""
     rotation_resistant: Literal["yes", "no"] = "no"
     """whether it is a rotation-resistant rope, which has a smaller permissible fleet angle"""
-    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
+    damping: Annotated[Fraction, Absent("without damping, forces are maximum")] = 0.0
     """damping ratio of the load on its rope; without any, as when left out, forces come out largest"""
 
     @classmethod
@@ -129,9 +129,9 @@ class Structure(Fragment):
 
     stiffness: PositiveStiffness
     """force over deflection where the hoist stands"""
-    mass: Annotated[Mass, Absent("without mass the structure follows at once")] = 0.0
+    mass: Annotated[Mass, Absent("a massless structure follows at once")] = 0.0
     """that moves with it; of a simple bridge about half of its own, and the trolley"""
-    damping: Annotated[Fraction, Absent("without damping, forces are largest")] = 0.0
+    damping: Annotated[Fraction, Absent("without damping, forces are maximum")] = 0.0
     """damping ratio of its own vibration"""
 
 
@@ -156,12 +156,14 @@ class Winding(Fragment):
     packing: Literal["nested", "square"] = "nested"
     """`nested`: a layer is in the valleys of the one below; `square`: on top of it"""
     crossovers: Annotated[
-        int, Field(ge=1, le=4, strict=True), Setting("two crossovers a turn, as of drums grooved parallel")
+        int, Field(ge=1, le=4, strict=True), Setting("two crossovers per turn, as on drums with parallel grooves")
     ] = 2
     """places in a turn where the rope climbs over to the next valley"""
     crossover: Annotated[Annotated[float, Measure(units.ANGLE, above=0)] | None, Assumed()] = None
     """angle of the drum over which a crossover reaches; 60 deg is assumed when it is left out"""
-    paper_modulus: Annotated[PositiveStress | None, Setting("of a textbook formula, which decides nothing")] = None
+    paper_modulus: Annotated[PositiveStress | None, Setting("value of a textbook formula that decides no verdict")] = (
+        None
+    )
     """modulus in the formula of the winding paper, which takes that of the wire, 210 GPa, when left out"""
 
     @classmethod
@@ -169,7 +171,7 @@ class Winding(Fragment):
         """Between the crossovers the rope lies in its valleys."""
         arc, count = given.number("crossover"), whole(given, "crossovers") or 2
         if arc is not None and count > 0 and arc * count >= 2 * math.pi:
-            reason = f"{count} crossovers of {units.show(arc, units.ANGLE)} take more than the whole turn"
+            reason = f"{count} crossovers of {units.show(arc, units.ANGLE)} exceed one turn"
             yield Conflict(("crossover",), reason, "write e.g. `crossover: 60 deg`")
 
 
@@ -181,12 +183,12 @@ def _why_not_wound(pitch: float, d: float, layers: int, nested: bool) -> str | N
     """
     thick, found = units.show(d, units.LENGTH), units.show(pitch, units.LENGTH)
     if pitch < d:
-        return f"turns of a rope of {thick} are at least its diameter apart, not {found}"
+        return f"the pitch of a rope of {thick} is at least its diameter, not {found}"
     if pitch >= 2 * d:
-        return f"turns of a rope of {thick} are less than two of its diameters apart, not {found}: another fits between"
+        return f"the pitch of a rope of {thick} is less than two diameters, not {found}: another wrap would fit between"
     if nested and layers > 2 and pitch > math.sqrt(3) * d:
         most = units.show(math.sqrt(3) * d, units.LENGTH)
-        return f"a third nested layer of a rope of {thick} needs turns at most {most} apart, not {found}"
+        return f"a third nested layer of a rope of {thick} requires a pitch of at most {most}, not {found}"
     return None
 
 
@@ -205,7 +207,7 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         return
     thick, size = units.show(d, units.LENGTH), units.show(big, units.LENGTH)
     if d >= big:
-        reason = f"a rope of {thick} is not wound on a drum of {size}"
+        reason = f"a rope of {thick} cannot be wound on a drum of {size}"
         yield Conflict(("drum", "diameter"), reason, f"write e.g. `diameter: {units.show(18 * d, units.LENGTH)}`")
         return
     pitch, length, layers = drum.number("pitch"), drum.number("length"), whole(drum, "layers") or 1
@@ -213,17 +215,17 @@ def layers_that_do_not_fit(drum: Given, rope: Given, nested: bool) -> Iterator[C
         yield Conflict(("drum", "pitch"), unwound, f"write e.g. `pitch: {units.show(1.12 * d, units.LENGTH)}`")
         return
     if length is not None and length < 3 * (pitch or d):
-        reason = "it does not take three turns of the rope side by side"
+        reason = "it is too short for three adjacent wraps of the rope"
         yield Conflict(("drum", "length"), reason, f"write e.g. `length: {units.show(20 * d, units.LENGTH)}`")
     flange = drum.number("flange_height")
     if layers > 1 and "flange_height" not in drum:
         example = units.show(layers * d + 2 * d, units.LENGTH)
-        reason = f"{layers} layers are held by flanges: their height is missing"
+        reason = f"{layers} layers require flanges: their height is missing"
         yield Conflict(("drum", "layers"), reason, f"add `flange_height: {example}`")
     step = d if not nested else (d**2 - ((pitch or d) / 2) ** 2) ** 0.5
     if flange is not None and layers > 1 and d + (layers - 1) * step > flange:
         holds = 1 + int((flange - d) / step) if flange >= d else 0
-        reason = f"the flanges of {units.show(flange, units.LENGTH)} hold {holds} layers, not {layers}"
+        reason = f"flanges of {units.show(flange, units.LENGTH)} are high enough for {holds} layers, not {layers}"
         needed = units.show(d + (layers - 1) * step + 1.5 * d, units.LENGTH)
         fix = f"write `layers: {holds}`, or" if holds else "write"
         yield Conflict(("drum", "layers"), reason, f"{fix} `flange_height: {needed}`")

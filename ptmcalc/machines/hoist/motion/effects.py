@@ -106,9 +106,7 @@ def rope_criterion(spec: Hoist, scene: Moving) -> Criterion:
         value = lift_off.elasticity_number(
             speed, one.drive_force, one.weight, one.drive_mass, one.load_mass, one.stiffness
         )
-    return Criterion(
-        "Π_e", value, ELASTIC_THRESHOLD, "dynamic part of the rope force, over the weight", "laws.lift_off"
-    )
+    return Criterion("Π_e", value, ELASTIC_THRESHOLD, "dynamic rope force / weight", "laws.lift_off")
 
 
 def anything_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
@@ -137,7 +135,7 @@ def drive_criterion(spec: Hoist, scene: Moving) -> Criterion:
         if one.drive_mass
         else 0.0
     )
-    return Criterion("Π_m", value, DRIVE_THRESHOLD, "what the drive gains or loses in speed", "laws.lift_off")
+    return Criterion("Π_m", value, DRIVE_THRESHOLD, "speed change of the drive", "laws.lift_off")
 
 
 ROPE_ELASTICITY: Effect[Hoist, Moving] = Effect(
@@ -164,7 +162,7 @@ def structure_criterion(spec: Hoist, scene: Moving) -> Criterion:
         one = reduced(spec, scene)
         value = max(lift_off.structure_number(one.stiffness, given.stiffness, given.mass, one.load_mass))
     return Criterion(
-        "K/K_b, m_b/M", value, STRUCTURE_THRESHOLD, "rope stiffness and load over the structure's", "laws.lift_off"
+        "K/K_b, m_b/M", value, STRUCTURE_THRESHOLD, "rope stiffness and load relative to the structure", "laws.lift_off"
     )
 
 
@@ -197,7 +195,7 @@ def gear_criterion(spec: Hoist, scene: Moving) -> Criterion:
     gear = spec.gearbox
     stiff = math.inf if gear is None or gear.stiffness is None else gear.stiffness
     value = reduced(spec, scene).stiffness * travel(spec, scene) ** 2 / stiff
-    return Criterion("K R²/C", value, GEAR_THRESHOLD, "rope stiffness over the gear's", "springs in series")
+    return Criterion("K R²/C", value, GEAR_THRESHOLD, "rope stiffness / gear stiffness", "springs in series")
 
 
 def gear_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
@@ -264,7 +262,7 @@ def rope_mass_criterion(spec: Hoist, scene: Moving) -> Criterion:
     **Source** `laws.rope_rod`: the frequency of a massless rope is 0.8 % too high at 0.05.
     """
     value = rope_mass(spec, scene) / reduced(spec, scene).load_mass
-    return Criterion("m_r/M", value, ROPE_MASS_THRESHOLD, "mass of the hanging rope over the load", "laws.rope_rod")
+    return Criterion("m_r/M", value, ROPE_MASS_THRESHOLD, "mass of the suspended rope / load", "laws.rope_rod")
 
 
 def rope_mass_bound(spec: Hoist, scene: Moving, loads: Loads) -> Offsets:
@@ -391,7 +389,11 @@ def shortening_criterion(spec: Hoist, scene: Moving) -> Criterion:
     **Source** `laws.rope_rod.hauling_gain`.
     """
     return Criterion(
-        "v T/l", _shortening(spec, scene), SHORTENING_THRESHOLD, "rope taken up in the scene, over all", "laws.rope_rod"
+        "v T/l",
+        _shortening(spec, scene),
+        SHORTENING_THRESHOLD,
+        "rope length change in the scene / rope length",
+        "laws.rope_rod",
     )
 
 

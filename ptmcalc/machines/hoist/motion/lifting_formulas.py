@@ -206,7 +206,7 @@ def is_held(spec: Hoist, scene: HoistScene) -> Criterion:
     one = reduced(spec, scene)
     share = one.load_mass / one.drive_mass if one.drive_mass else 1.0
     fits = not is_rigid(spec, scene).exceeded
-    return Criterion("M/m_1", share if fits else 1.0, 0.1, "load over drive, or gear and structure give", "")
+    return Criterion("M/m_1", share if fits else 1.0, 0.1, "load relative to drive, or flexible gear and structure", "")
 
 
 def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
@@ -218,7 +218,7 @@ def is_rigid(spec: Hoist, scene: HoistScene) -> Criterion:
     """
     gear = spec.gearbox
     rigid = spec.structure is None and (gear is None or gear.stiffness is None)
-    return Criterion("-", 0.0 if rigid else 1.0, 1.0, "gear or structure give", "")
+    return Criterion("-", 0.0 if rigid else 1.0, 1.0, "flexible gear or structure", "")
 
 
 def _cost(spec: Hoist, scene: HoistScene, carried: frozenset[str], level: int) -> float:

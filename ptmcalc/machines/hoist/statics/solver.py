@@ -151,7 +151,7 @@ def _of_the_start(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     time = torques.start_time(spec, spec.motor, mass, height, up=True) if reserve > 1 else math.inf
     if isinstance(scene, Start):
         time = torques.profiled(spec, spec.motor, scene, mass, time)
-    note = "stall: the motor does not lift the hanging load" if math.isinf(time) else ""
+    note = "stall: the motor does not lift the suspended load" if math.isinf(time) else ""
     found = {
         "starting_reserve": Found(Estimate.exact(reserve), note=note),
         "start_time": Found(Estimate.exact(time)),
@@ -171,7 +171,7 @@ def _of_the_brake(spec: Hoist, scene: HoistScene) -> dict[str, Found]:
     note = ""
     if held.drop > 0:
         way, hits = units.show(held.drop, units.SPAN), units.show(held.speed, units.SPEED)
-        note = f"the load drops {way} to the ground and meets it at {hits}"
+        note = f"the load drops {way} to the ground and hits it at {hits}"
     return {
         "brake_torque_static": Found(Estimate.exact(held.torque)),
         "brake_reserve_static": Found(Estimate.exact(held.reserve), note=note),
@@ -257,7 +257,7 @@ def _where_the_brake_lets_go(spec: Hoist, scene: HoistScene) -> Iterator[Finding
                 f"scene `{scene.label}` assumes the lowest hook position, where the brake holds the load; above hook"
                 f" height {said}, with the rope on layer {layer}, the brake does not hold it"
             )
-            yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to see such a stop")
+            yield Finding("NUM104", message, ("scenes",), f"write a `hook_height` above {said} to assess such a stop")
         return
 
 

@@ -48,7 +48,7 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
     " change and the crossovers on the new layer.",
     why="The rope speed changes abruptly with the radius of the drum, and the load oscillates on its rope. The safety"
     " factor of the rope covers static forces only.",
-    formula="s_dyn/s_mean <= limit;   of a sudden climb w dR k n/(m g)",
+    formula="s_dyn/s_mean <= limit;   for a sudden layer change w dR k n/(m g)",
     source="Fidrovska and Varchenko, put right; the limit an engineering choice",
 )
 CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(

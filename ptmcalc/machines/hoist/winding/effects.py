@@ -28,7 +28,7 @@ def layer_map_criterion(spec: Hoist, scene: WindUp) -> Criterion:
     **Source** `laws.winding.sudden_ratio`; the threshold of 2 % is an engineering choice.
     """
     value = sudden_ratio(spec, scene)
-    meaning = "dynamic over mean stress of a sudden climb"
+    meaning = "dynamic / mean stress of a sudden layer change"
     return Criterion("ωΔr k/(m g)", value, LAYER_MAP_THRESHOLD, meaning, "laws.winding")
 
 

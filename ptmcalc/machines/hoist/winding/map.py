@@ -39,7 +39,7 @@ def run(spec: Hoist, scene: WindUp, carried: frozenset[str], level: int) -> Resu
     motion = haul(radius_map(spec, scene), case.drum_speed, hanging)
     most, least = motion.extremes()
     if least.value + least.error <= -hanging.static_strain:
-        reason = f"the rope goes slack {least.time:.3g} s after the climb begins"
+        reason = f"the rope goes slack {least.time:.3g} s after the layer change begins"
         hint = "a lower drum speed, or one layer of rope"
         return Result({}, work=len(motion.offsets), failures=(Failure("HST140", reason, ("speed",), hint),))
     if least.value - least.error <= -hanging.static_strain:

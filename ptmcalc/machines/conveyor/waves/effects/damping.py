@@ -45,7 +45,9 @@ def damping_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
     if spec.belt.damping is None or jumps(spec, scene):
         return None
     value = math.inf if isinstance(scene, Jam) else damping_change(spec, belt_line(spec, scene))
-    return Criterion("d", value, DAMPING_THRESHOLD, "what damping makes of the slowest wave", "laws.belt_damping")
+    return Criterion(
+        "d", value, DAMPING_THRESHOLD, "frequency shift of the slowest wave by damping", "laws.belt_damping"
+    )
 
 
 def jumps(spec: Conveyor, scene: ConveyorScene) -> bool:

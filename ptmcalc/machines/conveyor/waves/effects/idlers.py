@@ -55,7 +55,7 @@ def coulomb_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     value = idlers / pulled if pulled > 0 else math.inf
     if slides_on(spec, scene):
         value = 0.0
-    return Criterion("W/(m a)", value, COULOMB_THRESHOLD, "idler friction over the belt's inertia", "Newton's law")
+    return Criterion("W/(m a)", value, COULOMB_THRESHOLD, "idler friction / inertia force of the belt", "Newton's law")
 
 
 def coulomb_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:

@@ -54,7 +54,7 @@ def travel_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     at which waves meet change by v/c.
     """
     value = belt_travel(belt_line(spec, scene))
-    return Criterion("v/c", value, TRAVEL_THRESHOLD, "belt speed over that of its slowest wave", "numerics.belt.travel")
+    return Criterion("v/c", value, TRAVEL_THRESHOLD, "belt speed / speed of the slowest wave", "numerics.belt.travel")
 
 
 def travel_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:

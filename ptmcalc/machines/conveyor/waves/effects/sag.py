@@ -54,7 +54,9 @@ def sag_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion | None:
         value = _softening(line, float(min((*line.static_ends(RETURN), *line.static_ends(CARRY)))))
     if value is None:
         return None
-    return Criterion("f", value, SAG_THRESHOLD, "give of the sagging spans over that of the belt", "laws.sag.softening")
+    return Criterion(
+        "f", value, SAG_THRESHOLD, "compliance of the sagging spans / compliance of the belt", "laws.sag.softening"
+    )
 
 
 def _softening(line: BeltLine, lowest: float) -> float | None:

@@ -40,7 +40,7 @@ def jump_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     value = abs(wave.reflection(line.impedance(CARRY), line.impedance(RETURN)))
-    return Criterion("r", value, JUMP_THRESHOLD, "part of a wave the tail reflects", "laws.wave.reflection")
+    return Criterion("r", value, JUMP_THRESHOLD, "reflected part of a wave at the tail", "laws.wave.reflection")
 
 
 def jump_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
@@ -70,7 +70,7 @@ def tail_mass_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     line = belt_line(spec, scene)
     value = line.tail_mass / belt_mass(line)
-    return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail drum over belt and load", "Newton's law")
+    return Criterion("m_t/m_b", value, TAIL_MASS_THRESHOLD, "tail pulley mass / mass of belt and load", "Newton's law")
 
 
 def tail_mass_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:

@@ -50,7 +50,7 @@ def wave_criterion(spec: Conveyor, scene: ConveyorScene) -> Criterion:
     """
     value = bounds.stray_ratio(start_case(spec, scene)) if isinstance(scene, Start) else _shock(spec, scene)
     return Criterion(
-        "E", value, WAVE_THRESHOLD, "tension the belt's waves can add, over the static tension", "laws.loop_bounds"
+        "E", value, WAVE_THRESHOLD, "maximum tension added by belt waves / static tension", "laws.loop_bounds"
     )
 
 

@@ -161,7 +161,7 @@ class HoistRope(Fragment):
         yield from together(given, "length", "area", "the stiffness of the rope depends on both")
         falls, ropes = given.raw.get("falls"), given.raw.get("ropes", 1)
         if isinstance(falls, int) and ropes == 2 and falls % 2:
-            reason = f"{falls} falls do not share out on two ropes"
+            reason = f"{falls} falls cannot be divided between two ropes"
             yield Conflict(("falls",), reason, f"write `falls: {falls + 1}`, or `ropes: 1`")
 
 
