@@ -344,7 +344,7 @@ class ConverterMotor(RatedMotor):
         yield from exactly_one(given, "power", "rated_torque")
         yield from exactly_one(given, "slip", "stiffness")
         if "rated_speed" in given and "power" not in given and "slip" not in given:
-            reason = "nothing uses it: it belongs to `power` and `slip`"
+            reason = "it is unused: it belongs to `power` and `slip`"
             yield Conflict(("rated_speed",), reason, "delete `rated_speed`")
         limit, rated = given.number("torque_limit"), cls.rated_by(given)
         if limit is not None and rated is not None and limit < rated:

@@ -96,7 +96,7 @@ class TestBadInput:
 
     def test_a_chain_too_short_for_its_sprockets_whatever_their_distance(self) -> None:
         found = faulty(changed(ROLLER, layout__pitches=20, layout__centre_distance="1 m"), "layout", "pitches")
-        assert "20 pitches do not reach round both sprockets" in found.message
+        assert "20 pitches are too few for both sprockets" in found.message
 
     def test_neither_stiffness_nor_section(self) -> None:
         found = faulty(changed(CH_05, chain__section=None, chain__modulus=None), "chain")

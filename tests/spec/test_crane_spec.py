@@ -97,7 +97,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "no unit": ({"speed": 2}, "SPC106", "has no unit"),
     "wrong unit": ({"speed": "2 m/s"}, "SPC105", "`2 m/s`"),
     "no speed": ({"speed": None}, "SPC103", "`speed` is missing"),
-    "no load beside the parts": ({"load": None}, "SPC113", "the load slews with the parts"),
+    "no load beside the parts": ({"load": None}, "SPC113", "the load is one of the slewing parts"),
     "nothing that slews": (
         {"slewing_part": None, "counterweight": None, "jib": None},
         "SPC113",
@@ -219,7 +219,7 @@ def test_a_start_that_fits_its_torque_is_not_warned_of() -> None:
 
 def test_a_motor_of_another_speed_is_told() -> None:
     (warning,) = loaded(changed(YARD, speed="2 rpm")).diagnostics
-    assert "motor and gear turn the crane at 1 rpm, the file states 2 rpm" in warning.message
+    assert "motor and gear result in a slewing speed of 1 rpm, the file states 2 rpm" in warning.message
 
 
 def test_a_coupling_that_is_not_given_is_assumed() -> None:

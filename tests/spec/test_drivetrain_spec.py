@@ -265,14 +265,14 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         one_edit("between: [motor, wheel]", "between: [motor, crane]"),
         "links.shaft.between[1]",
         "crane]",
-        "one end turns, the other travels",
+        "one end rotates, the other travels",
         "a gear with a `radius`",
     ),
     "a clutch between turning and travelling": (
         one_edit("brake: {at: motor", "brake: {at: motor, against: crane"),
         "brakes.brake.against",
         "against: crane",
-        "one end turns, the other travels",
+        "one end rotates, the other travels",
         "a gear with a `radius`",
     ),
     "a radius in the wrong order": (
@@ -307,7 +307,7 @@ WIRING: dict[str, tuple[tuple[tuple[str, str], ...], str, str, str, str]] = {
         one_edit("main: {at: motor", "main: {at: crane"),
         "motors.main.at",
         "at: crane, motor",
-        "a motor turns, and this inertia travels",
+        "a motor rotates, and this inertia travels",
         "a gear of a `radius`",
     ),
     "two motions of inertias that gears tie": (

@@ -275,7 +275,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         TOOL,
         "load.type",
         "type: tool_force",
-        "only a slider-crank has a tool that a force can act on",
+        "only a slider-crank has a tool for a force",
         "`inertia: {type: slider_crank, ...}`",
     ),
     "a spring at the tool of a table": (
@@ -284,7 +284,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         BALANCE,
         "potential[0].type",
         "type: tool_spring",
-        "only a slider-crank has a tool that a spring can act on",
+        "only a slider-crank has a tool for a spring",
         "`inertia: {type: slider_crank, ...}`",
     ),
     "a slider-crank that does not repeat itself": (
@@ -462,7 +462,7 @@ DISAGREEING = [
         file(CONSTANT, DRIVE, WEIGHT.replace("4 kg", "400 kg"), "brake: {torque: 190 N*m, delay: 0 s}\n"),
         "brake.torque",
         "190 N*m",
-        "more than brake and friction hold",
+        "above the holding torque of brake and friction",
         ("torque: 190", "torque: 200"),
     ),
     (

@@ -81,7 +81,7 @@ def _of_two_shafts(spec: ChainDrive, layout: TwoShafts) -> Iterator[Finding]:
     if not fits and abs(exact - layout.pitches) > _PITCHES_TOLERANCE:
         yield Finding(
             "SPC201",
-            f"the centre distance {units.show(layout.centre_distance, units.LENGTH)} requires {exact:.1f} pitches of chain",
+            f"a centre distance of {units.show(layout.centre_distance, units.LENGTH)} requires {exact:.1f} pitches",
             ("layout", "pitches"),
             f"write `pitches: {chain_selection.even_pitches(exact)}`, or correct the distance",
         )

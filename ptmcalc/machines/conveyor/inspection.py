@@ -41,8 +41,8 @@ def inspect(spec: Conveyor) -> Iterator[Finding]:
         if grip is not None and grip > _MOST_FRICTION:
             yield Finding(
                 "SPC201",
-                f"a friction coefficient of {grip:.4g} between belt and drum: rubber on dry lagging comes to 0.45, on"
-                " ceramic tiles to 0.8",
+                f"a friction coefficient of {grip:.4g} between belt and pulley: dry rubber lagging reaches 0.45,"
+                " ceramic lagging 0.8",
                 (*spec.drive_path(name), "drum", "friction"),
                 "write `friction: 0.35` for rubber lagging, or the manufacturer's value",
             )

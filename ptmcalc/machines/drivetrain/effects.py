@@ -36,7 +36,7 @@ def elasticity_criterion(spec: Drivetrain, scene: TrainScene) -> Criterion:
     **Source** derived in `machines.drivetrain.bounds`; the threshold of 5 % is an engineering choice.
     """
     value = bounds.largest_share(spec, scene)
-    meaning = "swing the links can add to a torque, over the rigid train's"
+    meaning = "oscillation added by the links / torque of the rigid train"
     return Criterion("E", value, ELASTICITY_THRESHOLD, meaning, "machines.drivetrain.bounds")
 
 

@@ -61,9 +61,9 @@ class Body(Fragment):
     """mass of a part that travels"""
     body: AnyBody | None = None
     """a body whose inertia is computed from its dimensions"""
-    position: Annotated[Turn, Absent("positions are counted from there")] = 0.0
+    position: Annotated[Turn, Absent("positions are relative to it")] = 0.0
     """angle or position at the start"""
-    speed: Annotated[AnySpeed | None, Absent("it starts from rest or with the speed of the scene")] = None
+    speed: Annotated[AnySpeed | None, Absent("it starts from standstill or with the speed of the scene")] = None
     """speed at the start; that of the scene, or rest, when left out"""
 
     @classmethod
@@ -127,7 +127,7 @@ class Link(Fragment):
     """names of two inertias, or of one and `ground`; a positive torque drives the second"""
     stiffness: Annotated[Stiffness | None, OneOf("law: rigid")] = None
     """of the whole link; a `rigid` contact has none"""
-    damping: Annotated[Damping, Absent("undamped oscillations are the largest")] = 0.0
+    damping: Annotated[Damping, Absent("undamped oscillations are largest")] = 0.0
     """viscous damping of the link"""
     gap: Annotated[Play | None, Absent("a shaft or another part without clearance"), Also("backlash")] = None
     """total backlash, half of it to either side"""
@@ -138,7 +138,8 @@ class Link(Fragment):
     law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
     """how contact is made and lost; `clamped` with a gap, `no_pull` with slack when left out"""
     dissipation: Annotated[
-        Annotated[float, Measure(units.RATIO, at_least=0)] | None, Absent("a contact that loses nothing rebounds most")
+        Annotated[float, Measure(units.RATIO, at_least=0)] | None,
+        Absent("a contact without losses has the largest rebound"),
     ] = None
     """c in F = k d^n (1 + 1.5 c d'), in s/rad or s/m (`hunt_crossley`)"""
     exponent: Annotated[Exponent, Absent("a linear contact")] = 1.0
@@ -161,7 +162,7 @@ class Link(Fragment):
         law = given.word("law")
         contact = any(key in given for key in ("gap", "clearance", "slack"))
         if law is not None and not contact:
-            yield Conflict(("law",), f"`{law}` is a law of contact, and the link has no backlash", "add `gap: 0 deg`")
+            yield Conflict(("law",), f"`{law}` is a contact law, and the link has no backlash", "add `gap: 0 deg`")
         if law == "rigid":
             for key in ("stiffness", "damping"):
                 if key in given:
@@ -213,7 +214,7 @@ class Gear(Fragment):
         """A ratio or a radius, and not the same inertia twice."""
         yield from exactly_one(given, "ratio", "radius")
         if given.number("ratio") == 0:
-            yield Conflict(("ratio",), "a gear of ratio 0 transmits nothing", "write the speed ratio")
+            yield Conflict(("ratio",), "a gear with ratio 0 transmits no motion", "write the speed ratio")
 
     @property
     def speed_ratio(self) -> float:
@@ -238,7 +239,7 @@ class Brake(Fragment):
     """`ground`, or the inertia on the other side of a clutch"""
     torque: PositiveTorque
     """torque or force while it slips, fully applied"""
-    static_ratio: Annotated[FactorFromOne, Absent("holding as much at rest as in slip is the least")] = 1.0
+    static_ratio: Annotated[FactorFromOne, Absent("equal static and sliding torque is the minimum")] = 1.0
     """torque that it holds at rest over that"""
     delay: Annotated[Time, Assumed(0.0, 0.0, 0.1, "spring-applied brakes, AC or DC switching: up to 0.1 s")] = 0.0
     """from the command until it begins to act"""
@@ -262,7 +263,8 @@ class Resistance(Fragment):
     coulomb: Annotated[TorqueOrNone, Absent("no dry friction")] = 0.0
     """dry friction, against the motion whatever the speed"""
     static_ratio: Annotated[
-        FactorFromOne, Assumed(1.0, 1.0, 1.5, "breakaway of bearings, seals and wheels: up to half more than in motion")
+        FactorFromOne,
+        Assumed(1.0, 1.0, 1.5, "breakaway of bearings, seals and wheels: up to 1.5 times the value in motion"),
     ] = 1.0
     """what must be overcome at rest over that"""
     viscous: Annotated[Damping, Absent("no friction that depends on the speed")] = 0.0
@@ -294,7 +296,7 @@ class RisingTorque(OnInertia):
     type: Literal["ramp"]
     torque: Torque
     """at the end of the ramp, and after it"""
-    first: Annotated[Torque, Absent("it starts from nothing")] = 0.0
+    first: Annotated[Torque, Absent("it starts from zero")] = 0.0
     """at the start of the scene"""
     time: PositiveTime
     """duration of the ramp"""
@@ -386,7 +388,7 @@ class OverPosition(OnInertia):
     points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
     """in rising order"""
     period: Annotated[
-        Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it does not repeat itself")
+        Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it is not periodic")
     ] = None
     """the table repeats after so much travel; its last point is then one period behind the first"""
 
@@ -407,7 +409,7 @@ def rising(given: Given, key: str) -> Iterator[Conflict]:
     numbers = [point.number(key) if point else None for point in given.blocks("points")]
     for index, (one, other) in enumerate(pairwise(numbers), 1):
         if one is not None and other is not None and not other > one:
-            reason = f"the `{key}` of a point is not above the one before"
+            reason = f"the `{key}` of a point is not above that of the point before"
             yield Conflict(("points", index, key), reason, "sort the points")
             return
 

@@ -189,7 +189,7 @@ def departure(spec: Shaft, scene: RunOut) -> Departure:
         machine = machine.without_brake()
     cycle = cycle_of(spec, scene.after)
     if cycle is None:
-        raise NumericsError("NUM102", "the motor stalls: there is no steady cycle a run-out could begin in")
+        raise NumericsError("NUM102", "the motor stalls: there is no steady cycle from which a stop could start")
     return Departure(machine, cycle, scene.start)
 
 
@@ -221,4 +221,4 @@ def inertia_forced_off(spec: Shaft, scene: ShaftScene) -> Criterion:
     **Source** `effects` of the file.
     """
     value = 0.0 if spec.effects.get("varying_inertia") == "off" else 1.0
-    return Criterion("o", value, 0.5, "0 where the file forces the changing inertia off, else 1", "the design file")
+    return Criterion("o", value, 0.5, "0 if the file forces the varying inertia off, otherwise 1", "the design file")

@@ -48,9 +48,7 @@ def inertia_criterion(spec: Shaft, scene: ShaftScene) -> Criterion:
     steepest = max(abs(survey.slope_low), abs(survey.slope_high)) if machine.changing else 0.0
     speed, torque = mean_torque(spec, scene)
     value = float(law.inertia_criterion(steepest, speed, torque))
-    return Criterion(
-        "q", value, INERTIA_THRESHOLD, "torque that the changing inertia takes, over that on the shaft", "laws.shaft"
-    )
+    return Criterion("q", value, INERTIA_THRESHOLD, "torque of the varying inertia / torque on the shaft", "laws.shaft")
 
 
 def inertia_bound(spec: Shaft, scene: ShaftScene, loads: Loads) -> Offsets:

@@ -73,9 +73,9 @@ class Harmonic(Fragment):
 
     order: Order
     """times per turn"""
-    cosine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
+    cosine: Annotated[SignedInertia, Absent("the term has no such component")] = 0.0
     """factor of cos(order * angle)"""
-    sine: Annotated[SignedInertia, Absent("the term has no such part")] = 0.0
+    sine: Annotated[SignedInertia, Absent("the term has no such component")] = 0.0
     """factor of sin(order * angle)"""
 
 
@@ -105,8 +105,8 @@ class HarmonicInertia(Fragment):
             return
         lowest = _lowest_sum(mean, known)
         if lowest <= 0:
-            reason = f"the inertia falls to {units.show(lowest, units.INERTIA)} at some angle"
-            yield Conflict(("terms",), reason, "an inertia is above 0 at every angle: check mean and terms")
+            reason = f"the inertia decreases to {units.show(lowest, units.INERTIA)} at one angle"
+            yield Conflict(("terms",), reason, "an inertia must be above 0 at every angle: check mean and terms")
 
 
 def _lowest_sum(mean: float, terms: Sequence[tuple[int, float, float]]) -> float:
@@ -148,7 +148,7 @@ class SliderCrank(Fragment):
     """of the crank or eccentric"""
     rod_length: PositiveLength
     """between its two eyes"""
-    offset: Annotated[Offset, Absent("the line of the slider crosses the axis of the crank")] = 0.0
+    offset: Annotated[Offset, Absent("the slider axis intersects the crank axis")] = 0.0
     """distance of the slider's line from the crank's axis"""
     crank_inertia: PositiveInertia
     """everything that turns with the main shaft"""
@@ -156,7 +156,7 @@ class SliderCrank(Fragment):
     """slider with tool"""
     rod_mass: Annotated[
         Mass,
-        Absent("the masses of the rod are part of `crank_inertia` and `slider_mass`, as in a substitute of two masses"),
+        Absent("the rod mass is included in `crank_inertia` and `slider_mass` (two-mass substitution)"),
     ] = 0.0
     """of the connecting rod"""
     rod_centre: Annotated[Fraction | None, Assumed()] = None
@@ -174,7 +174,7 @@ class SliderCrank(Fragment):
         """The crank can turn round."""
         radius, rod, offset = (given.number(key) for key in ("crank_radius", "rod_length", "offset"))
         if radius is not None and rod is not None and offset is not None and rod <= radius + abs(offset):
-            reason = "the crank cannot turn round: the rod is not longer than crank and offset together"
+            reason = "the crank cannot rotate fully: the rod is not longer than crank radius plus offset"
             yield Conflict(("rod_length",), reason, "check the three lengths")
 
 
@@ -202,7 +202,7 @@ class Sector(Fragment):
         start, to = given.number("from"), given.number("to")
         if start is not None and to is not None and to <= start:
             hint = f"write e.g. `to: {units.show(to + FULL_TURN, units.ANGLE)}` for a sector past the end of the cycle"
-            yield Conflict(("to",), "the sector ends where it begins or before", hint)
+            yield Conflict(("to",), "the sector ends at or before its start", hint)
 
 
 class SectorLoad(Fragment):
@@ -289,7 +289,7 @@ class Unbalance(Fragment):
     """the mass"""
     radius: PositiveLength
     """of its centre of mass from the axis"""
-    top: Annotated[Angle, Absent("angles are counted from where the mass is on top")] = 0.0
+    top: Annotated[Angle, Absent("angles start at the top position of the mass")] = 0.0
     """angle of the main shaft at which it is on top"""
 
 
@@ -299,9 +299,9 @@ class PotentialHarmonic(Fragment):
     type: Literal["harmonic"]
     order: Order
     """times per turn"""
-    cosine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
+    cosine: Annotated[SignedTorque, Absent("the term has no such component")] = 0.0
     """factor of cos(order * angle) in the torque against the motion"""
-    sine: Annotated[SignedTorque, Absent("the term has no such part")] = 0.0
+    sine: Annotated[SignedTorque, Absent("the term has no such component")] = 0.0
     """factor of sin(order * angle) in the torque against the motion"""
 
 
@@ -359,7 +359,7 @@ class Gear(Fragment):
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A gear that takes the same factor both ways has no efficiency of its own for the way back."""
         if "reverse_efficiency" in given and given.word("braking") == "multiplies":
-            reason = "nothing uses it: `braking: multiplies` takes `efficiency` in both directions"
+            reason = "it is unused: `braking: multiplies` uses `efficiency` in both directions"
             yield Conflict(("reverse_efficiency",), reason, "delete `reverse_efficiency`, or write `braking: divides`")
 
 
@@ -368,7 +368,7 @@ class Drive(Fragment):
 
     motor: AnyMotor
     """the motor"""
-    motor_inertia: Annotated[Inertia, Absent("`inertia` is that of everything that turns, the rotor too")] = 0.0
+    motor_inertia: Annotated[Inertia, Absent("`inertia` includes all rotating parts and the rotor")] = 0.0
     """of rotor, coupling and all else on the motor shaft; leave it out where `inertia` has it already"""
     gear: Gear = Gear()
     """the gear; without it the motor sits on the main shaft"""
@@ -453,10 +453,12 @@ class Shaft(MachineSpec):
     """The main shaft of a machine, with all masses reduced to it."""
 
     kind: Literal["shaft"]
-    speed: Annotated[PositiveAngularSpeed | None, Absent("a nominal speed is only compared with motor and gear")] = None
+    speed: Annotated[
+        PositiveAngularSpeed | None, Absent("a nominal speed, used only for comparison with motor and gear")
+    ] = None
     """nominal speed of the main shaft; compared with motor and gear"""
     cycle_angle: Annotated[
-        PositiveAngle, Absent("the machine repeats itself after a turn; parts that do not are refused")
+        PositiveAngle, Absent("one revolution is the period of the machine; parts with another period are rejected")
     ] = FULL_TURN
     """angle after which the machine repeats itself"""
     inertia: AnyInertia

@@ -207,7 +207,7 @@ def steady(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> R
     machine, wanted = _machine(spec, scene, carried), spec.checks.irregularity
     guess = next(iter(machine.working_speeds), None)
     if guess is None:
-        raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
+        raise NumericsError("NUM102", "the motor does not drive the mean load: there is no initial cycle")
     found, steps = [], 0
     for tolerance in (_FIRST, _SECOND):
         loads, used = _of_cycle(machine, guess, tolerance)
@@ -310,7 +310,7 @@ def run_out(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> 
     before = machine_for(spec, scene.after)
     guess = next(iter(before.working_speeds), None)
     if guess is None:
-        raise NumericsError("NUM102", "the motor does not carry the mean load: no cycle to begin with")
+        raise NumericsError("NUM102", "the motor does not drive the mean load: there is no initial cycle")
     _, pieces = _closed(before, guess, _SECOND)
     law, steps = _Law(machine, None, braked), 0
     if scene.start is not None or not braked:
@@ -510,7 +510,7 @@ def valid(spec: Shaft, scene: RunUp | Steady | RunOut) -> Criterion | None:
     if isinstance(scene, Steady):
         return None
     if isinstance(scene, RunOut) and machine_in(spec, scene).useful is not None:
-        return Criterion("load", 1.0, 1.0, "a useful load in the run-out", "the file")
+        return Criterion("load", 1.0, 1.0, "a useful load in the stop", "the file")
     return Criterion("n", _turned(spec, scene), _MOST_CYCLES, "cycles of the motion: too much work", "energy")
 
 

@@ -64,7 +64,7 @@ def direction_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     steady = model.steady_torque(spec, scene)
     value = (1 - spec.gear.efficiency) * (inertia / steady if steady > 0 else math.inf)
     return Criterion(
-        "(1-η) M_in/M_st", min(value, 1e9), DIRECTION_THRESHOLD, "loss of the gear times inertia over resistance",
+        "(1-η) M_in/M_st", min(value, 1e9), DIRECTION_THRESHOLD, "gear loss times inertia torque / resistance torque",
         "power balance of the mesh",
     )  # fmt: skip
 
@@ -105,7 +105,9 @@ def curve_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     """
     spread = model.torque_range(spec, scene)
     value = (spread[1] - spread[0]) / spread[2] if spread is not None else 0.0
-    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the starting torque over its mean", "the motor's curve")
+    return Criterion(
+        "ΔM/M", value, CURVE_THRESHOLD, "range of the starting torque / mean starting torque", "the motor's curve"
+    )
 
 
 def curve_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
@@ -145,7 +147,7 @@ def gust_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion:
     free = start_of(spec, scene)[1] - model.steady_torque(spec, scene)
     gust = spec.wind.gust_torque
     value = 0.0 if gust == 0 else gust / free if free > 0 else 1e9
-    return Criterion("M_g/M_a", value, GUST_THRESHOLD, "torque of a gust over what accelerates", "balance of torques")
+    return Criterion("M_g/M_a", value, GUST_THRESHOLD, "gust torque / accelerating torque", "balance of torques")
 
 
 def gust_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
@@ -195,7 +197,7 @@ def swing_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion | None
     stop = model.stop(spec, scene) or chain.allowed_stop(spec)
     shortest = min(start_of(spec, scene)[0], stop[0])
     value = 2 * spec.load.radius * spec.speed / (shortest * spec.gravity) if shortest > 0 else math.inf
-    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "angle of the load's swing [rad]", "pendulum")
+    return Criterion("2a/g", min(value, 1e9), SWING_THRESHOLD, "tangential sway angle of the load [rad]", "pendulum")
 
 
 def swing_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:
@@ -231,7 +233,7 @@ def centrifugal_criterion(spec: SlewingCrane, scene: SlewingScene) -> Criterion 
         return None
     assert spec.load is not None
     value = spec.speed**2 * spec.load.radius / spec.gravity
-    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "lean of the load outwards [rad]", "conical pendulum")
+    return Criterion("ω²R/g", value, CENTRIFUGAL_THRESHOLD, "radial sway angle of the load [rad]", "conical pendulum")
 
 
 def centrifugal_bound(spec: SlewingCrane, scene: SlewingScene, loads: Loads) -> Offsets:

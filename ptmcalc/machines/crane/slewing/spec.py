@@ -50,7 +50,7 @@ class Load(Fragment):
     radius: PositiveSpan = Field(examples=["8 m"])
     """from the slewing axis to the head of the jib, where the rope hangs"""
     rope_length: Annotated[
-        PositiveSpan | None, Absent("checks of the swing need it, and are not checked without it")
+        PositiveSpan | None, Absent("the sway checks require it and report `not checked` without it")
     ] = Field(default=None, examples=["6 m"])
     """from the head of the jib to the middle of the load; needed to see the load swing"""
 
@@ -73,18 +73,18 @@ class Jib(Fragment):
     """of the jib"""
     length: PositiveSpan
     """of the jib, as seen from above"""
-    foot_radius: Annotated[Span, Absent("the jib begins at the axis")] = 0.0
+    foot_radius: Annotated[Span, Absent("the jib starts at the slewing axis")] = 0.0
     """from the slewing axis to its near end"""
 
 
 class Wind(Fragment):
     """What the wind does about the slewing axis: torques, or an area on an arm and its pressures."""
 
-    steady: Annotated[Torque | None, Absent("no wind: the crane stands indoors")] = None
+    steady: Annotated[Torque | None, Absent("no wind: indoor crane")] = None
     """torque in the mean of a working day"""
     maximum: Annotated[Torque | None, Assumed()] = None
     """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
-    gust: Annotated[Torque | None, Absent("gusts are part of the largest wind, which checks of holding read")] = None
+    gust: Annotated[Torque | None, Absent("gusts are part of the maximum wind of the holding checks")] = None
     """torque of a gust that comes on top of the steady wind; held like the largest wind"""
     area: Annotated[PositiveArea | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["12 m^2"])
     """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
@@ -115,7 +115,7 @@ class Wind(Fragment):
             yield given.missing("steady_pressure", "the wind on the area has no pressure")
         steady, most = given.number("steady"), given.number("maximum")
         if steady is not None and most is not None and most < steady:
-            yield Conflict(("maximum",), "the largest wind is below the steady one", "swap them")
+            yield Conflict(("maximum",), "the maximum wind is below the steady wind", "swap them")
 
     def _torque(self, torque: float | None, pressure: float | None) -> float | None:
         if torque is not None:
@@ -144,7 +144,7 @@ class Cycle(Fragment):
     """What the crane does again and again."""
 
     rotation: Annotated[
-        PositiveAngle, Absent("half a turn is the largest rotation of a crane that slews in both directions")
+        PositiveAngle, Absent("180 deg is the maximum slewing angle of a crane that slews in both directions")
     ] = 3.141592653589793
     """from pick-up to put-down; 180 deg when left out"""
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
@@ -153,9 +153,9 @@ class Cycle(Fragment):
     """starting time, if the motor torque does not determine it"""
     start_angle: Annotated[PositiveAngle | None, OneOf("start_time, motor.mean_starting_torque")] = None
     """over which it comes to speed, instead of `start_time`"""
-    pause: Annotated[Time, Absent("without a rest the motor is hottest")] = 0.0
+    pause: Annotated[Time, Absent("without a pause, the motor temperature is highest")] = 0.0
     """rest between two rotations, which cools the motor"""
-    exponent: Annotated[PositiveRatio, Absent("3: contact of teeth, by which gearboxes are rated")] = 3.0
+    exponent: Annotated[PositiveRatio, Absent("3: tooth contact, the basis of gearbox ratings")] = 3.0
     """slope of fatigue m of the equivalent torque: 3 contact of teeth, 6 to 9 their bending"""
 
     @classmethod
@@ -164,7 +164,7 @@ class Cycle(Fragment):
         yield from at_most_one(given, "start_time", "start_angle")
         whole, stop = given.number("rotation"), given.number("brake_angle")
         if whole is not None and stop is not None and stop >= whole:
-            yield Conflict(("brake_angle",), "the stop is longer than the whole rotation", "check both angles")
+            yield Conflict(("brake_angle",), "the stopping angle exceeds the whole slewing angle", "check both angles")
 
 
 class Handbook(Fragment):
@@ -197,17 +197,17 @@ class RingPoint(Fragment):
 class Ring(Fragment):
     """The slewing ring bearing, or the bearings of a fixed column."""
 
-    mass_above: Annotated[Mass | None, Absent("the sum of the parts that the file gives")] = None
+    mass_above: Annotated[Mass | None, Absent("the sum of the parts given in the file")] = None
     """all that rests on it without the load; the sum of the parts when left out"""
     unbalance: Annotated[
-        Annotated[float, Measure(units.TORQUE)] | None, Absent("that of the parts that the file gives")
+        Annotated[float, Measure(units.TORQUE)] | None, Absent("the value of the parts given in the file")
     ] = None
     """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
     head_height: Annotated[Span | None, Assumed()] = None
     """of the head of the jib over the ring, where the load's swing pulls"""
     wind_height: Annotated[Span | None, Assumed()] = None
     """of the middle of the wind's area over the ring"""
-    wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: the crane stands indoors")] = None
+    wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: indoor crane")] = None
     """of the largest wind in service along the jib"""
     load_factor: Annotated[Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)], Limit()] = 1.25
     """on the load's weight: hoisting and test loads; catalogues ask 1.25"""
@@ -239,7 +239,7 @@ class Classes(Fragment):
     group: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
     """declared group of the crane; compared with that of its use"""
     cycles: Annotated[
-        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
+        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only if it is given")
     ] = None
     """hoisting cycles in the life; with the spectrum they give the group of its use"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
@@ -253,7 +253,7 @@ class Classes(Fragment):
         known = [share for share in shares if share is not None]
         if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
             reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+            yield Conflict(("load_spectrum",), reason, "correct them to a sum of 1, so that every cycle has a load")
 
 
 class SlewingChecks(CheckSettings):
@@ -318,7 +318,7 @@ class SlewingCrane(MachineSpec):
     """torque of all bearings about the slewing axis"""
     wind: Wind = Wind()
     """about the slewing axis; none when left out"""
-    slope: Annotated[Slope, Absent("the axis stands upright; `friction` has what a level crane resists with")] = 0.0
+    slope: Annotated[Slope, Absent("vertical axis; `friction` contains the resistance of a level crane")] = 0.0
     """of the slewing axis from the vertical; needs the masses"""
     motor: SlewMotor
     """the slewing motors"""
@@ -349,12 +349,12 @@ class SlewingCrane(MachineSpec):
                 reason = "give `inertia` or the parts, not both: they state the same quantity"
                 yield Conflict((key,), reason, f"delete `{key}`")
             if given.number("slope"):
-                reason = "the weights that turn on a slope are not known from an inertia"
+                reason = "an inertia does not determine the weights on a slope"
                 yield Conflict(("slope",), reason, "give `load`, `slewing_part`, `counterweight` and `jib` instead")
         elif not parts:
-            yield given.missing("inertia", "give `inertia`, or the parts that slew: `slewing_part`, `jib` ...")
+            yield given.missing("inertia", "give `inertia`, or the slewing parts: `slewing_part`, `jib` ...")
         elif "load" not in given:
-            yield given.missing("load", "the load slews with the parts")
+            yield given.missing("load", "the load is one of the slewing parts")
         yield from _nothing_turns(given)
         yield from _load_too_heavy(given)
         yield from _nothing_starts(given)
@@ -380,9 +380,9 @@ def _load_too_heavy(given: Given) -> Iterator[Conflict]:
         return
     own = (mass + (block or 0.0)) * radius**2
     if own >= whole:
-        reason = f"the load alone has {units.show(own, units.INERTIA)} about the axis, and it is a part of the whole"
+        reason = f"the load alone has {units.show(own, units.INERTIA)} about the axis and is part of the total inertia"
         yield Conflict(
-            ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure too"
+            ("inertia",), reason, f"write more than `{units.show(1.01 * own, units.INERTIA)}`, structure included"
         )
 
 
@@ -398,7 +398,9 @@ def _nothing_turns(given: Given) -> Iterator[Conflict]:
         mass, radius, own = (part.number(name) for name in ("mass", "radius", "inertia"))
         if mass is None or radius is None or own or mass * radius > 0 or ("inertia" in part and own is None):
             return
-    reason = "the parts have no inertia about the slewing axis: their centres of mass lie on it, or they weigh nothing"
+    reason = (
+        "the parts have no inertia about the slewing axis: their centres of mass are on the axis, or their masses are 0"
+    )
     yield Conflict((parts[0],), reason, "add its `inertia: 5000 kg*m^2`, or the `jib`")
 
 
@@ -409,5 +411,5 @@ def _nothing_starts(given: Given) -> Iterator[Conflict]:
         return
     by_torque = any(key in motor for key in ("mean_starting_torque", "largest_starting_torque", "curve"))
     if not by_torque and "start_time" not in cycle and "start_angle" not in cycle:
-        reason = "the start is not defined: the motor has no starting torque, and `cycle` no `start_time`"
+        reason = "the start is not defined: the motor has no starting torque, and `cycle` has no `start_time`"
         yield Conflict(("motor",), reason, "add `mean_starting_torque: 37 N*m`, or `start_time: 8 s` to `cycle`")

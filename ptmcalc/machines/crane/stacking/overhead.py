@@ -62,7 +62,7 @@ class OverheadStacker(Stacker):
         yield from _girders(given)
         column = given.block("column")
         if column is not None and "top_guide" in column:
-            reason = "the column of an overhead stacker hangs: its far end is free"
+            reason = "the mast of an overhead stacker is suspended: its tip is free"
             yield Conflict(("column", "top_guide"), reason, "delete `top_guide`, or write `type: rack_stacker`")
 
     @property
@@ -120,5 +120,5 @@ def _girders(given: Given) -> Iterator[Conflict]:
             yield Conflict(("bridge", key), reason, f"delete `{key}`, or the `stiffness` of the column")
         if "stiffness" not in column and key not in bridge:
             example = "120000 cm^4" if key == "girder_vertical" else "16000 cm^4"
-            reason = f"the girders bend under the column: `{key}` of one girder is missing"
+            reason = f"the girders bend under the mast: `{key}` of one girder is missing"
             yield Conflict(("bridge",), reason, f"add `{key}: {example}`, or give the `stiffness` of the column")

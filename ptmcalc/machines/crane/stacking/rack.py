@@ -64,8 +64,8 @@ class RackStacker(Stacker):
             for key, most in (("step", wheel / 2), ("gap", wheel)):
                 size = rail.number(key)
                 if size is not None and size >= most:
-                    reason = f"no wheel of {units.show(wheel, units.LENGTH)} rolls over it"
-                    yield Conflict(("rail", key), reason, f"write `{key}: 1 mm`, or what the rail has")
+                    reason = f"a wheel of {units.show(wheel, units.LENGTH)} cannot roll over it"
+                    yield Conflict(("rail", key), reason, f"write `{key}: 1 mm`, or the value of the rail")
         wheels = base.number("wheel_base")
         for key in ("column", "centre"):
             place = base.number(key)

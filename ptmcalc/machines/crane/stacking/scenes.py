@@ -21,7 +21,7 @@ class StackerScene(Scene):
 
     load: Literal["full", "empty"] = "full"
     """the rated load on the fork, or nothing"""
-    height: Annotated[Span | None, Setting("as far from where the column is held as it comes, where it bends most")] = (
+    height: Annotated[Span | None, Setting("the farthest position from the mast support, with the largest bending")] = (
         None
     )
     """of the carriage above the floor; as far from where the column is held as it comes when left out"""

@@ -71,7 +71,7 @@ def yields(spec: Stacker, scene: ForkPush) -> Criterion | None:
     **Source** the file.
     """
     if math.isinf(push_of(spec, scene).support):
-        return Criterion("column", 1.0, 1.0, "a rigid column: one spring, whose force is a closed form", "the file")
+        return Criterion("column", 1.0, 1.0, "a rigid mast: one spring with a closed-form force", "the file")
     return None
 
 

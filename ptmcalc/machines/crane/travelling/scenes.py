@@ -65,7 +65,7 @@ class HoistWhileTravelling(MovingScene):
     type: Literal["hoist_while_travelling"] = "hoist_while_travelling"
     hoist: Literal["up", "down"] = "up"
     """direction"""
-    time: Annotated[PositiveTime | None, Absent("it is hoisted as long as the crane starts")] = None
+    time: Annotated[PositiveTime | None, Absent("hoisting continues during the start of the crane")] = None
     """how long from the beginning of the start; as long as the start when left out"""
 
 
@@ -79,7 +79,7 @@ class Collision(TravelScene):
     """whether the load swings on, or is guided and hits with the crane"""
     drive: Literal["off", "on"] = "off"
     """whether the motors still push with their mean starting torque"""
-    other_mass: Annotated[PositiveMass | None, Absent("it runs onto a stop that does not give")] = None
+    other_mass: Annotated[PositiveMass | None, Absent("impact on a rigid end stop")] = None
     """of a crane on the same rails, with the same buffers, that it runs into instead of a stop"""
     other_speed: Annotated[
         Annotated[float, Measure(units.SPEED, at_least=0)],
@@ -92,7 +92,7 @@ class RailStep(TravelScene):
     """A wheel runs over the largest step and the largest gap of the rail."""
 
     type: Literal["rail_step"] = "rail_step"
-    speed_share: Annotated[PositiveFraction, Absent("full speed, at which even travel is")] = 1.0
+    speed_share: Annotated[PositiveFraction, Absent("full travel speed")] = 1.0
     """of full speed"""
 
 

@@ -61,17 +61,13 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail A to rail B"""
-    centre: Annotated[PositiveSpan | None, Absent("bridges are alike on both sides")] = None
+    centre: Annotated[PositiveSpan | None, Absent("symmetric bridge")] = None
     """of gravity, from rail A; in the middle when left out"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
-    cantilever_a: Annotated[
-        Span, Absent("without it the hook stays between the rails, to which its places are held")
-    ] = 0.0
+    cantilever_a: Annotated[Span, Absent("without it the hook positions are between the rails")] = 0.0
     """of a gantry, beyond rail A"""
-    cantilever_b: Annotated[
-        Span, Absent("without it the hook stays between the rails, to which its places are held")
-    ] = 0.0
+    cantilever_b: Annotated[Span, Absent("without it the hook positions are between the rails")] = 0.0
     """of a gantry, beyond rail B"""
 
 
@@ -84,9 +80,11 @@ class Trolley(Fragment):
     """from its rail A to its rail B; of a trolley that travels"""
     nearest: Annotated[SignedSpan | None, OneOf("hook")] = None
     """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
-    farthest: Annotated[SignedSpan | None, Absent("the trolley goes as near to rail B as to rail A")] = None
+    farthest: Annotated[SignedSpan | None, Absent("the trolley approaches rail B as closely as rail A")] = None
     """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
-    hook: Annotated[PositiveLength | None, Absent("the rope is held in the middle, as it is on most trolleys")] = None
+    hook: Annotated[
+        PositiveLength | None, Absent("the rope suspension point is in the middle, as on most trolleys")
+    ] = None
     """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
@@ -104,7 +102,7 @@ class Wheels(Fragment):
     driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
     """corners with driven wheels, e.g. `[A1, B1]`"""
     driven_per_corner: Annotated[
-        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("a corner that is named is driven as a whole")
+        Annotated[int, Field(ge=1, le=16, strict=True)] | None, Absent("all wheels of a named corner are driven")
     ] = None
     """driven wheels of such a corner; all when left out"""
     frame: Literal["hinged", "rigid"] = "hinged"
@@ -159,14 +157,14 @@ class Rail(Fragment):
     """What it runs on."""
 
     slope: Annotated[
-        Slope, Assumed(0.0, 0.0, 0.001, "runways are laid to a slope of 0.001 along their length (ISO 12488-1)")
+        Slope, Assumed(0.0, 0.0, 0.001, "tolerance of the runway slope: 0.001 along the length (ISO 12488-1)")
     ] = 0.0
     """rise over length"""
     adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
     """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
-    step: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
+    step: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
     """height of the largest step"""
-    gap: Annotated[Length, Absent("without step and gap there is no scene `rail_step` that reads them")] = 0.0
+    gap: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
     """width of the largest gap"""
     head: Annotated[PositiveLength | None, OneOf("guide.wear")] = None
     """width of its head, by which guides wear; 50 mm is assumed when left out"""
@@ -183,15 +181,15 @@ class Guide(Fragment):
     """clearance between guide and rail, both sides together"""
     wear: Annotated[Length | None, Assumed()] = None
     """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
-    base: Annotated[PositiveSpan | None, Absent("flanges guide at the wheels; rollers in front of them press less")] = (
-        None
-    )
+    base: Annotated[
+        PositiveSpan | None, Absent("flanges guide at the wheels; guide rollers ahead of them have smaller forces")
+    ] = None
     """from the foremost to the rearmost guide; the wheel base when left out"""
     rail_two: Literal["fixed", "movable"] = "fixed"
     """whether the wheels or legs of the other rail hold sideways"""
     adhesion: Annotated[
         Annotated[float, Measure(units.RATIO, above=0, at_most=1)],
-        Absent("the largest friction of the standards: the rail was cleaned"),
+        Absent("the maximum friction of the standards, for a clean rail"),
     ] = 0.3
     """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
     tolerance: Annotated[
@@ -218,17 +216,13 @@ class Wind(Fragment):
     """force coefficient of the area"""
     load_shape: Annotated[PositiveRatio, Assumed(1.2, 1.1, 2.4, "EN 13001-2: 1.2 for loads, 2.4 when unknown")] = 1.2
     """force coefficient of the load"""
-    height: Annotated[
-        Span | None, Absent("the wind acts at the centre of gravity, which is about the middle of the area")
-    ] = None
+    height: Annotated[Span | None, Absent("the wind acts at the centre of gravity, near the centre of the area")] = None
     """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
     pressure: PositivePressure
     """in which the crane works: starts, travels, stops"""
     pressure_max: Annotated[PositivePressure | None, Assumed()] = None
     """largest in service, against which it still travels; `pressure` when left out"""
-    pressure_storm: Annotated[
-        PositivePressure | None, Absent("without it no crane is parked outdoors in a `storm`")
-    ] = None
+    pressure_storm: Annotated[PositivePressure | None, Absent("without it there is no scene `storm`")] = None
     """out of service, in which it must stand; needed for a `storm`"""
 
     @classmethod
@@ -236,9 +230,9 @@ class Wind(Fragment):
         """The pressures rise."""
         steady, most, storm = (given.number(key) for key in ("pressure", "pressure_max", "pressure_storm"))
         if steady is not None and most is not None and most < steady:
-            yield Conflict(("pressure_max",), "it is below the `pressure` in which the crane works", "swap them")
+            yield Conflict(("pressure_max",), "it is below the in-service `pressure`", "swap them")
         if most is not None and storm is not None and storm < most:
-            yield Conflict(("pressure_storm",), "it is below the largest pressure in service", "swap them")
+            yield Conflict(("pressure_storm",), "it is below the maximum in-service pressure", "swap them")
 
 
 class Parking(Fragment):
@@ -264,15 +258,15 @@ class Duty(Fragment):
     """duty type of IEC 60034-1; S4 and S5 count the starts"""
     factor: Annotated[PositiveShare | None, Assumed()] = None
     """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
-    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 count no starts; S4 and S5 require them")] = None
+    starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 have no starts; S4 and S5 require them")] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
     """loads over the life; the rated load always, when left out"""
     cycles: Annotated[
-        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only where it is given")
+        Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only if it is given")
     ] = None
     """hoisting cycles in the life, which with the spectrum give the group of the crane"""
-    hours: Annotated[RunningTime | None, Absent("the group is computed only where it is given")] = None
+    hours: Annotated[RunningTime | None, Absent("the group is computed only if it is given")] = None
     """time in motion in the life, which with the spectrum gives the group of the mechanism"""
 
     @classmethod
@@ -283,7 +277,7 @@ class Duty(Fragment):
         known = [share for share in shares if share is not None]
         if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
             reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+            yield Conflict(("load_spectrum",), reason, "correct them to a sum of 1, so that every cycle has a load")
         kind = given.word("type")
         if kind in ("S4", "S5") and "starts_per_hour" not in given:
             yield given.missing("starts_per_hour", f"the starts heat the motor in {kind}")
@@ -303,12 +297,12 @@ class Classes(Fragment):
     edition: Literal["by_class", "by_drive", "raised"] = "by_class"
     """smallest phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
     lifting_share: Annotated[
-        Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)], Absent("the largest of the standard")
+        Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)], Absent("the maximum value of the standard")
     ] = 0.1
     """the part by which phi1 differs from 1"""
     release: Literal["none", "slow", "quick"] = "none"
     """how a part of the load comes off: by a grab, or by a magnet; for phi3"""
-    released_share: Annotated[Fraction, Absent("all of the load comes off: the worst case of a `release`")] = 1.0
+    released_share: Annotated[Fraction, Absent("the full load is released: the worst case of a `release`")] = 1.0
     """part of the load that comes off"""
     drive_change: Literal["centrifugal", "smooth", "sudden"] | None = None
     """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
@@ -456,23 +450,23 @@ def _parts(given: Given) -> Iterator[Conflict]:
         return
     if what == "trolley":
         if "bridge" in given:
-            yield Conflict(("bridge",), "a trolley travels on it: it stands still", "delete `bridge`")
+            yield Conflict(("bridge",), "the trolley travels and the bridge is stationary", "delete `bridge`")
         if trolley is not None and trolley.raw:
             if "gauge" not in trolley:
-                yield Conflict(("trolley",), "a trolley that travels needs its `gauge`", "add `gauge: 2 m`")
+                yield Conflict(("trolley",), "a travelling trolley needs its `gauge`", "add `gauge: 2 m`")
             for key in ("nearest", "farthest"):
                 if key in trolley:
-                    reason = "it is of a trolley on a bridge that travels"
+                    reason = "it is a key of a trolley on a travelling bridge"
                     yield Conflict(("trolley", key), reason, f"delete `{key}`, or write `travels: bridge`")
         return
     if "bridge" not in given:
-        yield given.missing("bridge", f"a {what} that travels needs its `bridge`")
+        yield given.missing("bridge", f"a travelling {what} needs its `bridge`")
     if trolley is not None and trolley.raw:
         if "nearest" not in trolley:
-            reason = "how near the hook comes to rail A is missing"
+            reason = "the minimum hook distance from rail A is missing"
             yield Conflict(("trolley",), reason, "add `nearest: 1 m`")
         if "hook" in trolley:
-            reason = "the place of the hook is that of the trolley on its bridge"
+            reason = "the hook position is that of the trolley on its bridge"
             yield Conflict(("trolley", "hook"), reason, "delete `hook`")
 
 
@@ -483,7 +477,7 @@ def _reach(given: Given) -> Iterator[Conflict]:
         return
     near, far = trolley.number("nearest"), trolley.number("farthest")
     if near is not None and far is not None and far < near:
-        yield Conflict(("trolley", "farthest"), "it is nearer to rail A than `nearest`", "swap them")
+        yield Conflict(("trolley", "farthest"), "it is closer to rail A than `nearest`", "swap them")
     if bridge is not None and (span := bridge.number("span")) is not None:
         least, most = -(bridge.number("cantilever_a") or 0.0), span + (bridge.number("cantilever_b") or 0.0)
         for key, place in (("nearest", near), ("farthest", far)):
@@ -493,7 +487,7 @@ def _reach(given: Given) -> Iterator[Conflict]:
                 hint = f"write {end}, or correct the `span` (of a gantry, give its cantilevers)"
                 yield Conflict(("trolley", key), reason, hint)
         if near is not None and "farthest" not in trolley and span / 2 < near <= span:
-            reason = "it is beyond the middle of the bridge: where the trolley ends on the other side is missing"
+            reason = "it is beyond the middle of the bridge: the trolley limit on the other side is missing"
             far_hint = units.show(span - 0.05 * span, units.SPAN, 3)
             yield Conflict(("trolley", "nearest"), reason, f"write less, or add `farthest: {far_hint}`")
         centre = bridge.number("centre")
@@ -528,7 +522,7 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             if not there:
                 yield Conflict(("scenes", index), f"a `{what}` needs `{'.'.join(path)}`", f"add `{example}`")
         if what == "skew" and given.word("travels") == "trolley":
-            yield Conflict(("scenes", index), "a trolley is not reckoned to skew here", "delete this scene")
+            yield Conflict(("scenes", index), "skewing of a trolley is not computed", "delete this scene")
         if what == "rail_step" and rail is not None and not rail.number("step") and not rail.number("gap"):
             yield Conflict(("scenes", index), "the rail has neither `step` nor `gap`", "add `rail: {step: 1 mm}`")
         by_brake = what == "brake" and (scene.word("by") == "brake")
@@ -541,6 +535,6 @@ def _scenes_that_lack(given: Given) -> Iterator[Conflict]:
             if speed is None or length is None or lasts is None or scene.word("hoist") != "up":
                 continue
             if speed * lasts >= length:
-                reason = "the hook would be above the place where its ropes are held"
+                reason = "the hook would be above the rope suspension point"
                 longest = units.show(0.9 * length / speed, units.TIME, 2)
                 yield Conflict(("scenes", index, what, "time"), reason, f"write `time: {longest}` or less")

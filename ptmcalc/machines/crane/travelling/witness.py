@@ -95,7 +95,7 @@ def _travelled(spec: Travelling, scene: Moving, curve: bool, tolerance: float) -
             if there:
                 break
     if not there:
-        raise NumericsError("NUM103", f"the crane does not come to speed or rest by {most:.3g} s")
+        raise NumericsError("NUM103", f"the crane does not reach its speed or standstill by {most:.3g} s")
     reached, way = journey.time, float(journey.state[0])
     begins = max(reached, motion.hoist_time)
     left = 0.0
@@ -205,9 +205,7 @@ def comes_about(spec: Travelling, scene: Moving) -> Criterion | None:
     if not motion.hoist_time < math.inf or _last_length(motion) <= 0:
         return Criterion("rope", 1.0, 1.0, "no rope left at the end of hoisting", "the file")
     slow = _SLOWEST * math.sqrt(motion.gravity * motion.length) / motion.speed
-    return Criterion(
-        "speed", slow, 1.0, "speed at which steps along the rope lose the swing, over that of the crane", "cost"
-    )
+    return Criterion("speed", slow, 1.0, "speed limit of steps along the rope / crane speed", "cost")
 
 
 SWAY_CARTESIAN: Solver[Travelling, Moving] = Solver(

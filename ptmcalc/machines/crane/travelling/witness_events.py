@@ -289,7 +289,7 @@ def turns_of(spec: Travelling, scene: RailStep) -> Criterion:
     speed = scene.speed_share * spec.speed
     omega = 2 * math.pi * filled(spec.rail.frequency)
     turns = max((omega * length / speed for length, _, _ in _places(spec)), default=0.0)
-    return Criterion("ωt", turns, _MOST_TURNS, "radians of the swing on a step: too much work", "the file")
+    return Criterion("ωt", turns, _MOST_TURNS, "radians of the oscillation on a step: too much work", "the file")
 
 
 # -- skewing ---------------------------------------------------------------------------------------------------------

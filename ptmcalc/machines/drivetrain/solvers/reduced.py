@@ -101,8 +101,10 @@ def _elastic(spec: Drivetrain, scene: TrainScene) -> Criterion:
     **Source** as `valid`.
     """
     if valid(spec, scene).exceeded and cost(spec, scene, frozenset(), 0) > motion.BESIDE:
-        return Criterion("-", 1.0, 1.0, "the one shaft would take long to show", "")
-    return Criterion("-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one shaft decides itself", "")
+        return Criterion("-", 1.0, 1.0, "the one-shaft model would take too long", "")
+    return Criterion(
+        "-", 1.0 if not valid(spec, scene).exceeded else 0.0, 1.0, "the one-shaft model decides itself", ""
+    )
 
 
 ONE_SHAFT: Solver[Drivetrain, TrainScene] = replace(

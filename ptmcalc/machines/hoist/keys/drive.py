@@ -123,7 +123,7 @@ class Duty(Fragment):
         known = [share for share in shares if share is not None]
         if known and len(known) == len(shares) and abs(sum(known) - 1) > 1e-6:
             reason = f"the shares add up to {sum(known):.3g}"
-            yield Conflict(("load_spectrum",), reason, "make them add up to 1: the rest of the cycles has a load too")
+            yield Conflict(("load_spectrum",), reason, "correct them to a sum of 1, so that every cycle has a load")
         kind = given.word("type")
         if kind is None:
             return

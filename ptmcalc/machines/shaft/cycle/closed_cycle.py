@@ -131,7 +131,7 @@ def _flywheel(cycle: Cycle, wanted: float) -> tuple[Estimate, int]:
         found = light_cycle(cycle.machine.with_flywheel(added), orbit)
         work += found.work if found else 0
         if found is None:
-            raise NumericsError("NUM101", "with a flywheel tried the steady cycle is lost")
+            raise NumericsError("NUM101", "no steady cycle exists with one of the flywheels of the search")
         orbit = found.orbit
         at = wanted / _irregularity(orbit) - 1
         slope = (at - at_before) / (added - before) if added != before else slope
@@ -152,7 +152,7 @@ def _corrected(
     for _ in range(_MOST_SECANTS):
         found = closed_cycle(cycle.machine.with_flywheel(added), orbit)
         if found is None or not slope > 0:
-            raise NumericsError("NUM101", "the flywheel is not found")
+            raise NumericsError("NUM101", "no flywheel inertia was found")
         work, orbit = work + found.work, found.orbit
         delta, rough = _irregularity(found.orbit), _irregularity(found.rough)
         at = wanted / delta - 1
@@ -162,7 +162,7 @@ def _corrected(
             break
         before, at_before, added = added, at, max(added - at / slope, added / 8)
     else:
-        raise NumericsError("NUM101", "the flywheel is not found")
+        raise NumericsError("NUM101", "no flywheel inertia was found")
     off = MARGIN * wanted * abs(1 / delta - 1 / rough) + abs(at) + FLOOR
     return Estimate.within(added, off / slope + FLOOR * added), work
 

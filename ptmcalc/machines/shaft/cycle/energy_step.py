@@ -151,7 +151,9 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
     **Source** the torque curve of the motor.
     """
     carries = bounds.held(machine_in(spec, scene)) is not None
-    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 where the motor carries the mean load, else 1", "laws.motor")
+    return Criterion(
+        "m", 0.0 if carries else 1.0, 0.5, "0 if the motor drives the mean load, otherwise 1", "laws.motor"
+    )
 
 
 ENERGY_STEP: Solver[Shaft, Steady] = Solver(

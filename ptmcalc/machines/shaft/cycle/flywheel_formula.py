@@ -27,7 +27,7 @@ def run(spec: Shaft, scene: Steady, carried: frozenset[str], level: int) -> Resu
     **Source** `laws.shaft.flywheel_inertia`.
     """
     cycle = cycle_of(spec, scene.load)
-    assert cycle is not None, "valid only where there is a cycle"
+    assert cycle is not None, "valid only if there is a cycle"
     (low, _), (high, _) = cycle.orbit.extremes()
     speed = (math.sqrt(2 * low) + math.sqrt(2 * high)) / 2
     inertia, swing = least_inertia(cycle.machine), cycle.machine.survey.work_swing
@@ -56,7 +56,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
         carries = cycle_of(spec, scene.load) is not None
     except NumericsError:
         carries = False
-    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 where there is a steady cycle, else 1", "the cycle itself")
+    return Criterion("m", 0.0 if carries else 1.0, 0.5, "0 if there is a steady cycle, otherwise 1", "the cycle itself")
 
 
 FLYWHEEL_FORMULA: Solver[Shaft, Steady] = Solver(

@@ -60,7 +60,7 @@ def valid(spec: Shaft, scene: Steady) -> Criterion:
     """
     machine = machine_in(spec, scene)
     decided = bounds.held(machine) is not None or surely_stalls(machine)
-    meaning = "0 where the motor carries the mean load, or provably cannot, else 1"
+    meaning = "0 if the motor drives the mean load, or provably cannot, otherwise 1"
     return Criterion("m", 0.0 if decided else 1.0, 0.5, meaning, "torque curve of the motor")
 
 

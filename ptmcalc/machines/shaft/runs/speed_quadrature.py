@@ -77,7 +77,7 @@ def valid(spec: Shaft, scene: RunUp) -> Criterion:
         and not machine.drive.time_dependent
         and bounds.drives_all_the_way(machine, target_speed(spec, scene), 0.0)
     )
-    meaning = "0 for a torque that depends on the speed alone and never brakes, else 1"
+    meaning = "0 for a torque that depends on the speed alone and never brakes, otherwise 1"
     return Criterion("m", 0.0 if fits else 1.0, 0.5, meaning, "torque curve of the motor")
 
 

@@ -52,7 +52,7 @@ def run(spec: Shaft, scene: Scene, carried: frozenset[str], level: int) -> Resul
     step = step_size(machine, max(speed, until))
     fine, coarse = (step_table(rate, begin, speed, until, dt, _MOST_STEPS) for dt in (step, 2 * step))
     if not fine.reached or not coarse.reached:
-        raise NumericsError("NUM103", f"the step table does not come to its end in {_MOST_STEPS} steps")
+        raise NumericsError("NUM103", f"the step table does not end within {_MOST_STEPS} steps")
     loads = {name: _found(fine, coarse, k) for k, name in enumerate(names)}
     work = fine.steps + coarse.steps
     return Result(loads, work=work, window=(0.0, fine.time), histories=lambda: _histories(fine, names))
@@ -116,7 +116,7 @@ def valid(spec: Shaft, scene: Scene) -> Criterion:
     inertia = survey.inertia_mean + drive.ratio**2 * drive.motor_inertia
     ratio = math.inf
     if isinstance(scene, RunOut) and not _departs(spec, scene):
-        return Criterion("n", ratio, 1.0, "number of steps over what the table may have", "step of the textbook")
+        return Criterion("n", ratio, 1.0, "number of steps / maximum number of steps", "step of the textbook")
     if isinstance(scene, RunUp):
         target = target_speed(spec, scene)
         if not drive.time_dependent:
@@ -128,7 +128,7 @@ def valid(spec: Shaft, scene: Scene) -> Criterion:
         delay = machine.brake.delay + machine.brake.rise if machine.brake else 0.0
         if speed and torque > 0:
             ratio = (inertia * speed / torque + delay) / step_size(machine, speed) / _MOST_STEPS
-    return Criterion("n", ratio, 1.0, "number of steps over what the table may have", "step of the textbook")
+    return Criterion("n", ratio, 1.0, "number of steps / maximum number of steps", "step of the textbook")
 
 
 def _departs(spec: Shaft, scene: RunOut) -> bool:

@@ -12,7 +12,7 @@ from ptmcalc.machines.shaft.cases import departure, is_braked, stop_case
 from ptmcalc.machines.shaft.loads import OF_RUN_OUT
 from ptmcalc.machines.shaft.spec import RunOut, Shaft
 
-_MEANING = "0 where power goes through the gear from the rotor throughout and the brake holds at any angle, else 1"
+_MEANING = "0 if the power flows from the rotor throughout and the brake holds at any angle, otherwise 1"
 
 
 def run(spec: Shaft, scene: RunOut, carried: frozenset[str], level: int) -> Result:

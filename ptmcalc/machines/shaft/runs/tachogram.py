@@ -184,7 +184,7 @@ def _turned_again(spec: Shaft, scene: RunOut, runs: Iterable[motion.Run]) -> tup
     if turns <= held * (1 + _SLACK):
         return [], []
     if not is_braked(spec, scene):
-        message = "losses do not hold the shaft where it stops: weights and springs turn it again"
+        message = "the losses do not hold the stopped shaft: weights and springs drive it again"
         return [Finding("NUM104", message, ("losses", "torque"))], []
     return [], impossible.not_held(spec, turns, held)
 

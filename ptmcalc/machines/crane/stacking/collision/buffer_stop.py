@@ -40,7 +40,7 @@ def run(spec: Stacker, scene: BufferScene, carried: frozenset[str], level: int) 
     for name in ("buffer_force", "buffer_deceleration"):
         found[name] = Found(hit.at_least(loads[name]))
     if hit.left:
-        note = f"the buffers bottom out: {units.show(hit.left, units.SPEED)} is left at the end of their stroke"
+        note = f"the buffers bottom out: residual speed {units.show(hit.left, units.SPEED)} at the end of their stroke"
         found["buffer_stroke"] = Found(Estimate.exact(hit.stroke), note=note)
     key = MECHANISMS[model.mechanism(spec, scene)]
     return Result(

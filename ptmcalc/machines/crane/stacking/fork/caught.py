@@ -56,8 +56,8 @@ def too_weak(spec: Stacker, scene: ForkCaught, case: Catch) -> tuple[Finding, ..
     if drive is None or drive.largest_force is None or drive.largest_force >= case.weight:
         return ()
     message = (
-        f"scene `{scene.label}`: the motor's largest force is below the weight, {units.show(case.weight, units.FORCE)}:"
-        " it is taken to pull as much"
+        f"scene `{scene.label}`: the maximum motor force is below the weight, {units.show(case.weight, units.FORCE)};"
+        " the weight is used instead"
     )
     return (Finding("NUM110", message, ("hoisting", "drive", "largest_force"), "correct the force, or the load"),)
 
@@ -81,7 +81,10 @@ def run(spec: Stacker, scene: ForkCaught, carried: frozenset[str], level: int) -
     found = dict(one.found)
     tripped = one.played.first(MOTOR, "started")
     if tripped < one.played.record.time:
-        rope, note = found["rope_force_caught"], f"the limiter trips {units.show(tripped, units.TIME)} after the catch"
+        rope, note = (
+            found["rope_force_caught"],
+            f"the limiter trips {units.show(tripped, units.TIME)} after the fork snags",
+        )
         found["rope_force_caught"] = Found(rope.estimate, rope.at, note)
     said = too_weak(spec, scene, whole)
     return one.result(with_derived(spec, scene, with_factor(found | reserve(spec, whole), case)), said)
@@ -113,7 +116,7 @@ def not_too_stiff(spec: Stacker, scene: ForkCaught) -> Criterion:
     **Source** the fast vibration of the carriage on the rack: its losses decide then, which the file does not have.
     """
     value = spread(catch_of(spec, scene).train())
-    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "highest / lowest natural frequency", "limit of the run")
 
 
 CAUGHT_HANDBOOK: Solver[Stacker, ForkCaught] = Solver(

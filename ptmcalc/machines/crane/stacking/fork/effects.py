@@ -103,7 +103,9 @@ def rack_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
     **Source** springs in series; the threshold of 10 % changes the frequency by 5 %.
     """
     case = catch_of(spec, scene)
-    return Criterion("K/K_r", case.rope / case.rack, RACK_THRESHOLD, "rope stiffness over the rack's", "series springs")
+    return Criterion(
+        "K/K_r", case.rope / case.rack, RACK_THRESHOLD, "rope stiffness / rack stiffness", "series springs"
+    )
 
 
 def rack_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
@@ -161,7 +163,7 @@ def limiter_criterion(spec: Stacker, scene: ForkCaught) -> Criterion:
     """
     case = catch_of(spec, scene)
     value = case.most / case.limit.force if case.limit is not None else 0.0
-    return Criterion("F/F_l", value, LIMITER_THRESHOLD, "rope force over that of the limiter", "laws.fork")
+    return Criterion("F/F_l", value, LIMITER_THRESHOLD, "rope force / trip force of the limiter", "laws.fork")
 
 
 def limiter_bound(spec: Stacker, scene: ForkCaught, loads: Loads) -> Offsets:
@@ -187,7 +189,7 @@ def pushing_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
     """
     case = push_of(spec, scene)
     value = case.speed * math.sqrt(case.rack * case.mass) / case.force
-    return Criterion("Π_p", value, PUSHING_THRESHOLD, "shock of the fork over the force of its drive", "laws.fork")
+    return Criterion("Π_p", value, PUSHING_THRESHOLD, "impact force of the fork / drive force", "laws.fork")
 
 
 def pushing_bound(spec: Stacker, scene: ForkPush, loads: Loads) -> Offsets:
@@ -210,7 +212,7 @@ def yield_criterion(spec: Stacker, scene: ForkPush) -> Criterion:
     **Source** springs in series.
     """
     case = push_of(spec, scene)
-    meaning = "stiffness of the rack over that of the column"
+    meaning = "rack stiffness / mast stiffness"
     return Criterion("K_r/c", case.rack / case.support, YIELDING_THRESHOLD, meaning, "springs in series")
 
 

@@ -75,7 +75,7 @@ def not_too_stiff(spec: Stacker, scene: ForkPush) -> Criterion:
     """
     case = push_of(spec, scene)
     value = spread(case.train()) if math.isfinite(case.support) else 1.0
-    return Criterion("w_2/w_1", value, MOST_SPREAD, "fastest over slowest vibration", "limit of the run")
+    return Criterion("w_2/w_1", value, MOST_SPREAD, "highest / lowest natural frequency", "limit of the run")
 
 
 PUSH_HANDBOOK: Solver[Stacker, ForkPush] = Solver(

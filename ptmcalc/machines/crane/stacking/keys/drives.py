@@ -53,11 +53,11 @@ class Travel(Fragment):
     """of a start along a ramp of speed"""
     deceleration: Annotated[PositiveAcceleration | None, OneOf("ramps, forces or a `drive`")] = None
     """of a stop along a ramp of speed"""
-    ramp_rise: Annotated[Time, Absent("an acceleration at once swings the column farthest")] = 0.0
+    ramp_rise: Annotated[Time, Absent("a sudden acceleration causes the largest mast deflection")] = 0.0
     """in which the acceleration of a ramp rises and falls linearly"""
     driving_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the wheel treads, of a start by force"""
-    driving_rise: Annotated[Time, Absent("a force at once swings the column farthest")] = 0.0
+    driving_rise: Annotated[Time, Absent("a sudden force causes the largest mast deflection")] = 0.0
     """in which it rises linearly"""
     braking_force: Annotated[PositiveForce | None, OneOf("ramps, forces or a `drive`")] = None
     """at the wheel treads, of a stop by force, without the resistance"""
@@ -69,7 +69,7 @@ class Travel(Fragment):
     """to travel, at the wheel treads"""
     drive: TravelDrive | None = None
     """motors, gear and brakes, instead of forces and ramps"""
-    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps, which act at the wheel treads")] = None
+    wheel_diameter: Annotated[PositiveLength | None, OneOf("forces and ramps at the wheel treads")] = None
     """of the driven wheels; with a `drive`"""
     starts_per_hour: Annotated[HourlyRate | None, Checked()] = None
     """what the mechanism does all day; needed to check its starts"""
@@ -89,12 +89,16 @@ class Travel(Fragment):
                     yield Conflict((key,), "the `drive` defines start and stop", f"delete `{key}`, or the drive")
             yield from together(given, "drive", "wheel_diameter", "its torques act at the wheel treads")
         elif not any(key in given for key in ("deceleration", "braking_force")):
-            yield given.missing("braking_force", "nothing stops it: give `deceleration`, `braking_force` or a `drive`")
+            yield given.missing(
+                "braking_force", "the mechanism has no brake: give `deceleration`, `braking_force` or a `drive`"
+            )
         for key, force in (("driving_rise", "driving_force"), ("braking_rise", "braking_force")):
             if given.number(key) and force not in given:
-                yield Conflict((key,), f"there is no `{force}` that rises", f"delete `{key}`")
+                yield Conflict((key,), f"there is no `{force}` with a rise time", f"delete `{key}`")
         if given.number("ramp_rise") and not ({"acceleration", "deceleration"} & set(given.raw)):
-            yield Conflict(("ramp_rise",), "there is no ramp whose acceleration rises", "delete `ramp_rise`")
+            yield Conflict(
+                ("ramp_rise",), "there is no ramp with a rise time of the acceleration", "delete `ramp_rise`"
+            )
 
     @property
     def starts(self) -> bool:
@@ -173,7 +177,7 @@ class Limiter(Fragment):
     reaction: Time
     """from then until the motor is off and the brake acts"""
     braking_force: Annotated[
-        PositiveForce | None, Absent("a brake that holds the carriage brakes with its weight at least")
+        PositiveForce | None, Absent("a brake that holds the carriage has at least the force of its weight")
     ] = None
     """of the brake, at the carriage; that of the motor in even hoisting when left out"""
 
@@ -197,7 +201,7 @@ class HoistDrive(Fragment):
     """to the middle of the rope"""
     largest_force: Annotated[PositiveForce | None, Assumed()] = None
     """of the motor that goes on pulling, at the carriage; the weight when left out"""
-    slope: Annotated[Slope | None, Absent("a motor whose force does not fall with its speed pulls hardest")] = None
+    slope: Annotated[Slope | None, Absent("a constant motor force results in the largest rope force")] = None
     """by which the motor's force falls with the speed, at the carriage; a constant force when left out"""
 
     @classmethod

@@ -29,7 +29,7 @@ _TRIP_RATIO = Assumed(
     1.4, 1.2, 1.5, "overspeed governors trip at 1.2 to 1.5 times the hoisting speed (EN 528, EN 81-20)"
 )
 _REACTION = Assumed(0.05, 0.02, 0.15, "linkages of safety gears engage within 20 to 150 ms of tripping")
-_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "gears engage a guide within 0.2 m of the axis of the column")
+_GEAR_ARM = Assumed(0.0, -0.2, 0.2, "safety gears act on a guide within 0.2 m of the mast axis")
 
 
 class Obstacle(Fragment):
@@ -39,7 +39,7 @@ class Obstacle(Fragment):
     """whether the far end springs back, or stays where it hits"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("`contact: plastic`")] = None
     """of the place that is hit; of an `elastic` contact"""
-    restitution: Annotated[Fraction, Absent("an impact without losses bends the mast farthest")] = 1.0
+    restitution: Annotated[Fraction, Absent("an impact without losses causes the largest mast deflection")] = 1.0
     """speed after an `elastic` contact over that before"""
 
     @classmethod
@@ -63,16 +63,16 @@ class Fork(Fragment):
     motor_force: PositiveForce
     """largest of its drive that goes on pushing, at the fork"""
     clutch_force: Annotated[
-        PositiveForce | None, Absent("without a slip clutch the whole force of the motor and the whole mass push")
+        PositiveForce | None, Absent("without a slip clutch the full motor force and the full mass act")
     ] = None
     """at which its slip clutch slips, at the fork; one as strong as the motor is not reckoned with: the whole mass
     bounds the force then"""
     torsion_stiffness: Annotated[
         Annotated[float, Measure(units.TORSIONAL_STIFFNESS, above=0)] | None,
-        Absent("a column that does not twist stops the fork hardest"),
+        Absent("a mast without torsion results in the largest fork thrust"),
     ] = None
     """of the column against twisting, where the carriage is; rigid when left out"""
-    arm: Annotated[SignedSpan, Absent("a column that does not twist stops the fork hardest")] = 0.0
+    arm: Annotated[SignedSpan, Absent("a mast without torsion results in the largest fork thrust")] = 0.0
     """of the pushing fork from the axis of the column, along the aisle"""
     rating: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the telescope; needed to check it"""
@@ -83,7 +83,7 @@ class Rack(Fragment):
 
     stiffness_push: Annotated[PositiveStiffness | None, OneOf("no `fork`: with one it is required")] = None
     """against the fork that pushes; with a `fork` it is needed"""
-    stiffness_vertical: Annotated[PositiveStiffness | None, Absent("a rigid rack takes the largest force")] = None
+    stiffness_vertical: Annotated[PositiveStiffness | None, Absent("a rigid rack results in the largest force")] = None
     """against the fork that lifts; rigid when left out"""
     rating_push: Annotated[PositiveForce | None, Limit()] = None
     """largest force of the pushing fork on the rack; needed to check it"""
@@ -103,9 +103,9 @@ class Waviness(Fragment):
 class Rail(Fragment):
     """The rail a rack stacker runs on."""
 
-    step: Annotated[Length, Absent("no step is there")] = 0.0
+    step: Annotated[Length, Absent("no step given")] = 0.0
     """height of the largest step"""
-    gap: Annotated[Length, Absent("no gap is there")] = 0.0
+    gap: Annotated[Length, Absent("no gap given")] = 0.0
     """width of the largest gap"""
     waviness: Waviness | None = None
     """even waves"""
@@ -113,7 +113,7 @@ class Rail(Fragment):
     """of the machine that swings vertically on its wheels; 10 Hz is assumed for a `rail`"""
     damping: Annotated[
         Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.5)],
-        Absent("without damping the machine swings farthest"),
+        Absent("without damping, the oscillation is largest"),
     ] = 0.0
     """damping ratio of that swing; none when left out, which is on the safe side"""
 
@@ -164,4 +164,4 @@ class Settling(Fragment):
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
         """A time to wait is for a window."""
-        yield from together(given, "wait", "window", "it is waited for the column to stay within a window")
+        yield from together(given, "wait", "window", "the settling time refers to a positioning tolerance")

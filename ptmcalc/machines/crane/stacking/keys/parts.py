@@ -30,15 +30,13 @@ Decrement = Annotated[float, Measure(units.RATIO, above=0, at_most=3)]
 STEEL = 210e9
 """Modulus of elasticity of structural steel [Pa], EN 1993-1-1. It is the default of `elasticity` for masts and girders.
 Their stiffness is proportional to it, their frequencies to its square root."""
-_STEEL = Absent("structural steel, whose modulus EN 1993-1-1 fixes at 210 GPa for every proof")
-_BASE_HEIGHT = Assumed(
-    0.0, 0.0, 0.6, "frames, drives and cabinets of a base have their centre up to 0.6 m above the rail"
-)
+_STEEL = Absent("structural steel, modulus 210 GPa by EN 1993-1-1")
+_BASE_HEIGHT = Assumed(0.0, 0.0, 0.6, "the centre of gravity of a base is up to 0.6 m above the rail")
 _GUIDE_PLAY = Assumed(0.0, 0.0, 0.002, "guide rollers are set with a clearance of up to 2 mm to each side")
-_PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain ones 0.08 to 0.1")
-_LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm of steel rollers on steel")
-_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "the load is off the centre of its pallet by up to a tenth of its length")
-_OWN_ARM = Assumed(0.0, -0.05, 0.05, "carriages hang level within some centimetres of their ropes")
+_PIN_FRICTION = Assumed(0.015, 0.01, 0.1, "rolling bearings 0.01 to 0.02, plain bearings 0.08 to 0.1")
+_LEVER_ARM = Assumed(0.0005, 0.0003, 0.0006, "0.3 to 0.6 mm for steel rollers on steel")
+_LOAD_ARM = Assumed(0.0, -0.1, 0.1, "the load is eccentric on its pallet by up to a tenth of its length")
+_OWN_ARM = Assumed(0.0, -0.05, 0.05, "the centre of gravity of a carriage is within a few centimetres of its ropes")
 _CAB_ARM = Assumed(0.0, -1.0, 1.0, "the cab is mounted at the side of the mast: up to 1 m from the ropes")
 
 
@@ -74,7 +72,7 @@ class Trolley(Fragment):
     """with hoist and slewing gear of the column, without column, carriage and cab"""
     gauge: PositiveLength
     """from girder to girder"""
-    position: Annotated[Span | None, Absent("in the middle the girders give most and bear most")] = None
+    position: Annotated[Span | None, Absent("in the middle, deflection and stress of the girders are largest")] = None
     """of the column, from the nearer end of the bridge; in the middle when left out"""
     wheels: Literal["free", "braked"] = "free"
     """whether the wheels roll along the girders as these bend; a braked trolley is a little stiffer"""
@@ -96,7 +94,7 @@ class Base(Fragment):
     height: Annotated[Span, _BASE_HEIGHT] = 0.0
     """of its centre of mass above the rail"""
     gauge: Annotated[
-        PositiveLength | None, Absent("one rail keeps nothing upright: only the guide at the head does")
+        PositiveLength | None, Absent("a single rail gives no lateral stability; only the top guide does")
     ] = None
     """between its two rails, of a machine that stands across the aisle by itself; one rail when left out"""
 
@@ -104,7 +102,9 @@ class Base(Fragment):
 class TopGuide(Fragment):
     """What holds the head of the column of a rack stacker along the aisle or across it."""
 
-    stiffness: Annotated[PositiveStiffness | None, Absent("a free head swings farther than one that is held")] = None
+    stiffness: Annotated[PositiveStiffness | None, Absent("a free head has a larger deflection than a guided head")] = (
+        None
+    )
     """along the aisle, of the guide at the head; the head is free when left out"""
     gap: Annotated[Length, _GUIDE_PLAY] = 0.0
     """clearance to each side before it holds"""
@@ -133,11 +133,12 @@ class Column(Fragment):
     """at the far end, along every travel, of column and what holds it; instead of the sections of column and girders"""
     root_stiffness: Annotated[
         RootStiffness | None,
-        Absent("the column is welded or bolted to a stiff frame; a joint that turns is a part of its own"),
+        Absent("the mast is welded or bolted to a stiff frame; a rotating joint is a separate part"),
     ] = None
     """of the joint that holds the column, against turning; rigid when left out"""
     log_decrement: Annotated[
-        Decrement | None, Absent("without damping a column swings farthest; its time to settle is then not checked")
+        Decrement | None,
+        Absent("without damping, the mast oscillation is largest and the settling time is not checked"),
     ] = None
     """of its free swing, from a measurement; needed for the time in which it settles"""
     top_guide: TopGuide | None = None

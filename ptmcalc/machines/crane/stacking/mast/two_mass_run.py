@@ -110,7 +110,7 @@ def valid(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """
     guide = spec.column.top_guide
     if guide is not None and guide.stiffness is not None:
-        return Criterion("k_g", 1.0, 1.0, "the head of the column is guided: it keeps to no one shape", "the file")
+        return Criterion("k_g", 1.0, 1.0, "the top guide excludes a single deflection shape", "the file")
     return evenly(spec, scene)
 
 

@@ -21,7 +21,7 @@ def run(spec: Stacker, scene: Braked, carried: frozenset[str], level: int) -> Re
     """
     name = "brake_time" if isinstance(scene, Brake) else "start_time"
     note = (
-        "the start follows the motor's curve, and the swing of the column moves it along that"
+        "the start follows the motor curve, and the mast oscillation changes the motor torque"
         if model.uneven(spec, scene)
         else ""
     )
@@ -41,5 +41,5 @@ DRIVE_TIMES: Solver[Stacker, Braked] = Solver(
     gives=frozenset({"start_time", "brake_time", "starts_ratio"}),
     run=run,
     cost=lambda spec, scene, carried, level: 1e-4,
-    source="momentum of what travels; bound of the swing derived by Cauchy",
+    source="momentum of the travelling masses; bound of the oscillation derived by Cauchy",
 )

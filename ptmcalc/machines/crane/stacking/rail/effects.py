@@ -39,7 +39,7 @@ def uneven_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
     roll = roll_of(spec, scene)
     answers = [max(pair) for pair in roll.pulses(roll.frequency)]
     value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+    return Criterion("a_w/g", value, UNEVEN_THRESHOLD, "wheel load added by the rail", "laws.rail")
 
 
 def uneven_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:
@@ -64,7 +64,7 @@ def jump_criterion(spec: RackStacker, scene: RailScene) -> Criterion:
     roll = roll_of(spec, scene)
     answers = [less for _, less in roll.pulses(roll.frequency)]
     value = max([wave_share(roll)] + [roll.acceleration / roll.gravity * one for one in answers])
-    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "what the rail takes off a wheel load", "laws.rail")
+    return Criterion("a_l/g", value, JUMPING_THRESHOLD, "wheel load reduction by the rail", "laws.rail")
 
 
 def jump_bound(spec: RackStacker, scene: RailScene, loads: Loads) -> Offsets:

@@ -168,7 +168,7 @@ def not_too_long(spec: RackStacker, scene: RailScene) -> Criterion:
     """
     roll = roll_of(spec, scene)
     value = max((pulse.lasts * roll.frequency for pulse in pulses(roll)), default=0.0)
-    return Criterion("w t", value, MOST_RADIANS, "radians of the machine's swing on a step or gap", "limit of the run")
+    return Criterion("w t", value, MOST_RADIANS, "radians of the oscillation on a step or gap", "limit of the run")
 
 
 def undamped(spec: RackStacker, scene: RailScene) -> Criterion | None:

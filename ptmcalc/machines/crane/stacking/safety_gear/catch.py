@@ -50,8 +50,8 @@ def run(spec: Stacker, scene: SafetyGearScene, carried: frozenset[str], level: i
 
 def _too_far(one: Fall) -> str:
     if math.isinf(one.distance):
-        return "the gear does not hold the weight: the carriage goes on, faster and faster"
-    return f"its stroke ends before: {units.show(one.left, units.SPEED)} is left there"
+        return "the gear does not hold the weight: the carriage accelerates further"
+    return f"its stroke ends before standstill: residual speed {units.show(one.left, units.SPEED)}"
 
 
 GEAR_CATCH: Solver[Stacker, SafetyGearScene] = Solver(

@@ -33,7 +33,7 @@ def gear_criterion(spec: Stacker, scene: SafetyGearScene) -> Criterion:
     """
     one = fall_of(spec, scene)
     value = one.force / (one.mass * spec.gravity)
-    return Criterion("ψ", value, GEAR_THRESHOLD, "force of the safety gear over the weight", "laws.safety_gear")
+    return Criterion("ψ", value, GEAR_THRESHOLD, "safety gear force / weight", "laws.safety_gear")
 
 
 def gear_bound(spec: Stacker, scene: SafetyGearScene, loads: Loads) -> Offsets:

@@ -102,7 +102,11 @@ def _never(straight: Stopped, count: int, deceleration: float) -> dict[str, Foun
 
 
 def _bottoms(left: float) -> str:
-    return f"the buffers bottom out: {units.show(left, units.SPEED)} is left at the end of their stroke" if left else ""
+    return (
+        f"the buffers bottom out: residual speed {units.show(left, units.SPEED)} at the end of their stroke"
+        if left
+        else ""
+    )
 
 
 BUFFER_COLLISION: Solver[Travelling, Collision] = Solver(

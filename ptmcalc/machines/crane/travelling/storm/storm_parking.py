@@ -42,7 +42,7 @@ def run(spec: Travelling, scene: Storm, carried: frozenset[str], level: int) -> 
         value = float(rolling.extreme(state, largest)[0])
         found[name] = Found(Estimate.exact(value), note=rolling.where(state, largest))
     if by_brakes > by_wheels:
-        found["holding_force"] = Found(Estimate.exact(held), note="braked wheels slide before their brakes do")
+        found["holding_force"] = Found(Estimate.exact(held), note="the braked wheels slip before the brakes")
     return Result(found, work=1)
 
 

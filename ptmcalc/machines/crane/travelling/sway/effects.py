@@ -98,7 +98,7 @@ def sway_criterion(spec: Travelling, scene: Moving) -> Criterion:
     **Source** pendulum under a sudden acceleration.
     """
     value = 2 * mean_acceleration(spec, scene) / spec.gravity if model.hanging(spec, scene) else 0.0
-    return Criterion("2a/g", value, SWAY_THRESHOLD, "angle of the load by a sudden start", "pendulum")
+    return Criterion("2a/g", value, SWAY_THRESHOLD, "sway angle of the load at a sudden start", "pendulum")
 
 
 def anything_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
@@ -171,7 +171,9 @@ def hoisting_criterion(spec: Travelling, scene: Moving) -> Criterion:
     """
     motion = motion_of(spec, scene)
     value = abs(motion.hoisting) * _period(motion) / motion.length
-    return Criterion("|V| T/L", value, HOISTING_THRESHOLD, "change of the rope in a swing over its length", "pendulum")
+    return Criterion(
+        "|V| T/L", value, HOISTING_THRESHOLD, "change of rope length per sway period / rope length", "pendulum"
+    )
 
 
 def wind_criterion(spec: Travelling, scene: Moving) -> Criterion:
@@ -187,7 +189,9 @@ def wind_criterion(spec: Travelling, scene: Moving) -> Criterion:
     mass = motion.body + motion.load
     force = motion.force if motion.ramp is None else mass * motion.ramp + motion.rolling
     value = abs(motion.outside) / force if force else math.inf
-    return Criterion("F_w/F", value, WIND_THRESHOLD, "wind and slope over what drives or brakes", "balance of forces")
+    return Criterion(
+        "F_w/F", value, WIND_THRESHOLD, "wind and slope force / driving or braking force", "balance of forces"
+    )
 
 
 # -- finite angles --------------------------------------------------------------------------------------------------
@@ -203,13 +207,13 @@ def large_criterion(spec: Travelling, scene: Moving) -> Criterion:
     **Source** derived at `large_bound`.
     """
     if not model.hanging(spec, scene):
-        return Criterion("Δθ/θ", 0.0, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+        return Criterion("Δθ/θ", 0.0, LARGE_THRESHOLD, "change of the sway by finite angles", "derived")
     motion = motion_of(spec, scene)
     a = mean_acceleration(spec, scene)
     x = a / motion.gravity
     turned = 2 * math.pi / _period(motion) * motion.speed / a if a else math.inf
     value = far(x) * (2 + turned) / (2 * x) if x else 0.0
-    return Criterion("Δθ/θ", value, LARGE_THRESHOLD, "what finite angles may change of the swing", "derived")
+    return Criterion("Δθ/θ", value, LARGE_THRESHOLD, "change of the sway by finite angles", "derived")
 
 
 def large_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
@@ -273,7 +277,7 @@ def curve_criterion(spec: Travelling, scene: Moving) -> Criterion:
         assert curve is not None
         torques = curve.torque(np.linspace(0.0, model.motor_speed(spec), 65), np.inf)
         value = float(np.ptp(torques)) / spec.drive.motor.mean_torque
-    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "spread of the motor's torque over its mean", "motor curve")
+    return Criterion("ΔM/M", value, CURVE_THRESHOLD, "range of the motor torque / mean motor torque", "motor curve")
 
 
 def follows_curve(spec: Travelling, scene: Moving) -> bool:
@@ -312,7 +316,7 @@ def slip_criterion(spec: Travelling, scene: Moving) -> Criterion:
     state = State(a, pull, motion.load * motion.gravity, traction, motion.wind)
     least = float(Wheels.of(spec, scene).least_grip(state)[0])
     value = 1 / least if least else math.inf
-    return Criterion("F/μN", value, SLIP_THRESHOLD, "force of a driven wheel over its adhesion", "laws.skid")
+    return Criterion("F/μN", value, SLIP_THRESHOLD, "required force of a driven wheel / adhesion", "laws.skid")
 
 
 def slip_bound(spec: Travelling, scene: Moving, loads: Loads) -> Offsets:
@@ -353,7 +357,7 @@ def rail_criterion(spec: Travelling, scene: RailStep) -> Criterion:
         number = rail.gap_number(frequency, speed, spec.rail.gap)
         answers += rail.gap_extremes(number)
     value = rail.rail_acceleration(speed, radius) / spec.gravity * max(answers)
-    return Criterion("a_w/g", value, RAIL_THRESHOLD, "what the rail adds to the wheel loads", "laws.rail")
+    return Criterion("a_w/g", value, RAIL_THRESHOLD, "wheel load added by the rail", "laws.rail")
 
 
 def rail_bound(spec: Travelling, scene: RailStep, loads: Loads) -> Offsets:

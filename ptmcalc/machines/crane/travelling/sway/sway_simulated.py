@@ -60,7 +60,7 @@ def valid(spec: Travelling, scene: Moving) -> Criterion | None:
     """
     motion = motion_of(spec, scene)
     if not motion.load and follows_curve(spec, scene):
-        return Criterion("m/m_t", 1.0, 1.0, "nothing hangs on the rope: give the mass of the hook block", "the file")
+        return Criterion("m/m_t", 1.0, 1.0, "no load is suspended: give the mass of the hook block", "the file")
     if motion.reacts or motion.ramp is not None or not motion.load:
         return None
     return Criterion("M/m_t", 1.0, 1.0, f"it always simulates `{REACTION}`, forced off in the file", "the file")
