@@ -174,7 +174,7 @@ def show_solvers(kind: str, as_json: bool) -> str:
         "scene",
         "solver",
         "fidelity",
-        "effects it carries",
+        "simulated effects",
         "cost on template",
         "error",
         "source",

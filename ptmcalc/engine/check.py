@@ -476,7 +476,7 @@ def _note(planned: PlannedEffect, carried: frozenset[str]) -> str:
     if planned.forced_off:
         return "forced off by the file"
     if planned.criterion is None:
-        return "an input it needs is not given: loads are those without it"
+        return "a required input is not given: the loads exclude this effect"
     notes = ["forced on by the file"] if planned.forced else []
     if planned.effect.calibrated and planned.effect.part_of in carried and planned.effect.name not in carried:
         notes.append("its bound is calibrated")

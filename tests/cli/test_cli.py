@@ -234,7 +234,7 @@ def test_the_whole_table_is_to_be_had(option: str, tmp_path: Path) -> None:
     assert (done.status, done.err) == (0, "")
     assert file.read_text("utf-8") == done.out
     assert len(done.out.splitlines()) > len(short.splitlines())
-    assert short.splitlines()[-1].startswith("More with --verbose: ")
+    assert short.splitlines()[-1].startswith("Further output with --verbose: ")
     assert ptmcalc("check", PASSING, option).out == ptmcalc("check", PASSING).out
 
 

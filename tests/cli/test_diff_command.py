@@ -157,7 +157,7 @@ def test_the_comment_reads_like_a_review(states: Path) -> None:
     )
     assert "\n\nThis file is gone.\n" in text
     assert "- new: **error** SPC103, line 1: " in text
-    for title in ("Margins that moved", "Loads that changed beyond their error bars"):
+    for title in ("Changed margins", "Loads changed beyond their error bars"):
         assert f"<details><summary>{title}</summary>\n\n| " in worse, "tables are opened by who wants to know"
     assert worse.count("|\n\n</details>") == 2
     invalid = text.partition("invalid.yaml\n\n")[2].partition("\n\n### ")[0]

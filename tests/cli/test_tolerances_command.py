@@ -153,7 +153,7 @@ def test_every_form_says_the_same() -> None:
         assert float(lines[code]["fail_high"]) == row["fail"]["high"]
         assert float(lines[code]["margin"]) == row["margin"]["value"]
     assert "yard.yaml: 1000 machines, seed 0" in table
-    assert "yard.yaml:25  takeup.tension: 29.87 kN in the middle, 95 % from " in table
+    assert "yard.yaml:25  takeup.tension: 29.87 kN mean, 95 % from " in table
 
 
 def test_undecided_machines_count_as_neither_and_widen_the_upper_end() -> None:

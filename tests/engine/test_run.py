@@ -335,7 +335,7 @@ def test_an_effect_forced_on_that_lacks_an_input_is_refused() -> None:
     )
     found = report(kind, effects={"sag": "on"})
     assert [(one.code, one.severity) for one in found.diagnostics] == [("SPC205", Severity.ERROR)]
-    assert "an input that it needs is not given" in found.diagnostics[0].message
+    assert "a required input is not given" in found.diagnostics[0].message
     assert (found.verdict, found.scenes) == ("invalid", ())
 
 

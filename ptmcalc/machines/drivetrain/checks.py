@@ -239,8 +239,8 @@ def _whole(spec: Drivetrain, scene: Start) -> Estimate:
 
 REACHES: Check[Drivetrain, Start] = Check(
     code="DRV109",
-    title="speed ratio reached in the start",
-    question="Does the watched shaft reach its target speed?",
+    title="speed reached in the start, relative to target",
+    question="Does the shaft considered reach its target speed?",
     failure="target speed is not reached",
     scenes=frozenset({Start}),
     loads=("start_share",),
@@ -270,7 +270,7 @@ def _nothing(spec: Drivetrain, scene: Stop) -> Estimate:
 RESTS: Check[Drivetrain, Stop] = Check(
     code="DRV110",
     title="speed after the stop",
-    question="Does the watched shaft come to rest and stay at rest?",
+    question="Does the shaft considered come to rest and stay at rest?",
     failure="shaft does not stay at rest",
     scenes=frozenset({Stop}),
     loads=("stop_speed_share",),
@@ -341,7 +341,7 @@ def _no_slip(spec: Drivetrain, scene: Start) -> Estimate:
 CLUTCH: Check[Drivetrain, Start] = Check(
     code="DRV112",
     title="clutch slip speed after the start",
-    question="Does each clutch lock in the start?",
+    question="Is each clutch locked at the end of the start?",
     failure="clutch does not lock",
     scenes=frozenset({Start}),
     loads=("clutch_slip",),
@@ -465,7 +465,7 @@ BRAKES: AnyCheck = Check(
     code="DRV111",
     title="motor braking torque reserve",
     question="Does the motor hold the overhauling load at its speed?",
-    failure="load drives the motor beyond its curve",
+    failure="load overcomes the braking torque of the motor",
     scenes=DRIVEN,
     loads=("braking_reserve",),
     sense=Sense.AT_LEAST,

@@ -45,7 +45,7 @@ def _reserve_checks(spec: ChainDrive, scene: ChainScene) -> Iterable[AnyCheck]:
 RESERVE: Check[ChainDrive, ChainScene] = Check(
     code="CHN130",
     title="motor torque reserve, steady running",
-    question="Do the motors pull the chain at its speed, or hold the load that drives it?",
+    question="Can the motors keep the chain at its speed, also with an overhauling load?",
     failure="load exceeds the motor torque: the chain runs too slowly, or runs away",
     scenes=frozenset({Run, Start}),
     loads=("steady_reserve",),
@@ -83,7 +83,7 @@ def _rated_checks(spec: ChainDrive, scene: ChainScene) -> Iterable[AnyCheck]:
 
 RATING: Check[ChainDrive, ChainScene] = Check(
     code="CHN131",
-    title="motor torque over rated torque, steady running",
+    title="motor torque utilisation, steady running",
     question="Is the motor torque of steady running within the rated torque?",
     failure="motor is overloaded in steady running",
     scenes=frozenset({Run, Start}),

@@ -278,7 +278,7 @@ HELD: Check[ChainDrive, ChainScene] = Check(
     code="CHN129",
     title="chain rollback torque",
     question="Is the rollback torque of the stopped loaded chain held by friction or the backstop?",
-    failure="rollback torque exceeds what the backstop may hold",
+    failure="rollback torque exceeds the permissible backstop torque",
     limit_state=LimitState("loaded chain runs back"),
     scenes=_STOPS | {Hold, Start, Run},
     each=lambda spec, scene: (replace(HELD, each=None),) if asks_for_hold(spec, scene) else (),

@@ -51,7 +51,7 @@ def _reserve_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
 RESERVE: Check[Conveyor, ConveyorScene] = Check(
     code="CNV121",
     title="motor torque reserve, steady running",
-    question="Do the motors pull the belt at its speed, or hold the load that drives it?",
+    question="Can the motors keep the belt at its speed, also with an overhauling load?",
     failure="load exceeds the motor torque: the belt runs too slowly, or runs away",
     scenes=frozenset({Run, Start}),
     loads=("steady_reserve",),
@@ -92,7 +92,7 @@ def _rated_checks(spec: Conveyor, scene: ConveyorScene) -> Checks:
 
 RATING: Check[Conveyor, ConveyorScene] = Check(
     code="CNV122",
-    title="motor torque over rated torque, steady running",
+    title="motor torque utilisation, steady running",
     question="Is the motor torque of steady running within the rated torque?",
     failure="motor is overloaded in steady running",
     scenes=frozenset({Run, Start}),

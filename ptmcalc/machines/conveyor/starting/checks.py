@@ -155,7 +155,7 @@ def _residual_checks(spec: Conveyor, scene: Start) -> Checks:
 RESIDUAL: Check[Conveyor, Start] = Check(
     code="CNV119",
     title="residual belt oscillation after start",
-    question="Does the start profile leave little oscillation in the first belt mode?",
+    question="Is the residual oscillation in the first belt mode within its limit?",
     failure="start profile excites the first belt mode",
     scenes=frozenset({Start}),
     loads=("start_residual",),

@@ -163,7 +163,7 @@ HARSH: OneCheck = only(turns)(
     Check(
         code="CRN103",
         title="minimum slewing start time",
-        question="Is the slewing start gentle enough?",
+        question="Is the starting time long enough for a smooth start?",
         failure="slewing start is too abrupt",
         scenes=SLEWING,
         loads=("start_time",),
@@ -293,7 +293,7 @@ HARSH_STOP: OneCheck = only(turns)(
     Check(
         code="CRN119",
         title="minimum slewing stop time",
-        question="Is the slewing stop gentle enough?",
+        question="Is the stopping time long enough for a smooth stop?",
         failure="slewing stop is too abrupt",
         scenes=SLEWING,
         loads=("brake_time",),
@@ -552,7 +552,7 @@ OVERHAULED: OneCheck = only(_driven)(
         code="CRN120",
         title="motor braking torque reserve",
         question="Does the motor hold the crane at its speed in the maximum in-service wind?",
-        failure="wind or slope drive the motor beyond its curve",
+        failure="wind or slope overcomes the braking torque of the motor",
         scenes=SLEWING,
         loads=("overhauling_reserve",),
         sense=Sense.AT_LEAST,

@@ -265,7 +265,7 @@ def _share_key(spec: Hoist, scene: Release) -> KeyPath:
 
 SLACK_AFTER_RELEASE: Check[Hoist, Release] = Check(
     code="HST126",
-    title="rope force ratio after load release",
+    title="minimum rope force after load release",
     question="Does the rope stay taut when part of the load is released?",
     failure="rope force after the release falls below its limit",
     limit_state=LimitState("rope goes slack", 0),

@@ -50,7 +50,7 @@ def valid(spec: Hoist, scene: Moving) -> Criterion | None:
 
 ROPE_WAVES: Solver[Hoist, Moving] = Solver(
     name="rope_waves",
-    title="drive and load on a rope with waves, event-driven",
+    title="drive and load on a rope with distributed mass, event-driven",
     fidelity=Fidelity.TRANSIENT,
     scenes=frozenset({Lift, Start, Stop, LowerBrake}),
     represents=ALWAYS | {"structure", "gear_elasticity", "gear_backlash", "rope_mass"},

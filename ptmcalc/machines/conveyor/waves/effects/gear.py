@@ -75,7 +75,7 @@ def gear_bound(spec: Conveyor, scene: ConveyorScene, loads: Loads) -> Offsets:
 
 GEAR_LOSSES = Effect(
     "gear_losses",
-    "side of the gear losses during a stop",
+    "direction of the gear losses during a stop",
     frozenset({Stop, EmergencyStop, Coast}),
     gear_criterion,
     gear_bound,

@@ -122,7 +122,7 @@ OBSTACLE_ENERGY: Solver[Stacker, ObstacleScene] = Solver(
 )
 OBSTACLE_TIP_STOPPED: Solver[Stacker, ObstacleScene] = Solver(
     name="obstacle_tip_stopped",
-    title="textbook collision, mast tip stopped dead",
+    title="textbook collision, mast tip stopped at once",
     fidelity=Fidelity.FORMULA,
     scenes=SCENES,
     represents=frozenset(),

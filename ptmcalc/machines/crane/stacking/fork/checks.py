@@ -199,7 +199,7 @@ def _push_key(spec: Stacker, scene: StackerScene) -> KeyPath:
 TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fork.rating is not None)(
     Check(
         code="CRN288",
-        title="fork thrust on the telescopic fork",
+        title="telescopic fork thrust",
         question="Is the fork thrust within the rating of the telescopic fork?",
         failure="fork thrust overloads the telescopic fork",
         scenes=PUSHES,

@@ -145,7 +145,7 @@ SETTLES: OneCheck = only(_asks_wait)(
     Check(
         code="CRN253",
         title="mast settling time",
-        question="Does the mast tip settle into the positioning tolerance within the permitted wait?",
+        question="Does the mast tip settle into the positioning tolerance within the permissible time?",
         failure="mast takes too long to settle",
         scenes=frozenset({Brake}),
         loads=("settling_time",),
@@ -180,7 +180,7 @@ LEANS: OneCheck = only(_asks_window)(
     Check(
         code="CRN254",
         title="static mast tip deflection",
-        question="Is the static lean of the mast smaller than the positioning tolerance?",
+        question="Is the static mast tip deflection smaller than the positioning tolerance?",
         failure="static mast deflection exceeds the positioning tolerance",
         scenes=frozenset({Brake}),
         loads=("rest_deflection",),

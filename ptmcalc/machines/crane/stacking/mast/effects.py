@@ -300,6 +300,6 @@ EFFECTS_OF_MAST: tuple[AnyEffect, ...] = (
         calibrated=True,
     ),
     Effect(CONTACT, "contact with the obstacle", frozenset({ObstacleScene}), contact_criterion, anything_bound),
-    Effect(HOLDING, "holding of the base after the stop", DRIVEN, holding_criterion, holding_bound),
+    Effect(HOLDING, "base held after the stop", DRIVEN, holding_criterion, holding_bound),
     Effect(GUIDE, "top guide of the mast", DRIVEN, guide_criterion, guide_bound),
 )
