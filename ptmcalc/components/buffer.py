@@ -37,13 +37,13 @@ _EXAMPLE = {
 
 
 class Buffer(Fragment):
-    """The buffers on one end, of which all are equal and hit at once."""
+    """The buffers at one end: equal, in contact at the same time."""
 
     type: Literal["linear", "progressive", "constant", "hydraulic"] = "linear"
     """`linear`: springs, rubber; `progressive`: cellular plastic, its force grows as a power of the stroke; `constant`:
     friction, hydraulic with a tapered pin; `hydraulic`: one orifice, force proportional to the square of the speed"""
     count: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one buffer on each rail, the usual arrangement")] = 2
-    """buffers that are hit at once, one on each rail"""
+    """number of buffers in simultaneous contact, one on each rail"""
     stiffness: Annotated[PositiveStiffness | None, OneOf("force, end_force, orifice")] = None
     """of one `linear` buffer"""
     force: Annotated[PositiveForce | None, OneOf("stiffness, end_force, orifice")] = None
@@ -54,17 +54,17 @@ class Buffer(Fragment):
         Annotated[float, Measure(units.RATIO, above=0, at_most=10)],
         Assumed(2.0, 1.5, 3.0, "cellular plastic 2 to 3; rubber about 1.5", only_with=("type", "progressive")),
     ] = 2.0
-    """with which the force of a `progressive` buffer grows; 2 to 3 for cellular plastic"""
+    """exponent of the force of a `progressive` buffer; 2 to 3 for cellular plastic"""
     orifice: Annotated[PositiveLineMass | None, OneOf("stiffness, force, end_force")] = None
-    """force over the square of the speed of one `hydraulic` buffer, in kg/m"""
+    """force / squared speed of one `hydraulic` buffer, in kg/m"""
     stroke: PositiveLength
     """maximum compression"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of one buffer, or of what it stands on; needed to check it"""
+    """permissible force of one buffer, or of its end stop; needed to check it"""
     largest_speed: Annotated[PositiveSpeed | None, Limit()] = None
-    """it may be hit with, from its maker's list"""
+    """maximum impact speed, from the manufacturer's catalogue"""
     shape: Annotated[PositiveFraction | None, Absent("the value of the curve of the `type`")] = None
-    """energy over largest force times stroke; by the type when left out"""
+    """energy / (maximum force times stroke); default: by the type"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -77,7 +77,7 @@ class Motor(Fragment):
     """the number that all its torques grow with, where there is one"""
 
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """the most the motor may be loaded with for a short time (overload limit); needed to check it"""
+    """permissible short-time torque (overload limit); needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -122,7 +122,7 @@ class RatedMotor(Motor):
 
 
 class ConstantMotor(RatedMotor):
-    """A motor that gives the same torque at every speed."""
+    """A motor with the same torque at every speed."""
 
     size_key: ClassVar[str] = "torque"
     type: Literal["constant"]
@@ -140,12 +140,12 @@ class ConstantMotor(RatedMotor):
 
 
 class LinearMotor(RatedMotor):
-    """A motor whose torque falls in a straight line with its speed, as a DC motor's, beyond both ends too."""
+    """A motor with a torque that decreases linearly with its speed, as a DC motor, also outside the given range."""
 
     size_key: ClassVar[str] = "starting_torque"
     type: Literal["linear"]
     starting_torque: PositiveTorque
-    """torque at rest"""
+    """torque at standstill"""
     no_load_speed: PositiveAngularSpeed
     """speed at which the torque is 0; above it the motor brakes"""
 
@@ -165,11 +165,11 @@ class InductionBase(Motor):
     synchronous_speed: PositiveAngularSpeed
     """speed of the field: 3000, 1500, 1000, 750 rpm ... at 50 Hz"""
     overload: RatioAboveOne
-    """largest (breakdown) torque over the rated one"""
+    """breakdown torque / rated torque"""
     formula: Literal["simplified", "full"] = "simplified"
     """the formula of Kloss without (`simplified`) or with (`full`) the resistance of the stator"""
     stator_ratio: Annotated[PositiveRatio | None, Setting("the full formula of Kloss: equal resistances")] = None
-    """resistance of the stator over that of the rotor as seen from it, in the full formula; 1 when left out"""
+    """stator resistance / rotor resistance referred to the stator, in the full formula; 1 when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -258,13 +258,13 @@ class InductionMotor(InductionBase):
 
 
 class RheostatMotor(InductionBase):
-    """A slip-ring motor started over resistances that are cut out one after the other."""
+    """A slip-ring motor with rotor resistances that are cut out step by step."""
 
     type: Literal["rheostat"]
     steps: Annotated[tuple[RatioAboveOne, ...], Field(min_length=1, max_length=30)]
-    """resistance of the rotor circuit over that of the rotor alone, step by step, falling; the rotor alone follows"""
+    """resistance of the rotor circuit / rotor resistance, per step, descending; the last step is the rotor alone"""
     smallest_torque: Annotated[PositiveTorque | None, OneOf("switch_times")] = None
-    """a step is cut out when its torque has fallen to this, or give `switch_times`"""
+    """torque at which a step is cut out, or give `switch_times`"""
     switch_times: Annotated[
         Annotated[tuple[PositiveTime, ...], Field(min_length=1, max_length=30)] | None, OneOf("smallest_torque")
     ] = None
@@ -318,7 +318,7 @@ class RheostatMotor(InductionBase):
 
 
 class ConverterMotor(RatedMotor):
-    """A motor on a frequency converter: it follows a ramp of speed, softly, up to a limit of torque."""
+    """A motor on a frequency converter: it follows a speed ramp with slip, up to a torque limit."""
 
     size_key: ClassVar[str] = "torque_limit"
     type: Literal["converter"]
@@ -331,11 +331,11 @@ class ConverterMotor(RatedMotor):
     ramp_time: Time
     """time in which the reference rises from 0 to `speed`; 0 s is a step"""
     torque_limit: PositiveTorque
-    """the most the converter lets the motor give, driving and braking"""
+    """torque limit of the converter, driving and braking"""
     slip: Annotated[RatedSlip | None, OneOf("stiffness")] = None
-    """shortfall of speed at rated torque over the rated speed, or give `stiffness`"""
+    """relative slip at rated torque, or give `stiffness`"""
     own_stiffness: Annotated[PositiveTorqueSlope | None, OneOf("slip")] = Field(default=None, alias="stiffness")
-    """torque per shortfall of speed, instead of `slip`"""
+    """torque per speed difference, instead of `slip`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -408,15 +408,15 @@ class TorquePoint(Fragment):
     speed: SignedAngularSpeed
     """of the motor shaft"""
     torque: SignedTorque
-    """the motor gives there; negative where it brakes"""
+    """motor torque; negative for braking"""
 
 
 class TableMotor(RatedMotor):
-    """A motor whose curve is read from points, straight in between; outside of them the end values hold."""
+    """A motor with a curve of points, linear between them; the end values apply outside."""
 
     type: Literal["table"]
     points: Annotated[tuple[TorquePoint, ...], Field(min_length=2, max_length=500)]
-    """the points, the speeds rising"""
+    """the points, in ascending speed"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

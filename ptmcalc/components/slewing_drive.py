@@ -39,7 +39,7 @@ class SlewMotor(Fragment):
     coupling_inertia: Annotated[Inertia | None, OneOf("coupling_factor")] = None
     """coupling and brake disc of one motor, on the motor shaft, or give `coupling_factor`"""
     coupling_factor: Annotated[PartsFactor | None, Assumed()] = None
-    """rotor with coupling over the rotor alone, 1.4 to 2; 1.7 is assumed when neither is given"""
+    """rotor with coupling / rotor alone, 1.4 to 2; 1.7 is assumed when neither is given"""
     mean_starting_torque: Annotated[PositiveTorque | None, OneOf("largest_starting_torque, curve")] = None
     """mean starting torque of one motor, or give the largest and the smallest, or a `curve`"""
     largest_starting_torque: Annotated[PositiveTorque | None, OneOf("mean_starting_torque, curve")] = None
@@ -59,7 +59,7 @@ class SlewMotor(Fragment):
     ] = 1.0
     """duty factor of the rating, e.g. `40 %`; continuous when left out"""
     largest_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """the most one motor may be loaded with for a short time"""
+    """permissible short-time torque of one motor"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -117,7 +117,7 @@ class OpenGear(Fragment):
     """The open stage at the slewing axis: pinion and ring gear, or lantern gear."""
 
     ratio: PositiveRatio
-    """pinion speed over speed of the crane"""
+    """pinion speed / slewing speed"""
     efficiency: Annotated[Efficiency, Assumed(0.95, 0.92, 0.97, "open stages with grease 0.92 to 0.97")] = 0.95
     """of this stage"""
 
@@ -126,7 +126,7 @@ class SlewGear(Fragment):
     """The whole gear between motor and slewing axis."""
 
     ratio: PositiveRatio
-    """motor speed over speed of the crane, open stage included"""
+    """motor speed / slewing speed, open stage included"""
     efficiency: Efficiency
     """from motor to crane, open stage included"""
     reverse_efficiency: Annotated[ReverseEfficiency | None, Assumed()] = None
@@ -136,11 +136,11 @@ class SlewGear(Fragment):
     rotating_factor: Annotated[
         PartsFactor, Assumed(1.15, 1.1, 1.2, "the rotating parts of the gear add 10 to 20 %")
     ] = 1.15
-    """all rotating parts of the drive over those on the motor shaft, 1.1 to 1.2"""
+    """inertia of all rotating drive parts / inertia on the motor shaft, 1.1 to 1.2"""
     rated_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """of the gearbox on its fast shaft, in its group of the mechanism; needed to check it"""
+    """rated input torque of the gearbox in its mechanism group; needed to check it"""
     pinion_torque: Annotated[PositiveTorque | None, Limit()] = None
-    """permissible for the life of the open pinion; needed to check it"""
+    """permissible torque for the service life of the open pinion; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -172,10 +172,10 @@ class SlewBrake(Fragment):
     torque: PositiveTorque
     """of all brakes together, fully applied"""
     shaft: Literal["motor", "crane"] = "motor"
-    """the shaft it sits on: the motor's, or the slewing axis"""
+    """shaft of the brake: motor shaft or slewing axis"""
     delay: Annotated[Time, Assumed(0.0, 0.0, 0.3, "slewing brakes close 0.1 to 0.3 s after they are switched off")] = (
         0.0
     )
-    """from switching off until it begins to act"""
+    """from switch-off to the start of the braking torque"""
     rise_time: Annotated[Time, Absent("the interval of the assumed `delay` includes the rise")] = 0.0
-    """from then until its full torque, in a straight line"""
+    """from then to full torque, linear rise"""

@@ -30,17 +30,17 @@ class Profile(Fragment):
     """How the drive starts."""
 
     shape: Literal["step", "ramp", "cosine", "parabolic", "table", "curve"] = "step"
-    """`step` at once, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
+    """`step` instantaneous, `ramp` linear, `cosine` as (1 - cos)/2, `parabolic` as two parabolas, `table` by `points`,
     `curve` as the motors' torque over their speed; when left out, the `curve` of the motors if the file gives one, else
     a step"""
     time: Annotated[PositiveTime | None, OneOf("points, or an instantaneous shape")] = None
     """duration of the rise"""
     points: Annotated[tuple[ProfilePoint, ...], Field(min_length=2, max_length=500)] | None = None
-    """of a `table`: the times rising from 0, the shares rising to 1, straight in between"""
+    """of a `table`: times ascending from 0, shares ascending to 1, linear between points"""
     control: Literal["torque", "speed"] | None = None
-    """what follows the profile; a step is of torque, any other shape is of speed unless this is `torque`"""
+    """controlled quantity; a step is a torque, any other shape is a speed unless this is `torque`"""
     ripple: Annotated[PositiveFrequency | None, Absent("a control without ripple")] = None
-    """frequency at which the control of the drive pulsates; it is kept away from those of the machine"""
+    """ripple frequency of the drive control; checked against the natural frequencies of the machine"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -23,14 +23,14 @@ Accuracy = Efficiency
 
 
 class CheckSwitch(Fragment):
-    """Takes one check off the list of this file, with the reason."""
+    """Switches off one check of this file, with the reason."""
 
     off: Annotated[str, Field(min_length=1)]
     """why the check does not apply to this machine"""
 
 
 class Waiver(Fragment):
-    """A check that may fail for a while: its verdict is `waived`, with the reason, and counts again after the day."""
+    """A temporary exemption from a check: its verdict is `waived`, with the reason, until the given day."""
 
     check: str = Field(examples=["CNV101"])
     """code of the check"""
@@ -60,9 +60,9 @@ class MachineSpec(Fragment):
 
     kind: str
     name: str = Field(default="", max_length=200)
-    """what the machine is called, on the report"""
+    """name of the machine in the report"""
     description: str = ""
-    """anything a reader of the file should know"""
+    """remarks for readers of the file"""
     gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it is within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
     accuracy: Annotated[Accuracy | None, Setting("without it, verdicts decide how narrow bars are")] = None

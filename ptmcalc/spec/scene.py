@@ -14,7 +14,7 @@ class Scene(Fragment):
 
     type: str
     name: str = Field(default="", pattern=r"^[A-Za-z0-9_.-]*$", max_length=60)
-    """name in the report; made from the scene's type and load when it is left out"""
+    """name in the report; default: type and load of the scene"""
 
     @property
     def label(self) -> str:
@@ -35,4 +35,4 @@ class TransientScene(Scene):
     """A scene that is computed over a window of time."""
 
     window_factor: Annotated[FactorFromOne, Setting("the window is printed with the loads")] = 1.0
-    """length of the window of time that is computed, relative to the usual one"""
+    """length of the simulated time window, relative to the default"""

@@ -53,18 +53,18 @@ Exponent = Annotated[float, Measure(units.RATIO, at_least=1, at_most=3)]
 
 
 class Body(Fragment):
-    """An inertia of the train: it turns (`inertia` or `body`) or travels (`mass`)."""
+    """An inertia of the train: rotating (`inertia` or `body`) or travelling (`mass`)."""
 
     inertia: Annotated[Inertia | None, OneOf("mass, body")] = None
-    """moment of inertia; 0 is allowed only on a shaft that a gear ties to another inertia"""
+    """moment of inertia; 0 is permitted only on a shaft connected to another inertia by a gear"""
     mass: Annotated[Mass | None, OneOf("inertia, body")] = None
-    """mass of a part that travels"""
+    """mass of a travelling part"""
     body: AnyBody | None = None
     """a body whose inertia is computed from its dimensions"""
     position: Annotated[Turn, Absent("positions are relative to it")] = 0.0
     """angle or position at the start"""
     speed: Annotated[AnySpeed | None, Absent("it starts from standstill or with the speed of the scene")] = None
-    """speed at the start; that of the scene, or rest, when left out"""
+    """speed at the start; default: that of the scene, or standstill"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -90,7 +90,7 @@ class Clearance(Fragment):
     """The backlash of a gear or toothed coupling from its geometry."""
 
     centre_distance: Annotated[PositiveLength | None, OneOf("value")] = None
-    """with `accuracy_class`: least clearance of new spur gears, a*cbrt(A) (a reading of a lost table)"""
+    """with `accuracy_class`: minimum clearance of new spur gears, a*cbrt(A) (reconstructed table)"""
     accuracy_class: Literal[2, 3, 4] | None = None
     """accuracy class of the old standard the table was made for"""
     value: Annotated[PositiveLength | None, OneOf("centre_distance")] = None
@@ -104,7 +104,7 @@ class Clearance(Fragment):
     both_worn: bool = True
     """whether both gears have lost it"""
     kind: Literal["gearbox", "coupling", "open_gear"] = "gearbox"
-    """what the wear is held against: 25 % of the tooth in gearboxes and couplings, 40 % in open gears"""
+    """wear limit: 25 % of the tooth in gearboxes and couplings, 40 % in open gears"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -134,9 +134,9 @@ class Link(Fragment):
     clearance: Clearance | None = None
     """the backlash from the gear geometry, instead of `gap`"""
     slack: Annotated[Play | None, Absent("no rope or chain")] = None
-    """a rope or chain: it pulls only, and only after so much travel"""
+    """a rope or chain: tension only, after this slack travel"""
     law: Literal["clamped", "no_pull", "kelvin", "hunt_crossley", "rigid"] | None = None
-    """how contact is made and lost; `clamped` with a gap, `no_pull` with slack when left out"""
+    """contact law; default: `clamped` with a gap, `no_pull` with slack"""
     dissipation: Annotated[
         Annotated[float, Measure(units.RATIO, at_least=0)] | None,
         Absent("a contact without losses has the largest rebound"),
@@ -151,7 +151,7 @@ class Link(Fragment):
     preload: Annotated[Torque, Absent("no torque at the start")] = 0.0
     """torque in the link at the start; with `slack` and `driving` the rope is taut"""
     limit: Annotated[PositiveTorque | None, Limit()] = None
-    """largest torque the link may carry"""
+    """permissible torque of the link"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -191,16 +191,16 @@ class Link(Fragment):
 
 
 class Gear(Fragment):
-    """A gear without elasticity, or a drum that makes travel out of rotation."""
+    """A rigid gear, or a drum that converts rotation into travel."""
 
     start: str = Field(alias="from")
     """the inertia on the motor's side"""
     end: str = Field(alias="to")
     """the inertia on the load's side"""
     ratio: Annotated[Ratio | None, OneOf("radius")] = None
-    """speed of `from` over speed of `to`; negative where it reverses"""
+    """speed of `from` / speed of `to`; negative if it reverses"""
     radius: Annotated[Annotated[float, Measure(units.LENGTH, above=0)] | None, OneOf("ratio")] = None
-    """of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
+    """radius of the drum, wheel or pinion that moves `to`, instead of `ratio`"""
     efficiency: Annotated[
         Efficiency,
         Assumed(1.0, 0.94, 1.0, "one to three stages of gears in oil or drums on rolling bearings, 0.98 to 0.99 each"),
@@ -240,19 +240,19 @@ class Brake(Fragment):
     torque: PositiveTorque
     """torque or force while it slips, fully applied"""
     static_ratio: Annotated[FactorFromOne, Absent("equal static and sliding torque is the minimum")] = 1.0
-    """torque that it holds at rest over that"""
+    """static torque / sliding torque"""
     delay: Annotated[Time, Assumed(0.0, 0.0, 0.1, "spring-applied brakes, AC or DC switching: up to 0.1 s")] = 0.0
-    """from the command until it begins to act"""
+    """from the command to the start of the braking torque"""
     rise_time: Annotated[
         Time, Assumed(0.0, 0.0, 0.1, "spring-applied brakes: up to 0.1 s from the first to the full torque")
     ] = 0.0
-    """from then until it acts fully; the time constant of an exponential rise"""
+    """from then to full torque; the time constant of an exponential rise"""
     rise: Literal["linear", "exponential"] = "linear"
     """how it rises"""
     applied: Literal["when_stopping", "always", "never"] = "when_stopping"
     """in which scenes the command is given, at their start"""
     below: Annotated[AnySpeed | None, Absent("the brake acts at any speed")] = None
-    """the command is only given when the speed of `at` has fallen to this"""
+    """speed of `at` at or below which the command is given"""
 
 
 class Resistance(Fragment):
@@ -261,12 +261,12 @@ class Resistance(Fragment):
     at: str
     """the inertia it acts on"""
     coulomb: Annotated[TorqueOrNone, Absent("no dry friction")] = 0.0
-    """dry friction, against the motion whatever the speed"""
+    """dry friction, against the motion at any speed"""
     static_ratio: Annotated[
         FactorFromOne,
         Assumed(1.0, 1.0, 1.5, "breakaway of bearings, seals and wheels: up to 1.5 times the value in motion"),
     ] = 1.0
-    """what must be overcome at rest over that"""
+    """breakaway value / sliding value"""
     viscous: Annotated[Damping, Absent("no friction that depends on the speed")] = 0.0
     """per speed"""
 
@@ -281,13 +281,13 @@ class OnInertia(Fragment):
 
 
 class ConstantTorque(OnInertia):
-    """A torque or force that does not change: a weight, a hanging load."""
+    """A constant torque or force: a weight, a suspended load."""
 
     type: Literal["constant"]
     torque: Torque
     """positive in the direction of motion"""
     delay: Annotated[Time, Absent("it acts from the start")] = 0.0
-    """when it sets in"""
+    """start of the torque"""
 
 
 class RisingTorque(OnInertia):
@@ -307,13 +307,13 @@ class SineTorque(OnInertia):
 
     type: Literal["sine"]
     amplitude: Torque
-    """half of its swing"""
+    """amplitude of the torque"""
     frequency: Annotated[PositiveFrequency | None, OneOf("angular_frequency")] = None
     """cycles per second"""
     angular_frequency: Annotated[AngularFrequency | None, OneOf("frequency")] = None
     """w itself, instead of `frequency`"""
     mean: Annotated[Torque, Absent("it has no mean")] = 0.0
-    """round which it swings"""
+    """mean torque"""
     phase: Annotated[Annotated[float, Measure(units.ANGLE)], Absent("it starts at 0")] = 0.0
     """of the sine at the start of the scene"""
 
@@ -356,11 +356,11 @@ class PositionPoint(Fragment):
 
 
 class OverTime(OnInertia):
-    """A torque over time, straight between points; the last holds on."""
+    """A torque over time, linear between points; the last value remains constant."""
 
     type: Literal["over_time"]
     points: Annotated[tuple[TimePoint, ...], Field(min_length=2, max_length=2000)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -369,11 +369,11 @@ class OverTime(OnInertia):
 
 
 class OverSpeed(OnInertia):
-    """A torque over the speed of its inertia; the ends hold outside."""
+    """A torque over the speed of its inertia; the end values apply outside."""
 
     type: Literal["over_speed"]
     points: Annotated[tuple[SpeedPoint, ...], Field(min_length=2, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -386,11 +386,11 @@ class OverPosition(OnInertia):
 
     type: Literal["over_position"]
     points: Annotated[tuple[PositionPoint, ...], Field(min_length=2, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
     period: Annotated[
         Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Absent("it is not periodic")
     ] = None
-    """the table repeats after so much travel; its last point is then one period behind the first"""
+    """period of the table; its last point is one period after the first"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -425,13 +425,13 @@ class MotorOn(Fragment):
     at: str
     """the inertia it acts on"""
     motor: AnyMotor
-    """what its torque is"""
+    """torque of the motor"""
     count: Annotated[Annotated[int, Field(ge=1, le=64, strict=True)], Absent("one motor drives the inertia")] = 1
     """number of equal motors"""
     off_after: Annotated[PositiveTime | None, Absent("it stays on")] = None
-    """it is switched off after so much time"""
+    """time of the switch-off"""
     off_delay: Annotated[Time, Absent("it is off at the start of a stop")] = 0.0
-    """in a `stop`: how long it still drives"""
+    """in a `stop`: delay of the switch-off"""
 
 
 class MotionPoint(Fragment):
@@ -444,12 +444,12 @@ class MotionPoint(Fragment):
 
 
 class Motion(Fragment):
-    """A prescribed motion of an inertia, straight between the points of its speed."""
+    """A prescribed motion of an inertia, linear between the points of its speed."""
 
     at: str
     """the inertia it acts on"""
     points: Annotated[tuple[MotionPoint, ...], Field(min_length=1, max_length=500)]
-    """in rising order"""
+    """in ascending order"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -466,26 +466,26 @@ class Impulse(Fragment):
     at: str
     """the inertia it acts on"""
     time: PositiveTime
-    """when"""
+    """time of the impulse"""
     size: AnyImpulse
-    """torque times time, or force times time"""
+    """impulse: torque times time, or force times time"""
 
 
 class DrivetrainChecks(CheckSettings):
     """Limits of the checks of a drive train."""
 
     start_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest start"""
+    """maximum starting time"""
     stop_time: Annotated[PositiveTime | None, Limit()] = None
-    """longest stop"""
+    """maximum stopping time"""
     stop_angle: Annotated[Annotated[float, either(units.ANGLE, units.LENGTH, above=0)] | None, Limit()] = None
     """maximum stopping distance"""
     resonance_margin: Annotated[Fraction, Limit()] = 0.2
-    """least distance of an exciting frequency from a natural one, as a share of the natural one"""
+    """minimum separation of an excitation frequency from a natural frequency, relative to the natural frequency"""
     cycle_time: Annotated[
         PositiveTime | None, Setting("the time of the scene, at most that of a cycle with pauses")
     ] = None
-    """time over which a motor's heating torque is taken; the scene's own time when left out"""
+    """cycle time of the rms motor torque; default: the time of the scene"""
 
 
 class TrainScene(Scene):
@@ -494,13 +494,13 @@ class TrainScene(Scene):
     duration: Annotated[PositiveTime | None, Setting("the start or stop and ten periods of the lowest frequency")] = (
         None
     )
-    """length of the scene; what happens later is no part of it, and `window_factor` does not change it"""
+    """length of the scene; `window_factor` does not change it"""
     of: str | None = None
-    """the inertia the scene is about; the first motor's, or the first one, when left out"""
+    """inertia considered in the scene; default: that of the first motor, or the first inertia"""
     speed: Annotated[AnySpeed | None, Absent("it starts from rest")] = None
-    """speed of that inertia at the start; the others turn with it"""
+    """initial speed of that inertia; the other inertias follow"""
     links: Literal["relaxed", "loaded"] | None = None
-    """whether links start without torque, or with the one the loads put into them; `loaded` in a `stop`"""
+    """whether links start without torque, or loaded; `loaded` in a `stop`"""
 
 
 class Run(TrainScene):
@@ -512,11 +512,11 @@ class Run(TrainScene):
 
 
 class Start(TrainScene, TransientScene):
-    """A start from rest: brakes are off, motors drive."""
+    """A start from standstill: brakes released, motors on."""
 
     type: Literal["start"] = "start"
     until: Annotated[AnySpeed | None, Setting("95 % of the speed of the motor")] = None
-    """the start is over when the inertia the scene is about reaches this speed; 95 % of the motor's when left out"""
+    """target speed of the inertia considered; default: 95 % of the motor speed"""
 
 
 class Stop(TrainScene, TransientScene):
@@ -524,18 +524,18 @@ class Stop(TrainScene, TransientScene):
 
     type: Literal["stop"] = "stop"
     speed: Annotated[AnySpeed | None, Assumed()] = None
-    """speed of that inertia at the start; the others turn with it; that of the motor without load when left out"""
+    """initial speed of that inertia; the other inertias follow; that of the motor without load when left out"""
 
 
 AnyScene = Annotated[Run | Start | Stop, Field(discriminator="type")]
 
 
 class Drivetrain(MachineSpec):
-    """Inertias on a shaft or on a line, tied by gears and elastic links."""
+    """Rotating or travelling inertias, connected by gears and elastic links."""
 
     kind: Literal["drivetrain"]
     inertias: Annotated[dict[str, Body], Field(min_length=1, max_length=40)]
-    """what moves, by name"""
+    """inertias, by name"""
     links: dict[str, Link] = Field(default_factory=dict, max_length=100)
     """elastic links, by name"""
     gears: dict[str, Gear] = Field(default_factory=dict, max_length=40)
@@ -545,7 +545,7 @@ class Drivetrain(MachineSpec):
     motors: dict[str, MotorOn] = Field(default_factory=dict, max_length=40)
     """motors, by name"""
     torques: dict[str, AnyTorque] = Field(default_factory=dict, max_length=100)
-    """torques and forces that are no motors: weights, working loads, excitations"""
+    """torques and forces other than motors: weights, working loads, excitations"""
     resistances: dict[str, Resistance] = Field(default_factory=dict, max_length=100)
     """friction, by name"""
     motions: dict[str, Motion] = Field(default_factory=dict, max_length=40)
@@ -555,7 +555,7 @@ class Drivetrain(MachineSpec):
     checks: DrivetrainChecks = DrivetrainChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens; a start, when left out"""
+    """load cases; default: a start"""
 
     PARTS: ClassVar[tuple[str, ...]] = (
         "links",

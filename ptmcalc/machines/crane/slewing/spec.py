@@ -41,18 +41,18 @@ BrakeAngle = Annotated[float, Measure(units.ANGLE, above=0, at_most=6.2832)]
 
 
 class Load(Fragment):
-    """What hangs on the jib."""
+    """The load on the jib."""
 
     mass: PositiveMass
     """rated load with its grab or sling"""
     hook_block: Annotated[Mass | None, Assumed()] = None
-    """hook block and whatever stays on the hook"""
+    """hook block and permanent load handling devices"""
     radius: PositiveSpan = Field(examples=["8 m"])
-    """from the slewing axis to the head of the jib, where the rope hangs"""
+    """from the slewing axis to the jib head"""
     rope_length: Annotated[
         PositiveSpan | None, Absent("the sway checks require it and report `not checked` without it")
     ] = Field(default=None, examples=["6 m"])
-    """from the head of the jib to the middle of the load; needed to see the load swing"""
+    """from the jib head to the load centre; needed for the load sway"""
 
 
 class Body(Fragment):
@@ -67,39 +67,39 @@ class Body(Fragment):
 
 
 class Jib(Fragment):
-    """The jib as an even rod that reaches outwards."""
+    """The jib as a uniform rod."""
 
     mass: PositiveMass
     """of the jib"""
     length: PositiveSpan
     """of the jib, as seen from above"""
     foot_radius: Annotated[Span, Absent("the jib starts at the slewing axis")] = 0.0
-    """from the slewing axis to its near end"""
+    """from the slewing axis to the jib foot"""
 
 
 class Wind(Fragment):
-    """What the wind does about the slewing axis: torques, or an area on an arm and its pressures."""
+    """The wind torque about the slewing axis: torques, or an area on a lever arm and its pressures."""
 
     steady: Annotated[Torque | None, Absent("no wind: indoor crane")] = None
-    """torque in the mean of a working day"""
+    """mean torque of a working day"""
     maximum: Annotated[Torque | None, Assumed()] = None
-    """largest torque in service, for the brake and for a motor that must hold; the steady one with its gust at least"""
+    """maximum in-service torque, for brake and motor; at least the steady torque plus the gust"""
     gust: Annotated[Torque | None, Absent("gusts are part of the maximum wind of the holding checks")] = None
-    """torque of a gust that comes on top of the steady wind; held like the largest wind"""
+    """torque of a gust in addition to the steady wind"""
     area: Annotated[PositiveArea | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["12 m^2"])
-    """side of jib and load in the wind, both sides of the axis weighed up, or give the torques"""
+    """net wind area of jib and load about the slewing axis, or give the torques"""
     arm: Annotated[PositiveSpan | None, OneOf("steady, maximum, gust")] = Field(default=None, examples=["4 m"])
-    """from the slewing axis to the middle of the area"""
+    """from the slewing axis to the centre of the area"""
     steady_pressure: Annotated[PositivePressure | None, OneOf("steady")] = Field(default=None, examples=["50 Pa"])
     """of the wind of a working day"""
     maximum_pressure: Annotated[PositivePressure | None, OneOf("maximum")] = None
-    """largest in service; 250 Pa by most standards"""
+    """maximum in-service pressure; 250 Pa by most standards"""
     gust_pressure: Annotated[PositivePressure | None, OneOf("gust")] = None
-    """of a gust, on top of the steady one"""
+    """pressure of a gust, in addition to the steady one"""
     gust_rise: Annotated[PositiveTime | None, Assumed()] = None
     """rise time of a gust"""
     gust_time: Annotated[PositiveTime | None, Assumed()] = None
-    """how long it lasts"""
+    """duration of the gust"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -141,22 +141,22 @@ class Wind(Fragment):
 
 
 class Cycle(Fragment):
-    """What the crane does again and again."""
+    """The working cycle of the crane."""
 
     rotation: Annotated[
         PositiveAngle, Absent("180 deg is the maximum slewing angle of a crane that slews in both directions")
     ] = 3.141592653589793
     """from pick-up to put-down; 180 deg when left out"""
     brake_angle: BrakeAngle = Field(examples=["15 deg"])
-    """largest allowed angle of a stop: 15 deg in light duty"""
+    """permissible stopping angle: 15 deg in light duty"""
     start_time: Annotated[PositiveTime | None, OneOf("start_angle, motor.mean_starting_torque")] = None
     """starting time, if the motor torque does not determine it"""
     start_angle: Annotated[PositiveAngle | None, OneOf("start_time, motor.mean_starting_torque")] = None
-    """over which it comes to speed, instead of `start_time`"""
+    """angle of the start, instead of `start_time`"""
     pause: Annotated[Time, Absent("without a pause, the motor temperature is highest")] = 0.0
-    """rest between two rotations, which cools the motor"""
+    """pause between two slewing motions, in which the motor cools"""
     exponent: Annotated[PositiveRatio, Absent("3: tooth contact, the basis of gearbox ratings")] = 3.0
-    """slope of fatigue m of the equivalent torque: 3 contact of teeth, 6 to 9 their bending"""
+    """fatigue exponent m of the equivalent torque: 3 for tooth contact, 6 to 9 for tooth bending"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -168,16 +168,16 @@ class Cycle(Fragment):
 
 
 class Handbook(Fragment):
-    """What the handbook's chain of formulas is fed with; nothing else uses it."""
+    """Inputs of the handbook formulas only."""
 
     start_time: Annotated[PositiveTime | None, OneOf("cycle.start_time")] = None
-    """the time that the handbook takes for a start"""
+    """starting time of the handbook formulas"""
     start_angle: Annotated[PositiveAngle | None, OneOf("cycle.start_angle")] = None
-    """the angle that the handbook takes for a start, instead of its time"""
+    """starting angle of the handbook formulas, instead of the time"""
     shares: Literal["rounded", "exact"] = "rounded"
     """shares of the cycle rounded to three digits and not renormalised, as printed course projects do, or exact"""
     rotor_eta_rule: Literal["eta", "one", "inverse"] = "eta"
-    """how the gear's efficiency stands with the rotor's inertia at the column: J u^2 eta, J u^2 or J u^2/eta"""
+    """gear efficiency in the reduced rotor inertia: J u^2 eta, J u^2 or J u^2/eta"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -198,21 +198,21 @@ class Ring(Fragment):
     """The slewing ring bearing, or the bearings of a fixed column."""
 
     mass_above: Annotated[Mass | None, Absent("the sum of the parts given in the file")] = None
-    """all that rests on it without the load; the sum of the parts when left out"""
+    """mass above the ring without the load; default: sum of the parts"""
     unbalance: Annotated[
         Annotated[float, Measure(units.TORQUE)] | None, Absent("the value of the parts given in the file")
     ] = None
-    """tilting moment of the crane without its load, towards the load; that of the parts when left out"""
+    """tilting moment of the crane without load, towards the load; default: that of the parts"""
     head_height: Annotated[Span | None, Assumed()] = None
-    """of the head of the jib over the ring, where the load's swing pulls"""
+    """height of the jib head above the ring"""
     wind_height: Annotated[Span | None, Assumed()] = None
-    """of the middle of the wind's area over the ring"""
+    """height of the centre of the wind area above the ring"""
     wind_force: Annotated[PositiveForce | None, Absent("no wind along the jib: indoor crane")] = None
-    """of the largest wind in service along the jib"""
+    """force of the maximum in-service wind along the jib"""
     load_factor: Annotated[Annotated[float, Measure(units.FACTOR, at_least=1, at_most=5)], Limit()] = 1.25
-    """on the load's weight: hoisting and test loads; catalogues ask 1.25"""
+    """factor on the load weight for hoisting and test loads; catalogues require 1.25"""
     curve: Annotated[tuple[RingPoint, ...], Field(min_length=1, max_length=50)] | None = None
-    """limiting load curve of the catalogue, axial forces rising; needed to check the ring"""
+    """limiting load curve of the catalogue, in ascending axial force; needed to check the ring"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -225,25 +225,25 @@ class Ring(Fragment):
 
 
 class SpectrumPoint(Fragment):
-    """A part of the crane's working life."""
+    """A part of the load spectrum."""
 
     share: PositiveShare
     """of all cycles"""
     load: Share
-    """over the rated load"""
+    """relative to the rated load"""
 
 
 class Classes(Fragment):
-    """What the crane is classed as, and used for."""
+    """Classification and use of the crane."""
 
     group: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
-    """declared group of the crane; compared with that of its use"""
+    """declared crane group; compared with the required group"""
     cycles: Annotated[
         Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only if it is given")
     ] = None
-    """hoisting cycles in the life; with the spectrum they give the group of its use"""
+    """working cycles in the service life; with the spectrum they determine the required group"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
-    """loads over the life; the rated load always, when left out"""
+    """load spectrum of the service life; default: always the rated load"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -260,19 +260,19 @@ class SlewingChecks(CheckSettings):
     """Limits of the checks of a slewing crane."""
 
     starting_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least starting torque over the torque of steady slewing"""
+    """minimum starting torque / steady slewing torque"""
     start_time: Annotated[PositiveTime, Limit()] = 10.0
-    """longest start"""
+    """maximum starting time"""
     least_start_time: Annotated[PositiveTime, Limit()] = 1.0
-    """shortest start: shorter ones throw the load about"""
+    """minimum starting time, to limit the load sway"""
     brake_time: Annotated[PositiveTime, Limit()] = 10.0
-    """longest stop"""
+    """maximum stopping time"""
     least_brake_time: Annotated[PositiveTime, Limit()] = 1.0
-    """shortest stop: shorter ones throw the load about"""
+    """minimum stopping time, to limit the load sway"""
     holding_reserve: Annotated[PositiveRatio, Limit()] = 1.0
-    """least torque of the started motor, and of the closed brake, over that of the largest wind"""
+    """minimum ratio of starting torque, and of brake torque, to the torque of the maximum wind"""
     sway: Annotated[SwayAngle, Limit()] = 0.174532925199433
-    """largest angle of the load's rope, radial or tangential; 10 deg when left out"""
+    """maximum hoist rope angle, radial or tangential; 10 deg when left out"""
 
 
 class SlewingScene(TransientScene):
@@ -286,7 +286,7 @@ class SlewingScene(TransientScene):
 
 
 class Slew(SlewingScene):
-    """A whole rotation: start, steady slewing, stop."""
+    """A complete slewing motion: start, steady slewing, stop."""
 
     type: Literal["slew"] = "slew"
 
@@ -301,9 +301,9 @@ class SlewingCrane(MachineSpec):
     type: Literal["slewing"]
     """of the crane"""
     load: Load | None = None
-    """what hangs on the jib; not needed with `inertia`, but without it the sway is not computed"""
+    """load on the jib; optional with `inertia`, but needed for the sway"""
     slewing_part: Body | None = None
-    """platform, column or portal with what stands on it"""
+    """platform, column or portal with its equipment"""
     counterweight: Body | None = None
     """the counterweight"""
     jib: Jib | None = None
@@ -311,7 +311,7 @@ class SlewingCrane(MachineSpec):
     inertia: Annotated[PositiveInertia | None, OneOf("slewing_part, counterweight, jib")] = Field(
         default=None, examples=["60000 kg*m^2"]
     )
-    """of all that slews about the axis, the load at its radius included, instead of the parts"""
+    """of all slewing parts, the load at its radius included, instead of the parts"""
     speed: PositiveAngularSpeed = Field(examples=["2 rpm"])
     """of slewing"""
     friction: Torque
@@ -327,17 +327,17 @@ class SlewingCrane(MachineSpec):
     brake: SlewBrake | None = None
     """the slewing brake; needed to check stops"""
     cycle: Cycle
-    """what the crane does again and again"""
+    """working cycle"""
     handbook: Handbook = Handbook()
-    """inputs of the handbook's formulas alone"""
+    """inputs of the handbook formulas only"""
     ring: Annotated[Ring, Also("slewing_ring")] = Ring()
     """the slewing ring"""
     classes: Classes = Field(default=Classes(), alias="class")
-    """what the crane is classed as"""
+    """classification of the crane"""
     checks: SlewingChecks = SlewingChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; a rotation with the rated load, and one with the hook block alone, when left out"""
+    """load cases; default: a rotation with the rated load, and one with the hook block alone, when left out"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

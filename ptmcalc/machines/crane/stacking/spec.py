@@ -22,21 +22,21 @@ class Stacker(MachineSpec):
     load: PositiveMass
     """rated load with its pallet"""
     column: Annotated[Column, Also("mast")]
-    """along which the carriage climbs"""
+    """mast, guide of the carriage"""
     carriage: Carriage
     """with the fork"""
     cab: Cab | None = None
-    """that climbs with the carriage; none when left out"""
+    """cab on the carriage; none when left out"""
     hoisting: Hoisting
-    """what lifts the carriage"""
+    """hoist of the carriage"""
     fork: Fork | None = None
     """the telescopic fork; needed for a `fork_push`"""
     rack: Rack = Rack()
     """the rack at the fork; rigid when left out"""
     safety_gear: SafetyGear | None = None
-    """what catches the carriage when its ropes fail; needed for a `safety_gear`"""
+    """safety gear of the carriage; needed for a scene `safety_gear`"""
     settling: Settling = Settling()
-    """how still the column must be before the fork may go out"""
+    """positioning tolerance of the mast before the fork extends"""
     checks: StackerChecks = StackerChecks()
     """limits, and checks switched off by code"""
 

@@ -62,7 +62,7 @@ class Bridge(Fragment):
     span: PositiveSpan
     """from rail A to rail B"""
     centre: Annotated[PositiveSpan | None, Absent("symmetric bridge")] = None
-    """of gravity, from rail A; in the middle when left out"""
+    """of gravity, from rail A; default: middle"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
     cantilever_a: Annotated[Span, Absent("without it the hook positions are between the rails")] = 0.0
@@ -77,15 +77,15 @@ class Trolley(Fragment):
     mass: PositiveMass
     """with the hoist, without the hook block"""
     gauge: Annotated[PositiveLength | None, OneOf("bridge.span")] = None
-    """from its rail A to its rail B; of a trolley that travels"""
+    """from its rail A to its rail B; of a travelling trolley"""
     nearest: Annotated[SignedSpan | None, OneOf("hook")] = None
-    """least distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
+    """minimum distance of the hook from rail A, below 0 on a cantilever; of a trolley on a bridge"""
     farthest: Annotated[SignedSpan | None, Absent("the trolley approaches rail B as closely as rail A")] = None
-    """largest distance of the hook from rail A; as far from rail B as `nearest` from rail A when left out"""
+    """maximum distance of the hook from rail A; default: symmetric to `nearest`"""
     hook: Annotated[
         PositiveLength | None, Absent("the rope suspension point is in the middle, as on most trolleys")
     ] = None
-    """distance of the hook from rail A of a trolley that travels; in the middle when left out"""
+    """distance of the hook of a travelling trolley from its rail A; default: middle"""
     height: Annotated[Span | None, Assumed()] = None
     """of its centre of gravity above the wheels' rails"""
 
@@ -98,7 +98,7 @@ class Wheels(Fragment):
     base: PositiveSpan
     """from the front to the rear corners, along the rail"""
     per_corner: Annotated[int, Field(ge=1, le=16, strict=True), Absent("one wheel has the largest load of all")] = 1
-    """wheels of a corner, in balanced bogies"""
+    """wheels of a corner, in equalising bogies"""
     driven: Annotated[tuple[Corner, ...], Field(min_length=1, max_length=4)]
     """corners with driven wheels, e.g. `[A1, B1]`"""
     driven_per_corner: Annotated[
@@ -106,11 +106,11 @@ class Wheels(Fragment):
     ] = None
     """driven wheels of such a corner; all when left out"""
     frame: Literal["hinged", "rigid"] = "hinged"
-    """how the four corners share the loads: girders hinged to their end carriages, or a frame that does not twist"""
+    """load distribution on the corners: girders hinged to the end carriages, or a torsionally rigid frame"""
     inertia: Annotated[Inertia | None, Assumed()] = None
     """of one wheel"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest load of one wheel, or of the rail under it; needed to check it"""
+    """rated load of one wheel, or of the rail under it; needed to check it"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -128,18 +128,18 @@ class Wheels(Fragment):
 
 
 class Rolling(Fragment):
-    """What the wheels resist with."""
+    """Rolling resistance of the wheels."""
 
     coefficient: Annotated[Fraction | None, OneOf("lever_arm")] = None
-    """all resistance over the weight, or give `lever_arm`"""
+    """total resistance / weight, or give `lever_arm`"""
     lever_arm: Annotated[Length | None, OneOf("coefficient")] = None
-    """of rolling, of steel on steel 0.3 to 1 mm by the diameter"""
+    """lever arm of rolling friction; steel on steel 0.3 to 1 mm, depending on the diameter"""
     bearing_friction: Annotated[Fraction | None, Assumed()] = None
-    """of the wheels' bearings; 0.015 rolling, 0.08 to 0.1 plain"""
+    """of the wheel bearings; rolling bearings 0.015, plain bearings 0.08 to 0.1"""
     axle_diameter: Annotated[PositiveLength | None, Assumed()] = None
     """at the middle of the bearings; a quarter of the wheel when left out"""
     flange_factor: Annotated[Annotated[float, Measure(units.RATIO, at_least=1, at_most=10)] | None, Assumed()] = None
-    """for flanges that rub, 1.5 to 2.5; 1 with guide rollers"""
+    """factor of flange friction, 1.5 to 2.5; 1 with guide rollers"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -154,60 +154,60 @@ class Rolling(Fragment):
 
 
 class Rail(Fragment):
-    """What it runs on."""
+    """The runway rail."""
 
     slope: Annotated[
         Slope, Assumed(0.0, 0.0, 0.001, "tolerance of the runway slope: 0.001 along the length (ISO 12488-1)")
     ] = 0.0
-    """rise over length"""
+    """slope: rise / length"""
     adhesion: Annotated[Annotated[float, Measure(units.RATIO, above=0, at_most=1)] | None, Assumed()] = None
     """between wheel and rail: 0.2 indoors, 0.12 outdoors, 0.25 with sand; 0.14 is assumed when left out"""
     step: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
-    """height of the largest step"""
+    """height of the maximum step"""
     gap: Annotated[Length, Absent("used only in the scene `rail_step`, with a step or gap")] = 0.0
-    """width of the largest gap"""
+    """width of the maximum gap"""
     head: Annotated[PositiveLength | None, OneOf("guide.wear")] = None
-    """width of its head, by which guides wear; 50 mm is assumed when left out"""
+    """rail head width, for the guide wear; 50 mm is assumed when left out"""
     frequency: Annotated[Annotated[float, Measure(units.FREQUENCY, above=0)] | None, Assumed()] = None
-    """of the crane that swings vertically on its wheels; 10 Hz is assumed for a `rail_step`"""
+    """vertical natural frequency of the crane on its wheels; 10 Hz is assumed for a `rail_step`"""
 
 
 class Guide(Fragment):
-    """Guides that keep a skewing crane on its rails."""
+    """Lateral guides of the crane."""
 
     type: Literal["flanges", "rollers"] = "flanges"
     """flanges of the wheels, or guide rollers"""
     clearance: Length
     """clearance between guide and rail, both sides together"""
     wear: Annotated[Length | None, Assumed()] = None
-    """of guide and rail; a tenth of the rail's head is assumed with flanges, 0.03 of it with rollers"""
+    """wear of guide and rail; 0.1 of the rail head width is assumed with flanges, 0.03 with rollers"""
     base: Annotated[
         PositiveSpan | None, Absent("flanges guide at the wheels; guide rollers ahead of them have smaller forces")
     ] = None
-    """from the foremost to the rearmost guide; the wheel base when left out"""
+    """from the front to the rear guide; default: the wheel base"""
     rail_two: Literal["fixed", "movable"] = "fixed"
-    """whether the wheels or legs of the other rail hold sideways"""
+    """whether the wheels or legs of the other rail are laterally fixed"""
     adhesion: Annotated[
         Annotated[float, Measure(units.RATIO, above=0, at_most=1)],
         Absent("the maximum friction of the standards, for a clean rail"),
     ] = 0.3
-    """of wheels that slip across the rail; 0.3 as a rule, 0.2 on rails that are never cleaned"""
+    """of wheels that slip across the rail; usually 0.3, 0.2 on uncleaned rails"""
     tolerance: Annotated[
         Annotated[float, Measure(units.ANGLE, at_least=0)],
         Assumed(0.001, 0.001, 0.002, "EN 13001-2, EN 1991-3: 0.001 rad for wheels and rails of usual tolerances"),
     ] = 0.001
-    """angle of wheels and rails by tolerances"""
+    """skewing angle due to tolerances of wheels and rails"""
     edition: Literal["en_13001_2", "en_1991_3", "full"] = "en_13001_2"
-    """by which the clearance becomes an angle"""
+    """standard for the skewing angle due to clearance"""
     rating: Annotated[PositiveForce | None, Limit()] = None
-    """largest force of a guide; needed to check it"""
+    """permissible force of a guide; needed to check it"""
 
 
 class Wind(Fragment):
     """The wind along the rails."""
 
     area: WindArea
-    """of what travels, facing the wind, without the load"""
+    """wind area of the travelling parts, without the load"""
     load_area: Annotated[WindArea | None, Assumed()] = None
     """of the load"""
     shape: Annotated[
@@ -217,13 +217,13 @@ class Wind(Fragment):
     load_shape: Annotated[PositiveRatio, Assumed(1.2, 1.1, 2.4, "EN 13001-2: 1.2 for loads, 2.4 when unknown")] = 1.2
     """force coefficient of the load"""
     height: Annotated[Span | None, Absent("the wind acts at the centre of gravity, near the centre of the area")] = None
-    """of the middle of the area above the rails; that of the bridge's or trolley's centre when left out"""
+    """height of the centre of the wind area above the rails; default: that of the centre of gravity"""
     pressure: PositivePressure
-    """in which the crane works: starts, travels, stops"""
+    """in-service pressure for starts, travel and stops"""
     pressure_max: Annotated[PositivePressure | None, Assumed()] = None
-    """largest in service, against which it still travels; `pressure` when left out"""
+    """maximum in-service pressure; `pressure` when left out"""
     pressure_storm: Annotated[PositivePressure | None, Absent("without it there is no scene `storm`")] = None
-    """out of service, in which it must stand; needed for a `storm`"""
+    """out-of-service pressure; needed for a `storm`"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -236,38 +236,38 @@ class Wind(Fragment):
 
 
 class Parking(Fragment):
-    """Devices other than the brakes that hold the crane out of service."""
+    """Holding devices other than the brakes, out of service."""
 
     force: PositiveForce
     """of rail clamps, pins or storm anchors"""
 
 
 class SpectrumPoint(Fragment):
-    """A part of the crane's working life."""
+    """A part of the load spectrum."""
 
     share: PositiveShare
     """of all cycles"""
     load: Share
-    """over the rated load"""
+    """relative to the rated load"""
 
 
 class Duty(Fragment):
-    """What the mechanism does all day."""
+    """Duty of the mechanism."""
 
     type: Literal["S1", "S3", "S4", "S5"] = "S3"
     """duty type of IEC 60034-1; S4 and S5 count the starts"""
     factor: Annotated[PositiveShare | None, Assumed()] = None
-    """share of a cycle in which the motor is on; 40 % is assumed when it is left out"""
+    """cyclic duration factor of the motor; 40 % is assumed when it is left out"""
     starts_per_hour: Annotated[HourlyRate | None, Absent("S1 and S3 have no starts; S4 and S5 require them")] = None
     """of the motor"""
     load_spectrum: Annotated[tuple[SpectrumPoint, ...], Field(min_length=1, max_length=20)] | None = None
-    """loads over the life; the rated load always, when left out"""
+    """load spectrum of the service life; default: always the rated load"""
     cycles: Annotated[
         Annotated[float, Measure(units.FACTOR, above=0)] | None, Absent("the group is checked only if it is given")
     ] = None
-    """hoisting cycles in the life, which with the spectrum give the group of the crane"""
+    """working cycles in the service life; with the spectrum they determine the crane group"""
     hours: Annotated[RunningTime | None, Absent("the group is computed only if it is given")] = None
-    """time in motion in the life, which with the spectrum gives the group of the mechanism"""
+    """operating time in the service life; with the spectrum it determines the mechanism group"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:
@@ -286,45 +286,45 @@ class Duty(Fragment):
 
 
 class Classes(Fragment):
-    """What the crane is classed as, and by which edition its factors are taken."""
+    """Classification of the crane, and edition of its dynamic factors."""
 
     hoisting: Literal["HC1", "HC2", "HC3", "HC4"] | None = None
     """stiffness class of the hoist, for phi2"""
     drive: Literal["HD1", "HD2", "HD3", "HD4", "HD5"] = "HD1"
-    """how the hoisting speed is controlled, for phi2"""
+    """hoist drive class (control of the hoisting speed), for phi2"""
     crane: Literal["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"] | None = None
     """group of the crane, ISO 4301-1"""
     edition: Literal["by_class", "by_drive", "raised"] = "by_class"
-    """smallest phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
+    """minimum phi2 by the hoisting class alone, 1.05 for HD3 and HD5 (newer EN 13001-2), or raised for HD1"""
     lifting_share: Annotated[
         Annotated[float, Measure(units.RATIO, at_least=0, at_most=0.1)], Absent("the maximum value of the standard")
     ] = 0.1
-    """the part by which phi1 differs from 1"""
+    """deviation of phi1 from 1"""
     release: Literal["none", "slow", "quick"] = "none"
-    """how a part of the load comes off: by a grab, or by a magnet; for phi3"""
+    """release of a part of the load: by a grab, or by a magnet; for phi3"""
     released_share: Annotated[Fraction, Absent("the full load is released: the worst case of a `release`")] = 1.0
-    """part of the load that comes off"""
+    """released part of the load"""
     drive_change: Literal["centrifugal", "smooth", "sudden"] | None = None
-    """how the drive forces change, for phi5; smooth for a drive that keeps to a ramp, else sudden, when left out"""
+    """change of the drive forces, for phi5; default: smooth for a drive on a ramp, otherwise sudden"""
     play: Literal["small", "large"] = "small"
-    """of the travel drive, for phi5"""
+    """backlash of the travel drive, for phi5"""
     stability: Literal["en_13001_2", "fem_1_001"] = "en_13001_2"
-    """by which standard's partial factors it is proved that the crane does not tip"""
+    """standard of the partial factors for the proof of stability"""
     buffer_edition: Literal["line", "two_values"] = "line"
-    """phi7 along a line by the shape of the buffer's curve (EN 13001-2, ISO 8686-1), or one of two values"""
+    """phi7 as a linear function of the buffer curve shape (EN 13001-2, ISO 8686-1), or one of two values"""
 
 
 class Declared(Fragment):
-    """Dynamic factors with which the structure has been calculated: what is found must not be above them."""
+    """Declared dynamic factors of the structure: upper limits of the computed factors."""
 
     phi1: Annotated[Phi | None, Limit()] = None
-    """weight of the crane as a load is lifted"""
+    """weight of the crane during lifting"""
     phi2: Annotated[Phi | None, Limit()] = None
-    """lifting a load off the ground"""
+    """lifting a grounded load"""
     phi3: Annotated[Annotated[float, Measure(units.RATIO, at_least=-1, at_most=1)] | None, Limit()] = None
-    """a part of the load comes off; what is found must not be below it"""
+    """release of a part of the load; lower limit of the computed factor"""
     phi4: Annotated[Phi | None, Limit()] = None
-    """running over steps and gaps"""
+    """travelling over rail steps and gaps"""
     phi5: Annotated[Phi | None, Limit()] = None
     """changes of the drive forces"""
     phi6: Annotated[Phi | None, Limit()] = None
@@ -334,76 +334,76 @@ class Declared(Fragment):
 
 
 class TravelChecks(CheckSettings):
-    """Limits of the checks of a crane that travels."""
+    """Limits of the checks of a travelling crane."""
 
     start_time: Annotated[PositiveTime, Limit()] = 15.0
-    """longest start"""
+    """maximum starting time"""
     brake_time: Annotated[PositiveTime, Limit()] = 15.0
-    """longest stop"""
+    """maximum stopping time"""
     brake_distance: Annotated[PositiveSpan | None, Limit()] = None
     """maximum stopping distance; needed to check it"""
     sway_angle: Annotated[PositiveAngle, Limit()] = 0.174532925199433
-    """largest angle of the load, 10 deg when left out"""
+    """maximum sway angle of the load, 10 deg when left out"""
     residual_sway: Annotated[PositiveAngle | None, Limit()] = None
-    """largest angle that stays after the start or stop; needed to check it"""
+    """maximum residual sway angle after the start or stop; needed to check it"""
     skid_reserve: Annotated[PositiveRatio, Limit()] = 1.2
-    """least adhesion of a driven or braked wheel over what its drive asks of it"""
+    """minimum adhesion of a driven or braked wheel / required force"""
     motor_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least starting torque over the torque of even travel against the wind"""
+    """minimum starting torque / steady travel torque against the wind"""
     wind_reserve: Annotated[PositiveRatio, Limit()] = 1.1
-    """least force that holds the crane over that of the wind out of service"""
+    """minimum holding force / out-of-service wind force"""
     stability: Annotated[PositiveRatio, Limit()] = 1.0
-    """least moment that keeps the crane on its wheels over that which tips it, both with their partial factors"""
+    """minimum stabilising moment / tipping moment, both with partial factors"""
     collision_speed: Annotated[PositiveSpeed | None, Limit()] = None
-    """largest speed at which a buffer may be hit; that of the buffer when left out"""
+    """maximum buffer impact speed; default: that of the buffer"""
 
 
 class Travelling(MachineSpec):
-    """A crane that travels: a bridge or a gantry with its trolley on a runway, or a trolley on its bridge."""
+    """A travelling crane: a bridge or gantry with its trolley on a runway, or a trolley on its bridge."""
 
     kind: Literal["crane"]
     type: Literal["travelling"]
     travels: Literal["bridge", "gantry", "trolley"] = "bridge"
-    """what the file describes the travel of"""
+    """travelling part described by the file"""
     load: PositiveMass
     """rated load on the hook"""
     hook_block: Annotated[Mass | None, Assumed()] = None
-    """hook block and whatever stays on the hook"""
+    """hook block and permanent load handling devices"""
     bridge: Bridge | None = None
     """travelling parts other than the trolley; of a bridge or gantry"""
     trolley: Trolley
     """the trolley"""
     wheels: Wheels
-    """on which it travels"""
+    """travel wheels"""
     rolling: Rolling
-    """what the wheels resist with"""
+    """rolling resistance of the wheels"""
     rail: Rail = Rail()
-    """what it runs on"""
+    """runway rail"""
     guide: Guide | None = None
-    """what keeps it on its rails; needed for a `skew`"""
+    """lateral guides; needed for a `skew`"""
     wind: Wind | None = None
-    """outdoors"""
+    """wind, for outdoor cranes"""
     speed: PositiveSpeed
     """of travel"""
     drive: TravelDrive
     """motors, gear, brakes"""
     suspension: Suspension
-    """how the load hangs"""
+    """suspension of the load"""
     buffers: Buffer | None = None
     """at the ends; needed for a `collision`"""
     parking: Parking | None = None
-    """devices other than the brakes that hold it out of service"""
+    """holding devices other than the brakes, out of service"""
     classes: Classes = Field(default=Classes(), alias="class")
-    """what the crane is classed as"""
+    """classification of the crane"""
     declared: Declared = Declared()
-    """dynamic factors with which its structure has been calculated"""
+    """declared dynamic factors of the structure"""
     duty: Duty | None = None
-    """what the mechanism does all day; needed to check the motor's heating and the class"""
+    """duty; needed to check the motor heating and the class"""
     checks: TravelChecks = TravelChecks()
     """limits, and checks switched off by code"""
     scenes: Annotated[tuple[AnyScene, ...], Field(min_length=1, max_length=50)] | None = None
-    """what happens to the machine; when left out: even travel, a start and a stop, loaded and empty, and what the
-    file has the data of: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
+    """load cases; default: steady travel, a start and a stop, loaded and empty, and scenes for which the
+    file gives data: hoisting while travelling, a collision with the buffers, a step of the rail, skewing,
     a storm"""
 
     @classmethod
