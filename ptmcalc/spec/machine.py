@@ -65,17 +65,17 @@ class MachineSpec(Fragment):
     """remarks for readers of the file"""
     gravity: Annotated[PositiveAcceleration, Setting("the place: on Earth it is within 0.3 % of 9.81 m/s^2")] = 9.81
     """acceleration of gravity; 9.81 m/s^2 when left out"""
-    accuracy: Annotated[Accuracy | None, Setting("without it, verdicts decide how narrow bars are")] = None
-    """required relative error of the governing loads, e.g. `1 %`; without it accuracy is bought only where a
-    verdict needs it"""
+    accuracy: Annotated[Accuracy | None, Setting("without it, verdicts determine the error bars")] = None
+    """required relative error of the governing loads, e.g. `1 %`; without it only as accurate as the
+    verdicts require"""
     effects: dict[str, Literal["auto", "on", "off"]] = Field(default_factory=dict)
     """effects of the physics forced on or off; every verdict without a forced-off effect is marked"""
 
     tolerances: dict[str, Tolerance] = Field(default_factory=dict, max_length=100)
-    """how far values may really be off, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
+    """distributions of values, by key: `takeup.tension: {normal: {sd: 2 kN}}`; read by `tolerances`"""
 
     waive: tuple[Waiver, ...] = ()
-    """checks that may fail for a while, each with its reason and its last day"""
+    """temporarily waived checks, each with its reason and its last day"""
 
     @classmethod
     def conflicts(cls, given: Given) -> Iterator[Conflict]:

@@ -34,5 +34,5 @@ def type_of(scene: type[Scene]) -> str:
 class TransientScene(Scene):
     """A scene that is computed over a window of time."""
 
-    window_factor: Annotated[FactorFromOne, Setting("the window is printed with the loads")] = 1.0
+    window_factor: Annotated[FactorFromOne, Setting("the report states the window with the loads")] = 1.0
     """length of the simulated time window, relative to the default"""

@@ -231,7 +231,7 @@ class ChainDrive(MachineSpec):
 
     kind: Literal["chain_drive"]
     layout: Layout
-    """where the chain runs and what it pulls: `type: conveyor` or `type: drive`"""
+    """layout of the conveyor or drive: `type: conveyor` or `type: drive`"""
     chain: ChainData
     """the chain"""
     sprocket: Annotated[Sprocket, Also("drive_sprocket")]

@@ -255,7 +255,7 @@ class Jam(ConveyorScene, TransientScene):
     """the blocked pulley; the drives at the other end continue"""
     time: Annotated[Time, Setting("part of the scene: an instantaneous jam is the worst case")] = 0.0
     """in which the pulley comes to rest at a constant rate; 0 for an instantaneous stop"""
-    duration: Annotated[PositiveTime | None, Setting("the window is printed with the loads")] = None
+    duration: Annotated[PositiveTime | None, Setting("the report states the window with the loads")] = None
     """simulated time; default: two wave circuits of the belt"""
 
 
