@@ -272,7 +272,7 @@ def summary(reports: Sequence[CostReport]) -> tuple[tuple[str, ...], list[tuple[
     """Columns and rows of the project's own table, a file a row."""
     shared = [one for one in reports[0].targets if all(one in report.targets for report in reports)]
     targets = [one for one in shared if one != MARGINS]  # not the accuracy that one file asks for
-    columns = ("file", "kind", "its margins", *targets, "bars that hold")
+    columns = ("file", "kind", "its margins", *targets, "confirmed bars")
     return columns, [(report.path, report.kind, *_summed(report, targets)) for report in reports]
 
 

@@ -144,7 +144,7 @@ def test_the_sentences_of_several_files_name_them() -> None:
 def test_the_table_of_all_files_has_a_line_a_file() -> None:
     text = cost.markdown([REPORT, REPORT])
     head, rule, *rows = text.splitlines()
-    assert head == "| file | kind | its margins | 5 % | 1 % | 0.1 % | bars that hold |"
+    assert head == "| file | kind | its margins | 5 % | 1 % | 0.1 % | confirmed bars |"
     assert rule.count("---") == head.count("|") - 1
     assert rows == ["| `specs/a.yaml` | toy | 1 ms | 250 ms | 250 ms | - | 1 of 1 |"] * 2
 
