@@ -221,7 +221,7 @@ def _product(text: str, factors: str) -> tuple[float, Dimension]:
         match = _FACTOR.fullmatch(part)
         known = UNITS.get(match[1] or match[3]) if match else None
         if match is None or known is None:
-            raise UnitError("unit", f"{quote(text)} is not a unit ptmcalc knows", _suggest(_plain(text), part))
+            raise UnitError("unit", f"{quote(text)} is an unknown unit", _suggest(_plain(text), part))
         power = int(match[2] or match[4] or 1)
         factor *= known[0] ** power
         dimension = _combine(dimension, known[1], power)

@@ -164,7 +164,7 @@ def main() -> None:
             raise
         say(
             f"ptmcalc: internal error: {type(error).__name__}: {shown(str(error))}\n"
-            "This is a bug of ptmcalc, not of your file. Please report it with the file and the output of the same"
+            "This is an error of ptmcalc, not of the file. Please report it with the file and the output of the same"
             " command under PTMCALC_TRACEBACK=1.\n",
             err=True,
         )
@@ -282,9 +282,9 @@ def check(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Check design files: loads, verdicts, and what would make a failed check pass.
+    """Check design files: loads, verdicts, and values at which failed checks would pass.
 
-    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a bug of ours.
+    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 an internal error.
     """
     if jobs.isdecimal() and int(jobs) > 1 and executor == "local" and not os.path.exists(store):
         from ptmcalc.cli import processes
@@ -393,9 +393,9 @@ def merge(
         str, typer.Option("--output", "-o", metavar="FILE", help="Output file; without it a report is printed.")
     ] = "",
 ) -> None:
-    """Unite the JSON reports, or the stores, of the shards of a run.
+    """Combine the JSON reports, or the stores, of the shards of a run.
 
-    Exit status: that of the united report, as of `check`; 0 for stores.
+    Exit status: that of the combined report, as for `check`; 0 for stores.
     """
     from ptmcalc.cli.merge import united
 
@@ -416,9 +416,9 @@ def diff(
     jobs: JobsOption = "auto",
     store: StoreOption = "",
 ) -> None:
-    """Show what changed between two states: verdicts, and loads against their error bars.
+    """Show the changes between two states: verdicts, and loads relative to their error bars.
 
-    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or a file that is invalid now, 4 a bug of ours.
+    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or an invalid new file, 4 an internal error.
     """
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
@@ -435,7 +435,7 @@ def plan(
     accuracy: AccuracyOption = "",
     effects: EffectsOption = None,
 ) -> None:
-    """Show which effects each scene calls for, the number that decides, and the predicted cost."""
+    """Show the effects required by each scene, their criteria and the predicted cost."""
     from ptmcalc.cli.listing import show_plan
     from ptmcalc.engine.check import Options
 
@@ -466,9 +466,9 @@ def cost(
         str, typer.Option("--budget", help="Maximum predicted time of one run of every setting of a file, e.g. 10s.")
     ] = "10 s",
 ) -> None:
-    """Measure what accuracy costs: every solver and setting with its time, bar and true error.
+    """Measure the cost of accuracy: every solver and setting with its time, error bar and true error.
 
-    Errors are relative to a setting of another method, never to the same one. Exit status 1 when a bar does not
+    Errors are relative to a setting of another method, never of the same method. Exit status 1 if an error bar does not
     cover the true error.
     """
     from ptmcalc.cli.cost import show_cost
@@ -517,7 +517,7 @@ def new(
         str, typer.Argument(metavar="[TYPE]", help="Type of a kind with several types; default: the first type.")
     ] = "",
 ) -> None:
-    """Print a commented design file to start from."""
+    """Print a commented design file as a starting point."""
     from ptmcalc.cli.listing import starting_file
 
     say(starting_file(kind, type_of_it))
@@ -536,7 +536,7 @@ def solvers(
     kind: Annotated[str, typer.Argument(help="Machine kind; default: all kinds.")] = "",
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """List the solvers: scene, effects they carry, predicted cost on the kind's template, error, source."""
+    """List the solvers: scene, simulated effects, predicted cost on the template of the kind, error, source."""
     from ptmcalc.cli.listing import show_solvers
 
     say(show_solvers(kind, form == ListFormat.JSON))
@@ -563,7 +563,7 @@ def solve(
 ) -> None:
     """Find the value of one key at which a check just passes, its error bar included, and the other verdicts there.
 
-    Exit status 1 when no value within three decades changes the verdict.
+    Exit status 1 if no value within three decades changes the verdict.
     """
     from ptmcalc.cli.solution import show_solution
 
@@ -596,11 +596,11 @@ def sweep(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Vary keys of a machine: verdicts, margins and loads at every point, and where verdicts turn.
+    """Vary keys of a machine: verdicts, margins and loads at every point, and the limits of the verdicts.
 
-    What closed forms decide is computed for all points at once; the rest goes through the batch as far as the budget
-    allows; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
-    invalid file, 3 points are open, 4 a bug of ours.
+    Closed forms are computed for all points at once; other points are computed as a batch as far as the budget
+    permits; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
+    invalid file, 3 points are open, 4 an internal error.
     """
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
@@ -630,11 +630,11 @@ def tolerances(
     store: StoreOption = "",
     executor: ExecutorOption = "local",
 ) -> None:
-    """Draw machines by the tolerances of a file: how often each check fails, by what, and what margin is left.
+    """Random machines by the tolerances of a file: probability of failure, governing keys and margin of each check.
 
-    Probabilities come with the interval of Clopper and Pearson, margins with that of order statistics; a machine whose
-    verdict is undecided counts as neither, and the upper end is that of all of them failing. Exit status: 0 every
-    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a bug of ours.
+    Probabilities have the interval of Clopper and Pearson, margins that of order statistics; a machine with an
+    undecided verdict counts as neither, and the upper end assumes that all of them fail. Exit status: 0 every
+    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 an internal error.
     """
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options
@@ -657,10 +657,10 @@ def scale(
     scene: ScenesOption = None,
     form: ListOption = ListFormat.TABLE,
 ) -> None:
-    """Show the loads, frequencies and times of a physical model of the machine, and what it distorts.
+    """Show loads, frequencies and times of a scaled physical model of the machine, and the distorted quantities.
 
-    The laws: `full` keeps all, with a material or a gravity to fit; `geometric` is a plain copy, which leaves gravity
-    out of scale; `ballast` adds masses to the copy. A ratio that is left out is 1; under `full` one of modulus,
+    Similarity laws: `full` is complete similarity with a matching material or gravity; `geometric` is a copy with
+    gravity out of scale; `ballast` adds masses to the copy. An omitted ratio is 1; under `full` one of modulus,
     density and gravity follows from the others.
     """
     from ptmcalc.cli.scale import show_scale

@@ -73,7 +73,7 @@ TORQUE: AnyCheck = Check(
     what="The peak torque (or force) of every link with a `limit` is at most this limit.",
     why="A coupling, shaft or rope breaks at its peak load, not at its mean load.",
     formula="max |T(t)| <= T_limit",
-    source="the maker's limit of the part",
+    source="the manufacturer's limit of the part",
 )
 
 
@@ -436,7 +436,7 @@ OVERLOAD: AnyCheck = Check(
     what="The peak torque of every motor with `largest_torque` is at most this limit.",
     why="Above this limit, a motor stalls or its inverter trips.",
     formula="max |M(t)| <= M_max",
-    source="the maker's data",
+    source="the manufacturer's data",
 )
 
 

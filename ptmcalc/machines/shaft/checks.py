@@ -114,7 +114,7 @@ EVEN: Check[Shaft, Steady] = Check(
     what="The coefficient of speed fluctuation of the main shaft over the steady cycle is at most the limit.",
     why="Speed fluctuation loads gear and motor. It impairs the work result and causes audible noise.",
     formula="(w_max - w_min)/w_mean <= delta",
-    source="definition; limit by the maker of the machine",
+    source="definition; limit by the machine manufacturer",
 )
 
 

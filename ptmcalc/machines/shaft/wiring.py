@@ -48,7 +48,7 @@ def not_repeated(given: Given) -> Iterator[Conflict]:
         known = [angle for angle in angles if angle is not None]
         if known and max(known) - min(known) >= period * (1 - _SAME):
             reason = f"the points span a cycle of {shown} or more: the first point repeats at the end"
-            yield Conflict((*place, "points"), reason, "leave out the point at the end of the cycle")
+            yield Conflict((*place, "points"), reason, "delete the point at the end of the cycle")
     load = given.block("load") if "load" in given else None
     for index, sector in enumerate(load.blocks("sectors") if load and _type_of(load) == "sectors" else ()):
         ends = (sector.number("from"), sector.number("to")) if sector else (None, None)

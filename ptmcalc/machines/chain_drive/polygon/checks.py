@@ -108,7 +108,7 @@ DYNAMIC_SAFETY: Check[ChainDrive, Run] = Check(
     " includes the polygon effect and the centrifugal force.",
     why="The polygon effect loads the chain once per tooth and fatigues plates and pins. A broken chain runs away.",
     formula="F_B/(c (S_static + S_polygon + m V^2)) >= n",
-    source="chain makers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
+    source="chain manufacturers' handbooks; lecture notes Kramatorsk 2007: S = S_C + S_D",
 )
 
 # -- joints ---------------------------------------------------------------------------------------------------------
@@ -142,7 +142,7 @@ PRESSURE = only(lambda spec, scene: spec.checks.joint_pressure is not None)(
         " file.",
         why="Above the limit the oil film breaks, and the link joints wear many times as fast.",
         formula="c S/(d b) <= p",
-        source="ISO 606:2015, bearing area; chain makers' handbooks",
+        source="ISO 606:2015, bearing area; chain manufacturers' handbooks",
     )
 )
 
@@ -214,6 +214,6 @@ FATIGUE = only(lambda spec, scene: spec.chain.fatigue_limit is not None)(
         " the required life. The mean stress counts by Goodman's line if the strength of the plates is given.",
         why="A chain passes millions of teeth. Overstressed plates crack at their holes.",
         formula="s_a/s_lim + s_m/R_m <= 1,   s_a = c (S_max - S_min)/(2 A)",
-        source="J. Goodman 1899; limits by chain makers",
+        source="J. Goodman 1899; limits by chain manufacturers",
     )
 )

@@ -52,7 +52,7 @@ STATIC_SAFETY: Check[ChainDrive, Run] = Check(
     what="The breaking load is at least the safety factor times the sum of static and centrifugal tension.",
     why="Wear, shocks and the uneven load share of parallel chains consume the apparent reserve.",
     formula="F_B/(c (S_static + m V^2)) >= n",
-    source="chain makers' handbooks; lecture notes Kramatorsk 2007",
+    source="chain manufacturers' handbooks; lecture notes Kramatorsk 2007",
 )
 
 # -- life -----------------------------------------------------------------------------------------------------------

@@ -141,7 +141,7 @@ STRENGTH: Check[ChainDrive, Start] = Check(
     why="The start of a full conveyor after a jam is the highest load in the life of the chain. A torque step produces"
     " twice the force of the rigid body.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
-    source="makers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
+    source="manufacturers of conveyor chains; the dynamic part derived in ptmcalc.numerics.mode_sum",
 )
 
 

@@ -238,7 +238,7 @@ STRENGTH: Check[ChainDrive, ChainScene] = Check(
     why="A brake at the upper end of a descent stops the whole load through the strand below it. Teeth that pass at a"
     " natural frequency excite large chain oscillations within a few revolutions.",
     formula="F_B/(c (S_static + S_dyn,max + m_K V^2)) >= limit",
-    source="makers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
+    source="manufacturers of conveyor chains; tensions derived in ptmcalc.numerics.mode_sum and run_through",
 )
 
 # -- standstill -----------------------------------------------------------------------------------------------------

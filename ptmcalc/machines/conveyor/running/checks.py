@@ -34,7 +34,7 @@ STRENGTH: Check[Conveyor, ConveyorScene] = Check(
     what="The breaking force of the belt is at least the safety factor times the maximum tension of any section.",
     why="A broken belt runs off the conveyor. Splices fail first, by fatigue.",
     formula="breaking force / S_max >= safety",
-    source="DIN 22101:1982-02 as quoted by belt makers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
+    source="DIN 22101:1982-02 as quoted by belt manufacturers: 8.0/5.4 textile, 6.7/4.8 steel cord (running/starting)",
 )
 
 

@@ -101,7 +101,7 @@ DRUM: Check[Conveyor, Run] = Check(
     " requires.",
     why="A belt bent too sharply at full tension breaks its plies or cords, first at the splice.",
     formula="c d <= D,   c = 80 cotton, 90 polyamide, 108 polyester, 138 aramid, 145 steel cord\n"
-    "D_min <= D   (the diameter the maker of the belt gives)",
+    "D_min <= D   (minimum diameter of the belt manufacturer)",
     source="DIN 22101, drums of group A",
 )
 

@@ -375,7 +375,7 @@ OVERLOAD: OneCheck = only(lambda spec, scene: spec.motor.largest_torque is not N
         what="The motor torque in the start is at most the short-time overload torque of the motors.",
         why="A motor stalls beyond its breakdown torque.",
         formula="M_m <= M_max",
-        source="the maker's data",
+        source="the manufacturer's data",
     )
 )
 

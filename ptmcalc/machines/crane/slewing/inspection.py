@@ -75,7 +75,7 @@ def _worth(spec: SlewingCrane, scene: SlewingScene, time: float, needed: float) 
         return ""
     by_torque = _equivalent(spec, scene, own, torque, rounded=False)
     by_time = _equivalent(spec, scene, time, needed, rounded=spec.handbook.shares == "rounded")
-    return f"; the equivalent torque at the column is {by_torque} with the torque, {by_time} with the time"
+    return f"; the equivalent torque about the slewing axis is {by_torque} with the torque, {by_time} with the time"
 
 
 def _equivalent(spec: SlewingCrane, scene: SlewingScene, start: float, torque: float, *, rounded: bool) -> str:

@@ -35,7 +35,7 @@ FIGURES = (
         "mast_force",
         "Mast force over time",
         _DRIVEN,
-        (Course("mast_force_max", title="force of the column"),),
+        (Course("mast_force_max", title="mast force"),),
         "force",
     ),
     Figure(
@@ -44,7 +44,7 @@ FIGURES = (
         ("obstacle",),
         (
             Course("contact_force", title="force on the obstacle"),
-            Course("collision_force", title="force of the column"),
+            Course("collision_force", title="mast force"),
         ),
         "force",
     ),

@@ -116,9 +116,9 @@ def _girders(given: Given) -> Iterator[Conflict]:
         return
     for key in ("girder_vertical", "girder_horizontal"):
         if "stiffness" in column and key in bridge:
-            reason = "it is part of the `stiffness` of the column"
-            yield Conflict(("bridge", key), reason, f"delete `{key}`, or the `stiffness` of the column")
+            reason = "it is part of the `stiffness` of the mast"
+            yield Conflict(("bridge", key), reason, f"delete `{key}`, or the `stiffness` of the mast")
         if "stiffness" not in column and key not in bridge:
             example = "120000 cm^4" if key == "girder_vertical" else "16000 cm^4"
             reason = f"the girders bend under the mast: `{key}` of one girder is missing"
-            yield Conflict(("bridge",), reason, f"add `{key}: {example}`, or give the `stiffness` of the column")
+            yield Conflict(("bridge",), reason, f"add `{key}: {example}`, or give the `stiffness` of the mast")

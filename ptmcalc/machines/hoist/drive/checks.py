@@ -182,7 +182,7 @@ STARTS: OneCheck = only(_starts_wanted)(
         what="The number of motor starts per hour is at most the manufacturer's limit.",
         why="Each start heats the rotor and wears brake and contactor.",
         formula="Z <= Z_max",
-        source="the maker's data; IEC 60034-1, duty types S4 and S5",
+        source="the manufacturer's data; IEC 60034-1, duty types S4 and S5",
     )
 )
 
@@ -268,7 +268,7 @@ START_HEAT: OneCheck = only(_heat_wanted)(
         why="In a start, the rotor of a cage motor absorbs at least the energy that the moving masses receive. Excess"
         " heat damages the rotor.",
         formula="J w_0^2/2/(1 - M_load/M_mean) <= A",
-        source="energy of the slip; the maker's data",
+        source="energy of the slip; the manufacturer's data",
     )
 )
 

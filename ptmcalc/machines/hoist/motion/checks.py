@@ -120,7 +120,7 @@ STALL: Check[Hoist, Lift] = Check(
     " hour counts as a stall.",
     why="A motor that stalls with a taut rope overheats, and the load stays on the ground.",
     formula="t(F = Q) finite",
-    source="motion of drive and load; the phase of a stall stands in the findings",
+    source="motion of drive and load; the findings state the phase of a stall",
 )
 
 # -- stops ----------------------------------------------------------------------------------------------------------

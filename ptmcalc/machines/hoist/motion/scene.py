@@ -470,8 +470,8 @@ def not_seen(scene: Lift, case: Case) -> list[Finding]:
     """A lift that takes longer than is computed."""
     if not outlasts(case):
         return []
-    reason = f"the load still stands on the ground as the longest window of {case.window:.3g} s ends"
-    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "a larger speed")]
+    reason = f"the load is still on the ground at the end of the longest window, {case.window:.3g} s"
+    return [Finding("NUM103", f"scene `{scene.label}`: {reason}", ("speed",), "increase the speed")]
 
 
 def stalls(case: Case, lifted: bool, largest: tuple[float, float | None]) -> list[Failure]:

@@ -97,7 +97,7 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
     Check(
         code="HST108",
         title="flange height above the top layer",
-        question="Do the flanges stand high enough above the top rope layer?",
+        question="Is the flange height above the top rope layer sufficient?",
         failure="drum flanges are too low",
         scenes=RUNNING,
         loads=("flange_margin",),
@@ -109,7 +109,7 @@ FLANGE: OneCheck = only(lambda spec, scene: loaded(spec, scene) and spec.drum.fl
         what="The height of the flanges above the top layer is at least the limit, 1.5 rope diameters by default.",
         why="A flange cuts a rope that passes over it.",
         formula="(h - (d + (n - 1) step))/d >= 1.5",
-        source="makers' manuals; EN 14492-2:2006",
+        source="manufacturers' manuals; EN 14492-2:2006",
     )
 )
 
@@ -174,7 +174,7 @@ DEAD_WRAPS: OneCheck = only(loaded)(
         " default.",
         why="The friction of the dead wraps holds the rope. The clamps alone do not hold it.",
         formula="z >= 2",
-        source="makers' manuals; ISO 4308-1",
+        source="manufacturers' manuals; ISO 4308-1",
     )
 )
 
@@ -218,7 +218,7 @@ FLEET: OneCheck = only(_fleet_wanted)(
         " block at its highest position.",
         why="A rope that leaves the drum at an angle rubs on the groove, untwists and finally jumps the groove.",
         formula="tan a = (b/2 + e)/l <= tan 4 deg",
-        source="geometry; makers' manuals after ISO 16625:2013",
+        source="geometry; manufacturers' manuals after ISO 16625:2013",
     )
 )
 

@@ -49,7 +49,7 @@ WINDING_STRESS: Check[Hoist, WindUp] = Check(
     why="The rope speed changes abruptly with the radius of the drum, and the load oscillates on its rope. The safety"
     " factor of the rope covers static forces only.",
     formula="s_dyn/s_mean <= limit;   for a sudden layer change w dR k n/(m g)",
-    source="Fidrovska and Varchenko, put right; the limit an engineering choice",
+    source="Fidrovska and Varchenko, corrected; the limit an engineering choice",
 )
 CROSSOVER_RESONANCE: Check[Hoist, WindUp] = Check(
     code="HST141",

@@ -198,7 +198,7 @@ def _losses(found: slowing.Slowing, speed: float) -> tuple[Value, ...]:
             "a longer record, or one with less noise",
         )
     if mean < 0:
-        reason = f"the shaft gains {units.show(-mean, units.TORQUE)}: the record shows no run-out"
+        reason = f"the shaft gains {units.show(-mean, units.TORQUE)}: the record shows no coasting"
         raise UsageError(reason, "check `inertia`, `potential` and `--from`")
     one, other = (_TIMES * math.sqrt(max(float(covariance[k, k]), 0.0)) for k in (1, 2))
     return (

@@ -129,7 +129,7 @@ SPEED: OneCheck = only(lambda spec, scene: _largest_speed(spec, scene) is not No
         why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
         " not restrained.",
         formula="share of v <= v_max",
-        source="the maker of the buffer",
+        source="the manufacturer of the buffer",
     ),
 )
 

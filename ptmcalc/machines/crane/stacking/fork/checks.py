@@ -110,7 +110,7 @@ ROPE: OneCheck = Check(
     why="A rope that breaks drops the carriage into its safety gear. A rope loaded close to its breaking force is"
     " damaged without visible signs.",
     formula="F <= n F_b",
-    source="equilibrium of the carriage; the maker of the rope",
+    source="equilibrium of the carriage; the manufacturer of the rope",
 )
 
 
@@ -214,7 +214,7 @@ TELESCOPE: OneCheck = only(lambda spec, scene: spec.fork is not None and spec.fo
         why="A slip clutch with too high a setting gives no protection. Chains and racks of telescopic forks break"
         " first.",
         formula="F <= F_max",
-        source="energy of the fork's drive; the maker of the fork",
+        source="energy of the fork drive; the manufacturer of the fork",
     ),
 )
 

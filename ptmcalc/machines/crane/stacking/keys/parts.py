@@ -47,9 +47,9 @@ class Bridge(Fragment):
     """without the trolley"""
     span: PositiveSpan
     """from rail to rail"""
-    girder_vertical: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
+    girder_vertical: Annotated[SecondMoment | None, OneOf("the `stiffness` of the mast")] = None
     """second moment of area of ONE girder, for bending in the vertical plane"""
-    girder_horizontal: Annotated[SecondMoment | None, OneOf("the `stiffness` of the column")] = None
+    girder_horizontal: Annotated[SecondMoment | None, OneOf("the `stiffness` of the mast")] = None
     """second moment of area of ONE girder, for bending in the horizontal plane"""
     ends: Literal["supported", "clamped"] = "supported"
     """girder ends at the end carriages: simply supported or clamped"""

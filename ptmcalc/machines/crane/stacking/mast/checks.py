@@ -69,7 +69,7 @@ DEFLECTION: OneCheck = only(_asks_deflection)(
         repair=_rate_repair,
         what="The dynamic deflection of the mast tip relative to its support is at most the limit.",
         why="A mast with large deflections hits the racks and shakes off the load. It fatigues at its root.",
-        formula="x = 2 P m_2/(c (m_1 + m_2)) of a sudden force; with the mass of the column and its modes",
+        formula="x = 2 P m_2/(c (m_1 + m_2)) for a sudden force; with the mast mass and its modes",
         source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; limit of the file",
     )
 )
@@ -157,7 +157,7 @@ SETTLES: OneCheck = only(_asks_wait)(
         what="From the standstill, the mast tip settles permanently into the fork window within the permitted wait.",
         why="A fork that extends earlier hits the rack or an adjacent pallet.",
         formula="|x(t)| <= window for all t >= t_s,   t_s <= wait",
-        source="free vibration of the column; window and wait of the file",
+        source="free vibration of the mast; tolerance and settling time of the file",
     )
 )
 
@@ -256,7 +256,7 @@ STRUCK: OneCheck = only(_asks_contact)(
         repair=of_the_mechanism("speed"),
         what="The contact force between the mast tip and the obstacle is at most the limit of both.",
         why="The contact force is short and many times the mast force. It stops the load and the mast end on its own.",
-        formula="F = v (k m_2)^(1/2), with the modes of the column",
+        formula="F = v (k m_2)^(1/2), with the modes of the mast",
         source="contact of the file; `laws.obstacle`",
     )
 )

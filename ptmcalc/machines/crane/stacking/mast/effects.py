@@ -108,7 +108,7 @@ def flexible_criterion(spec: Stacker, scene: DrivenScene | ObstacleScene) -> Cri
     if not isinstance(scene, ObstacleScene):
         one, push = _given(spec, scene)
         value = _period(one, push, 1) / push.rise if push.rise > 0 else math.inf
-    meaning = "period of the column over the rise of its load"
+    meaning = "mast period / rise time of its load"
     return Criterion("T/t_r", value, FLEXIBLE_THRESHOLD, meaning, "laws.mast")
 
 
@@ -124,7 +124,7 @@ def mass_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
     if turns(spec, scene):
         return None
     value = spec.column.mass / model.climbing_mass(spec, scene)
-    return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mass of the column over what climbs it", "laws.mast")
+    return Criterion("m_c/m_2", value, MASS_THRESHOLD, "mast mass / mass of carriage and load", "laws.mast")
 
 
 def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
@@ -141,7 +141,7 @@ def modes_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     one, push = _given(spec, scene)
     rise = _period(one, push, 2) / push.rise / RISE_OF_MODES if push.rise > 0 else math.inf
     heavy = spec.column.mass / model.climbing_mass(spec, scene) / MASS_OF_MODES
-    meaning = "second mode over the rise of the load, column over the load, each over its threshold"
+    meaning = "second period / rise time and mast mass / load, each relative to its threshold"
     return Criterion("T₂/t_r, m_c/m_2", max(rise, heavy), MODES_THRESHOLD, meaning, "modal analysis")
 
 
@@ -175,7 +175,7 @@ def gravity_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
         return None
     weight = model.climbing_mass(spec, scene) * spec.gravity
     value = weight / swinging(spec, scene).stiffness / spec.column.length
-    return Criterion("P/(c l)", value, GRAVITY_THRESHOLD, "weight on the column over its stiffness", "laws.mast")
+    return Criterion("P/(c l)", value, GRAVITY_THRESHOLD, "weight on the mast / mast stiffness", "laws.mast")
 
 
 def gravity_bound(spec: Stacker, scene: StackerScene, loads: Loads) -> Offsets:
@@ -224,7 +224,7 @@ def holding_criterion(spec: Stacker, scene: DrivenScene) -> Criterion | None:
     """
     if turns(spec, scene):
         return None
-    meaning = "pull of the swinging column after the stop over what holds the base"
+    meaning = "force of the oscillating mast after the stop / holding force of the base"
     one, push = _given(spec, scene)
     value = 0.0
     if push.kind == "force":
@@ -271,7 +271,7 @@ def guide_criterion(spec: Stacker, scene: StackerScene) -> Criterion | None:
     guide = spec.column.top_guide
     stiff = guide.stiffness if guide is not None and guide.stiffness is not None else 0.0
     value = stiff / swinging(spec, scene).stiffness if stiff else 0.0
-    return Criterion("k_g/c", value, GUIDE_THRESHOLD, "guide at the head over the column", "springs side by side")
+    return Criterion("k_g/c", value, GUIDE_THRESHOLD, "top guide stiffness / mast stiffness", "springs in parallel")
 
 
 def guide_bound(spec: Stacker, scene: DrivenScene, loads: Loads) -> Offsets:

@@ -40,7 +40,7 @@ ROLLERS: OneCheck = Check(
     why="The reaction is proportional to the lever arm divided by the roller distance. Short carriages with long forks"
     " wear roller and rail.",
     formula="(1 + a/g) |Q e + G b|/h <= n R_0",
-    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the maker of the roller",
+    source="N. Yu. Dorokhov, lecture notes, Kramatorsk 2007; the manufacturer of the roller",
 )
 
 
@@ -235,7 +235,7 @@ STARTS: OneCheck = only(_counts)(
         what="The number of starts per hour of the mechanism is at most the rating of motor and brake.",
         why="Each start dissipates in rotor and brake an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
-        source="the maker of motor and brake; combination 1 of the notes' tables",
+        source="the manufacturer of motor and brake; combination 1 of the notes' tables",
     )
 )
 

@@ -87,7 +87,7 @@ RESONANCE: OneCheck = only(lambda spec, scene: isinstance(spec, RackStacker) and
         what="The relative separation of the rail wave frequency from each natural frequency is at least the limit."
         " The natural frequencies are those of the mast and of the machine on its wheels.",
         why="A rail ground in uniform waves excites the mast at one speed: v = f lambda.",
-        formula="|v/(lambda f) - 1| >= 0.2 for wheels and column",
+        formula="|v/(lambda f) - 1| >= 0.2 for wheels and mast",
         source="resonance; `laws.rail.resonance_speed`",
     ),
 )

@@ -142,7 +142,7 @@ _COLUMNS = (
     Column("scene", "scene"),
     Column("solver", "solver"),
     Column("effects", "effects of the run"),
-    Column("column_stress", "column stress"),
+    Column("column_stress", "mast stress"),
     Column("bridge_stress", "bridge stress"),
     Column("use", "for", detail=True),
 )

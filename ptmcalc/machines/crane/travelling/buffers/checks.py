@@ -104,7 +104,7 @@ HIT: OneCheck = only(_has_speed)(
         why="The stiffness of rubber and cellular buffers increases with the compression speed. Load and driver are"
         " not restrained.",
         formula="share of v <= v_max",
-        source="the maker of the buffer",
+        source="the manufacturer of the buffer",
     )
 )
 

@@ -213,7 +213,7 @@ STARTS_PER_HOUR: OneCheck = only(_counts_starts)(
         what="The number of motor starts per hour is at most the rating of the manufacturer.",
         why="Each start dissipates in the rotor an energy equal to the kinetic energy of all moving masses.",
         formula="z <= z_0",
-        source="the maker of the motor; IEC 60034-1",
+        source="the manufacturer of the motor; IEC 60034-1",
     )
 )
 

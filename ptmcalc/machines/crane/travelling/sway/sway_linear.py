@@ -58,6 +58,6 @@ SWAY_LINEAR: Solver[Travelling, Moving] = Solver(
     gives=MOVING,
     run=run,
     cost=lambda spec, scene, carried, level: 2e-3,
-    source="small swing under a moved or pushed pivot; derived in ptmcalc.numerics.pendulum.linear",
+    source="small-angle sway under a moved or pushed pivot; derived in ptmcalc.numerics.pendulum.linear",
     always=frozenset({SWAY}),
 )
