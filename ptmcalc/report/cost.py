@@ -16,11 +16,11 @@ from ptmcalc.report.table import listing
 MARGINS = "margins"
 _COLUMNS = ("", "setting", "time", "plan", "true error", "bar", "held", "by")
 _LEGEND = (
-    "* no faster setting proves the same accuracy; o no faster setting has the same true error. The error is the largest"
-    " relative error of the governing loads, compared with the setting `by` of another method (-: there is none); `≤` if"
-    " that setting is not more accurate; held: whether the error bars cover the errors, open if unknown. all: with every"
-    " effect that the solver can simulate, otherwise with those that the scene requires; f: formula, shown"
-    " only; w: reference method, never planned."
+    "* no faster setting proves the same accuracy; o no faster setting has the same true error. The error is the"
+    " largest relative error of the governing loads, compared with the setting `by` of another method (-: there is"
+    " none); `≤` if that setting is not more accurate; held: whether the error bars cover the errors, open if"
+    " unknown. all: with every effect that the solver can simulate, otherwise with those that the scene requires;"
+    " f: formula, shown only; w: reference method, never planned."
 )
 
 
