@@ -1,4 +1,4 @@
-"""What accuracy costs, as text: a table, JSON, one sentence, and the project's own table of all files."""
+"""Cost of accuracy as text: a table, JSON, one sentence, and the table of all design files."""
 
 import math
 import os

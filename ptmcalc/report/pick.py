@@ -1,4 +1,4 @@
-"""What the short table shows of a report: what governs, and everything that is not passed. The rest is counted."""
+"""Contents of the short table: the governing values and everything that is not passed. The rest is counted."""
 
 import math
 from collections import Counter

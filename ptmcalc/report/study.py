@@ -1,4 +1,4 @@
-"""How sweeps and tolerances are told: a table for one screen, JSON, and CSV, a line for each point or check."""
+"""Output of sweeps and tolerances: a table for one screen, JSON, and CSV with a line for each point or check."""
 
 import csv
 import math

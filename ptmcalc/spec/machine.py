@@ -1,4 +1,4 @@
-"""What every machine description has besides the machine itself."""
+"""Keys common to every machine description."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from datetime import date
@@ -19,7 +19,7 @@ from ptmcalc.spec.scene import Scene
 from ptmcalc.spec.tolerance import Tolerance
 
 Accuracy = Efficiency
-"""A relative error asked for: above 0, at most 1."""
+"""A requested relative error: above 0, at most 1."""
 
 
 class CheckSwitch(Fragment):
@@ -41,7 +41,7 @@ class Waiver(Fragment):
 
 
 class CheckSettings(Described):
-    """Limits a standard or a company sets, and checks switched off by code: `CNV104: {off: "reason"}`.
+    """Limits of a standard or a company, and checks switched off by code: `CNV104: {off: "reason"}`.
 
     Codes are open here because the kind, not the model, knows them; the loader refuses any other extra key.
     """
@@ -50,7 +50,7 @@ class CheckSettings(Described):
     __pydantic_extra__: dict[str, CheckSwitch]
 
     def switched_off(self, code: str) -> str:
-        """The reason the file gives for leaving this check out, or an empty text."""
+        """The reason in the file for switching off this check, or an empty text."""
         switch = (self.__pydantic_extra__ or {}).get(code)
         return switch.off if switch else ""
 

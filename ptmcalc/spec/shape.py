@@ -1,4 +1,4 @@
-"""What the models of a description are made of: the keys of each, what stands behind a key, and an example of it."""
+"""Structure of the models of a description: the keys of each model, their types and examples."""
 
 import difflib
 import inspect

@@ -1,4 +1,4 @@
-"""How far a value of a machine may really be from what its file says: a distribution for each key."""
+"""Distributions of values of a machine, by key."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any
