@@ -248,7 +248,7 @@ def _suggest(text: str, part: str) -> str:
     close = folded.get(name.lower()) or next(iter(difflib.get_close_matches(name, folded.values(), 1)), None)
     if close:
         return f"did you mean `{close}`?"
-    return "units are SI and engineering ones: " + " ".join(name for name in UNITS if name not in {"1", "°"})
+    return "permitted units: " + " ".join(name for name in UNITS if name not in {"1", "°"})
 
 
 _FOREIGN: Mapping[str, tuple[str, float]] = MappingProxyType(

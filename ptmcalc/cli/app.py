@@ -284,7 +284,7 @@ def check(
 ) -> None:
     """Check design files: loads, verdicts, and values at which failed checks would pass.
 
-    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 an internal error.
+    Exit status: 0 all pass, 1 a check failed, 2 wrong usage or an invalid file, 3 undecided, 4 a program error.
     """
     if jobs.isdecimal() and int(jobs) > 1 and executor == "local" and not os.path.exists(store):
         from ptmcalc.cli import processes
@@ -418,7 +418,7 @@ def diff(
 ) -> None:
     """Show the changes between two states: verdicts, and loads relative to their error bars.
 
-    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or an invalid new file, 4 an internal error.
+    Exit status: 0 nothing is worse, 1 a verdict is worse, 2 wrong usage or an invalid new file, 4 a program error.
     """
     from ptmcalc.cli.diff import show_diff
     from ptmcalc.engine.check import Options
@@ -600,7 +600,7 @@ def sweep(
 
     Closed forms are computed for all points at once; other points are computed as a batch as far as the budget
     permits; the remaining points are reported as open. Exit status: 0 every point is decided, 2 wrong usage or an
-    invalid file, 3 points are open, 4 an internal error.
+    invalid file, 3 points are open, 4 a program error.
     """
     from ptmcalc.cli.study import Means, show_sweep
     from ptmcalc.engine.check import Options
@@ -634,7 +634,7 @@ def tolerances(
 
     Probabilities have the interval of Clopper and Pearson, margins that of order statistics; a machine with an
     undecided verdict counts as neither, and the upper end assumes that all of them fail. Exit status: 0 every
-    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 an internal error.
+    machine is decided, 2 wrong usage or an invalid file, 3 some are open, 4 a program error.
     """
     from ptmcalc.cli.study import Means, show_tolerances
     from ptmcalc.engine.check import Options

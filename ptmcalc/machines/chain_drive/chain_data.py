@@ -135,7 +135,7 @@ def wrong_teeth(given: Given) -> Iterator[Conflict]:
         return
     if number < LEAST_TEETH:
         reason = (
-            f"a sprocket cannot have {number} teeth: the chain would turn by {360 / max(number, 1):.0f} deg a tooth"
+            f"a sprocket cannot have {number} teeth: the chain would turn by {360 / max(number, 1):.0f} deg per tooth"
         )
         yield Conflict(("teeth",), reason, "write `teeth: 8`; traction chains run on 6 and more, roller chains on 17")
     elif number > MOST_TEETH:

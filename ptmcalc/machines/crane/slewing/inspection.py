@@ -60,7 +60,7 @@ def _exclude(spec: SlewingCrane, scene: SlewingScene, time: float, key: KeyPath)
     )
     yield Finding(
         "SPC201",
-        f"{shown} and {asked} exclude each other: {takes}, {asked} require {wanted}"
+        f"{shown} and {asked} contradict each other: {takes}, {asked} require {wanted}"
         + _worth(spec, scene, time, needed),
         ("motor", spec.motor.torque_key),
         "correct one of them; `handbook` takes both as they are, everything else the torque",
