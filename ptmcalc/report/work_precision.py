@@ -48,8 +48,8 @@ def render(report: CostReport) -> str:
         '<a class="skip" href="#main">Skip to the report</a>\n'
         f'<header><h1>Work against precision</h1><p class="muted"><code>{path}</code></p></header>\n<main id="main">\n'
         f"<p>{escape(conclusion(report))}</p>\n"
-        '<p class="muted">Filled: the widest reported bar. Hollow: the largest true error, or the most it can be. The'
-        " line joins the settings that prove the most for the least time.</p>\n"
+        '<p class="muted">Filled: the widest reported error bar. Open: the maximum true error, or its upper bound. The'
+        " line joins the settings with the narrowest error bars for their time.</p>\n"
         f"{panels}</main>\n<footer>ptmcalc {__version__}. The page is self-contained and requires no network."
         "</footer></body></html>\n"
     )

@@ -452,7 +452,9 @@ def _without_density(given: Given) -> Iterator[Conflict]:
     if "surcharge_angle" in load:
         return  # that it is missing is said already
     if any(isinstance(force, dict) and "skirt" in force for force in forces.values()):
-        yield Conflict(("load",), "`skirt` plates feel the bulk density: it is missing", "add `density: 1600 kg/m^3`")
+        yield Conflict(
+            ("load",), "`skirt` plates require the bulk density: it is missing", "add `density: 1600 kg/m^3`"
+        )
 
 
 def _whole_length(route: Given) -> float | None:

@@ -253,7 +253,7 @@ REACHES: Check[Drivetrain, Start] = Check(
     what="The inertia considered in the scene reaches the speed that ends the start, without a time limit.",
     why="A motor that stalls or stays below its speed overheats. The machine never operates.",
     formula="max w/w_end >= 1",
-    source="definition of a start; surplus of the motor's torque over its speed range",
+    source="definition of a start; excess motor torque over its speed range",
 )
 
 
