@@ -501,9 +501,9 @@ def test_solve_of_a_faulty_file_exits_2() -> None:
     [
         ("CNV101", ("drive pulley traction reserve", "Formula", "Limit:", "**Range**", "Source:")),
         ("cnv101", ("CNV101: drive pulley traction reserve",)),
-        ("belt_wave", ("When it matters", "What leaving it out can change", "**Error**")),
+        ("belt_wave", ("When it matters", "Change if it is neglected", "**Error**")),
         ("sag", ("Part of: belt_wave",)),
-        ("characteristics", ("Effects it carries: belt_wave", "**Source**")),
+        ("characteristics", ("Simulated effects: belt_wave", "**Source**")),
         ("first_wave", ("never decides",)),
         ("SPC106", ("missing unit", "What to do:")),
     ],

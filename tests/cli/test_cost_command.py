@@ -98,5 +98,5 @@ def test_a_faulty_file_is_told_and_the_others_are_measured(tmp_path: Path) -> No
 
 def test_a_witness_and_a_shared_method_are_explained() -> None:
     assert "No plan offers it" in ptmcalc("explain", "cells").out
-    assert "It computes as two_mass" in ptmcalc("explain", "hoist_train").out
-    assert "It computes as" not in ptmcalc("explain", "characteristics").out
+    assert "It uses the method of two_mass" in ptmcalc("explain", "hoist_train").out
+    assert "It uses the method of" not in ptmcalc("explain", "characteristics").out

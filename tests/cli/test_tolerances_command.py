@@ -208,7 +208,7 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
     ("block", "place", "message"),
     [
         ("  takeup.tenson: {plus: 1 kN}\n", "1:3", "`takeup.tenson` is not a numerical key of this file; did you mean"),
-        ("  takeup.type: {plus: 1 kN}\n", "1:3", "`takeup.type` is no key of a number"),
+        ("  takeup.type: {plus: 1 kN}\n", "1:3", "`takeup.type` is not a numerical key"),
         ("  takeup.tension: {plus: 1 m}\n", "1:26", "`tolerances.takeup.tension.plus`: `1 m` is a length, not a force"),
         ("  takeup.tension: {plus: 1}\n", "1:26", "`1` has no unit"),
         ("  takeup.tension: {plus: -1 kN}\n", "1:26", "out of range: it must be at least 0 N"),

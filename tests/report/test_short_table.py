@@ -366,7 +366,7 @@ def test_what_is_left_out_is_counted_over_all_files_at_the_end() -> None:
     both = [SAMPLES["moving"], SAMPLES["switched_off"], SAMPLES["moving"], SAMPLES["passing"]]
     *_, summary, last = render(Format.TABLE, both).splitlines()
     assert summary == "4 files, 9 checks passed, 1 switched off"
-    assert last == "Further output with --verbose: 6 passed checks, 60 events, what the effects are, all runs"
+    assert last == "Further output with --verbose: 6 passed checks, 60 events, meaning of the effects, all runs"
 
 
 def test_one_is_one() -> None:

@@ -72,7 +72,7 @@ class TestBadInput:
 
     def test_a_pitch_larger_than_the_sprocket(self) -> None:
         found = faulty(changed(CH_05, sprocket__diameter="300 mm"), "sprocket", "diameter")
-        assert "320 mm is no smaller than the sprocket itself, 300 mm" in found.message
+        assert "320 mm is not smaller than the sprocket diameter, 300 mm" in found.message
 
     def test_a_diameter_that_is_not_that_of_its_teeth(self) -> None:
         found = faulty(changed(CH_05, sprocket__diameter="900 mm"), "sprocket", "diameter")

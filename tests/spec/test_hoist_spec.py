@@ -41,7 +41,7 @@ class TestReeving:
 
     def test_two_ropes_share_the_falls_out(self) -> None:
         found = faulty(changed(CRANE, reeving__falls=5), "reeving", "falls")
-        assert "5 falls do not share out on two ropes" in found.message
+        assert "5 falls cannot be divided between two ropes" in found.message
         assert "falls: 6" in found.hint
 
     def test_ropes_are_one_or_two(self) -> None:
@@ -54,12 +54,12 @@ class TestRopeAndDrum:
     @pytest.mark.parametrize("drum", ["17.5 mm", "10 mm"])
     def test_a_rope_thicker_than_its_drum(self, drum: str) -> None:
         found = faulty(changed(PAPER, drum__diameter=drum), "drum", "diameter")
-        assert "a rope of 17.5 mm is not wound on a drum of" in found.message
+        assert "a rope of 17.5 mm cannot be wound on a drum of" in found.message
         assert "diameter: 315 mm" in found.hint
 
     def test_more_layers_than_the_flanges_hold(self) -> None:
         found = faulty(changed(PAPER, drum__layers=7), "drum", "layers")
-        assert "the flanges of 95 mm hold 6 layers, not 7" in found.message
+        assert "flanges of 95 mm are high enough for 6 layers, not 7" in found.message
         assert "layers: 6" in found.hint
         assert "flange_height: 134.7 mm" in found.hint
 

@@ -293,7 +293,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 540 deg\n" + CRANK,
         "cycle_angle",
         "cycle_angle:",
-        "the slider-crank does not come again after 540 deg",
+        "the slider-crank has no period of 540 deg",
         "`360 deg` for most",
     ),
     "a harmonic that does not repeat itself": (
@@ -302,7 +302,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 120 deg\n" + HARMONICS,
         "cycle_angle",
         "cycle_angle:",
-        "the harmonic of order 2 does not come again after 120 deg",
+        "the harmonic of order 2 has no period of 120 deg",
         "`360 deg` for most",
     ),
     "an unbalance that does not repeat itself": (
@@ -311,7 +311,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 180 deg\n" + CONSTANT,
         "cycle_angle",
         "cycle_angle:",
-        "the unbalance does not come again after 180 deg",
+        "the unbalance has no period of 180 deg",
         "`360 deg` for most",
     ),
     "a wave of the weights that does not repeat itself": (
@@ -320,7 +320,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "cycle_angle: 100 deg\n" + CONSTANT,
         "cycle_angle",
         "cycle_angle:",
-        "the harmonic of order 3 does not come again after 100 deg",
+        "the harmonic of order 3 has no period of 100 deg",
         "`360 deg` for most",
     ),
     "an efficiency that nothing uses": (
@@ -441,21 +441,21 @@ DISAGREEING = [
         file("speed: 11 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "11 rad/s",
-        "motor and gear give 95.49 rpm without load, the file states 105",
+        "motor and gear result in 95.49 rpm without load, the file states 105",
         ("speed: 11 rad/s", "speed: 10 rad/s"),
     ),
     (
         file("speed: 8 rad/s\n", CONSTANT, DRIVE),
         "speed",
         "8 rad/s",
-        "motor and gear give 95.49 rpm without load, the file states 76",
+        "motor and gear result in 95.49 rpm without load, the file states 76",
         ("ratio: 10", "ratio: 12"),
     ),
     (
         file(CONSTANT, DRIVE, SCENES.replace("run_up", "run_up, to: 10 rad/s")),
         "scenes[0].to",
         "10 rad/s}",
-        "where the motor gives no torque any more",
+        "where the motor torque is zero",
         ("to: 10 rad/s", "to: 9.9 rad/s"),
     ),
     (

@@ -157,7 +157,7 @@ def test_a_mechanism_of_the_other_machine(word: str, mechanism: str) -> None:
 def test_nothing_starts_a_bridge_that_only_stops() -> None:
     data = changed(template(OVERHEAD), bridge_travel__driving_force=None, bridge_travel__driving_rise=None)
     assert faults(data) == []
-    assert "nothing starts the bridge" in faults({**data, "scenes": [{"type": "start"}]})[0].message
+    assert "the bridge has no drive" in faults({**data, "scenes": [{"type": "start"}]})[0].message
 
 
 def test_all_faults_are_said_at_once() -> None:
