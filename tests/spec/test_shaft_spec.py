@@ -176,7 +176,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "inertia: 35 kg*m^2}\n    - {angle: 95 deg, inertia: 0.01 kg*m^2}\n    - {angle: 270 deg, inertia: 32 kg*m^2}",
         "inertia.points",
         "points:",
-        "the smooth curve through the points falls to",
+        "the smooth curve through the points decreases to",
         "give more points",
     ),
     "a rod that is too short": (
