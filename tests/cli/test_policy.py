@@ -220,7 +220,7 @@ def test_a_faulty_baseline_is_wrong_usage(text: str, tmp_path: Path) -> None:
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
     done = checked(SLIPPING, "--baseline", path)
     assert (done.status, done.out) == (2, "")
-    assert "is no baseline of ptmcalc" in done.err
+    assert "is not a baseline of ptmcalc" in done.err
 
 
 def test_a_baseline_of_the_form_before_is_refused_by_name(tmp_path: Path) -> None:

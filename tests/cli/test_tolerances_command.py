@@ -217,7 +217,7 @@ def test_without_a_computed_sample_nothing_is_said() -> None:
         ("  takeup.tension: {normal: {}}\n", "1:20", "`sd` is missing"),
         ("  takeup.tension: {normal: {sd: 1 kN, men: 2 kN}}\n", "1:39", "unknown key"),
         ("  takeup.tension: {normal: {sd: [1]}}\n", "1:33", "expected a value of the key, found a list"),
-        ("  takeup.tension: {uniform: {min: 3 kN, max: 2 kN}}\n", "1:41", "largest value is not above the least one"),
+        ("  takeup.tension: {uniform: {min: 3 kN, max: 2 kN}}\n", "1:41", "the maximum is not above the minimum"),
         ("  takeup.tension: {normal: {sd: 1 kN}, plus: 1 kN}\n", "1:20", "give it or `plus`, not both"),
         ("  takeup.tension: {normal: {sd: 1 kN}, uniform: {min: 1 kN, max: 2 kN}}\n", "1:40", "not both"),
         ("  takeup.tension: {}\n", "1:3", "give `normal` or `uniform`"),
@@ -260,7 +260,7 @@ MANY = "".join(
     [
         ("  {}\n", (), "has no `tolerances`"),
         ("  takeup.stroke: {plus: 1 m}\n", (), "the file has no value of it"),
-        ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some machines have values that none can have"),
+        ("  takeup.tension: {normal: {sd: 20 kN}}\n", (), "some random machines have impossible values"),
         ("  takeup.tension: {minus: 40 kN}\n", (), "it must be greater than 0 N"),
         ("  takeup.tension: {normal: {sd: 1 kN, min: 90 kN}}\n", (), "the probability between"),
         ("  takeup.tension: {plus: 1 kN}\n", ("--samples", "0"), "`--samples 0` is not a number of samples"),

@@ -314,7 +314,7 @@ def test_a_verdict_says_without_only_of_what_the_file_forced_off() -> None:
     effects = [effect("waves", bound=NARROW), effect("sag", number=None, bound=ANYTHING)]
     found = report(kind_of(solver("rigid", pull(9)), effects=effects))
     assert judgement(found).without == ()
-    assert "an input it needs is not given" in effect_of(found, "sag").note
+    assert "a required input is not given" in effect_of(found, "sag").note
 
 
 @pytest.mark.parametrize(("carries", "note"), [(("waves",), "its bound is calibrated"), (("waves", "echo"), "")])

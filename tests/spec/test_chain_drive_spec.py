@@ -33,7 +33,7 @@ class TestBadInput:
     def test_an_odd_number_of_pitches(self) -> None:
         found = faulty(changed(ROLLER, layout__pitches=117, layout__centre_distance=None), "layout", "pitches")
         assert found.code == "SPC113"
-        assert "117 pitches do not close" in found.message
+        assert "117 pitches cannot be closed" in found.message
         assert "pitches: 118" in found.hint
         assert "cranked_link: yes" in found.hint
 
@@ -44,7 +44,7 @@ class TestBadInput:
     @pytest.mark.parametrize("teeth", [3, 0, -8])
     def test_three_teeth(self, teeth: int) -> None:
         found = faulty(changed(CH_05, sprocket__teeth=teeth), "sprocket", "teeth")
-        assert f"{teeth} teeth do not make a sprocket" in found.message
+        assert f"a sprocket cannot have {teeth} teeth" in found.message
         assert "teeth: 8" in found.hint
 
     def test_teeth_in_quotes_are_answered_by_themselves_without_quotes(self) -> None:

@@ -91,7 +91,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
         "SPC113",
         "they state the same quantity",
     ),
-    "largest wind below the steady one": ({"wind__maximum": "1 kN*m"}, "SPC113", "below the steady one"),
+    "largest wind below the steady one": ({"wind__maximum": "1 kN*m"}, "SPC113", "below the steady wind"),
     "not a number": ({"friction": "nan N*m"}, "SPC109", "not a finite number"),
     "huge": ({"friction": "1e30 N*m"}, "SPC110", "out of range"),
     "no unit": ({"speed": 2}, "SPC106", "has no unit"),
@@ -101,7 +101,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "nothing that slews": (
         {"slewing_part": None, "counterweight": None, "jib": None},
         "SPC113",
-        "give `inertia`, or the parts",
+        "give `inertia`, or the slewing parts",
     ),
     "parts without inertia": (
         {
@@ -128,7 +128,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     "power without speed": ({"motor__speed": None}, "SPC113", "the rated torque is power over speed"),
     "two start inputs": ({"cycle__start_time": "4 s", "cycle__start_angle": "5 deg"}, "SPC113", "not both"),
-    "stop longer than the rotation": ({"cycle__brake_angle": "190 deg"}, "SPC113", "longer than the whole rotation"),
+    "stop longer than the rotation": ({"cycle__brake_angle": "190 deg"}, "SPC113", "exceeds the whole slewing angle"),
     "ring curve out of order": (
         {"ring": {"curve": [{"axial": "5 kN", "moment": "3 kN*m"}, {"axial": "2 kN", "moment": "3 kN*m"}]}},
         "SPC113",
@@ -176,7 +176,7 @@ def test_a_load_heavier_than_the_whole_inertia_is_refused() -> None:
 def test_a_slope_needs_the_masses() -> None:
     ((code, message, _),) = problems(changed(COURSE, slope="1 deg"))
     assert code == "SPC113"
-    assert "the weights that turn on a slope are not known" in message
+    assert "an inertia does not determine the weights on a slope" in message
 
 
 # -- what is said of sound files ------------------------------------------------------------------------------------

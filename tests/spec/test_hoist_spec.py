@@ -96,7 +96,7 @@ class TestRopeAndDrum:
 
     def test_a_drum_for_no_turn(self) -> None:
         found = faulty(changed(PAPER, drum__length="20 mm"), "drum", "length")
-        assert "three turns" in found.message
+        assert "three adjacent wraps" in found.message
 
     def test_an_area_given_twice(self) -> None:
         assert "not both" in faulty(changed(PAPER, rope__fill_factor=0.5), "rope", "fill_factor").message

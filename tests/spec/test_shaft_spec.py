@@ -168,7 +168,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "inertia.points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "a curve through points that falls below 0": (
         file(TABLE, DRIVE),
@@ -177,7 +177,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "inertia.points",
         "points:",
         "the smooth curve through the points decreases to",
-        "give more points",
+        "add points",
     ),
     "a rod that is too short": (
         file(CRANK, DRIVE),
@@ -185,7 +185,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "rod_length: 60 mm",
         "inertia.rod_length",
         "rod_length:",
-        "the crank cannot turn round",
+        "the crank cannot rotate fully",
         "check the three lengths",
     ),
     "an offset that the rod does not reach": (
@@ -194,7 +194,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "rod_length: 480 mm\n  offset: -420 mm\n",
         "inertia.rod_length",
         "rod_length:",
-        "the crank cannot turn round",
+        "the crank cannot rotate fully",
         "check the three lengths",
     ),
     "a sector that ends before it begins": (
@@ -203,7 +203,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "to: 90 deg",
         "load.sectors[0].to",
         "to: 90 deg",
-        "ends where it begins or before",
+        "ends at or before its start",
         "`to: 450 deg`",
     ),
     "a sector of no width": (
@@ -212,7 +212,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "to: 270 deg",
         "load.sectors[0].to",
         "to: 270 deg",
-        "ends where it begins or before",
+        "ends at or before its start",
         "`to: 630 deg`",
     ),
     "a sector wider than a cycle": (
@@ -222,7 +222,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "load.sectors[0]",
         "{from: 270",
         "wider than a cycle of 360 deg",
-        "the angle after which the whole machine repeats itself",
+        "the period of the whole machine",
     ),
     "angles of a load that fall": (
         file(CONSTANT, DRIVE, OVER_ANGLE),
@@ -240,7 +240,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "load.points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "distances that fall": (
         file(CRANK, DRIVE, TOOL),
@@ -267,7 +267,7 @@ FAULTS: dict[str, tuple[str, str, str, str, str, str, str]] = {
         "potential[0].points",
         "points:",
         "span a cycle of 360 deg or more",
-        "leave out the point at the end",
+        "delete the point at the end",
     ),
     "a tool on a constant inertia": (
         file(CONSTANT, DRIVE, SECTORS),

@@ -47,7 +47,7 @@ def test_a_template_is_sound(word: str) -> None:
         (OVERHEAD, {"trolley__position": "16.5 m"}, ("trolley", "position"), "beyond the bridge"),
         (OVERHEAD, {"carriage__lowest": "0.2 m"}, ("carriage", "lowest"), "below the column"),
         (OVERHEAD, {"column__foot": "0 m", "carriage__lowest": "-0.2 m"}, ("carriage", "lowest"), "at least 0 m"),
-        (OVERHEAD, {"carriage__highest": "6.5 m"}, ("carriage", "highest"), "above the column, whose head is at 6.3 m"),
+        (OVERHEAD, {"carriage__highest": "6.5 m"}, ("carriage", "highest"), "above the mast head at 6.3 m"),
         (RACK, {"carriage__lowest": "0.1 m"}, ("carriage", "lowest"), "below the column"),
         (RACK, {"carriage__lowest": "9 m", "carriage__highest": "4 m"}, ("carriage", "highest"), "not above `lowest`"),
         (OVERHEAD, {"bridge__girder_vertical": None}, ("bridge",), "`girder_vertical` of one girder is missing"),
@@ -137,7 +137,7 @@ def test_a_caught_fork_needs_a_drive_and_a_rope_that_gives() -> None:
 
 @pytest.mark.parametrize(
     ("height", "says"),
-    [("0.1 m", "below the column"), ("13 m", "above the column"), ("11.9 m", "its path is from 0.5 m to 11 m")],
+    [("0.1 m", "below the column"), ("13 m", "above the mast"), ("11.9 m", "its path is from 0.5 m to 11 m")],
 )
 def test_a_scene_with_the_carriage_where_it_does_not_come(height: str, says: str) -> None:
     scene = {"type": "brake", "height": height}

@@ -290,7 +290,7 @@ def test_wheels_that_slide_are_said_once() -> None:
     report = report_of(crane(drive__acceleration="0.9 m/s^2"))
     said = [one.message for one in report.diagnostics if one.code == "NUM102"]
     assert len(said) == 1
-    assert "driven wheels slide" in said[0]
+    assert "driven wheels slip" in said[0]
 
 
 def test_brakes_that_do_not_stop_it_are_said_once() -> None:
