@@ -137,7 +137,7 @@ def test_a_caught_fork_needs_a_drive_and_a_rope_that_gives() -> None:
 
 @pytest.mark.parametrize(
     ("height", "says"),
-    [("0.1 m", "below the column"), ("13 m", "above the mast"), ("11.9 m", "its path is from 0.5 m to 11 m")],
+    [("0.1 m", "below the mast"), ("13 m", "above the mast"), ("11.9 m", "its path is from 0.5 m to 11 m")],
 )
 def test_a_scene_with_the_carriage_where_it_does_not_come(height: str, says: str) -> None:
     scene = {"type": "brake", "height": height}

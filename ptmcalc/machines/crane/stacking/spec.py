@@ -103,7 +103,7 @@ def _off(path: tuple[str | int, ...], height: float | None, foot: float, head: f
         return
     key = path[-1]
     if height < foot:
-        below = "floor" if foot == 0 else "column"
+        below = "floor" if foot == 0 else "mast"
         reason = f"the carriage is below the {below}: the mast starts at {_m(foot)}"
         yield Conflict(path, reason, f"write `{key}: {_m(foot)}` or more")
     else:
