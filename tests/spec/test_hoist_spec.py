@@ -65,10 +65,10 @@ class TestRopeAndDrum:
 
     def test_square_layers_are_thicker(self) -> None:
         data = changed(PAPER, drum__layers=6, winding={"packing": "square"})
-        assert "hold 5 layers, not 6" in faulty(data, "drum", "layers").message
+        assert "high enough for 5 layers, not 6" in faulty(data, "drum", "layers").message
 
     def test_a_flange_lower_than_the_rope(self) -> None:
-        assert "hold 0 layers" in faulty(changed(PAPER, drum__flange_height="10 mm"), "drum", "layers").message
+        assert "high enough for 0 layers" in faulty(changed(PAPER, drum__flange_height="10 mm"), "drum", "layers").message
 
     def test_layers_need_flanges(self) -> None:
         found = faulty(changed(PAPER, drum__flange_height=None), "drum", "layers")
@@ -176,7 +176,7 @@ class TestScenes:
 
     def test_a_hook_above_its_highest_place(self) -> None:
         data = changed(PAPER, scenes=[{"type": "run", "hook_height": "41 m"}])
-        assert "40 m only" in faulty(data, "scenes", 0, "hook_height").message
+        assert "only 40 m" in faulty(data, "scenes", 0, "hook_height").message
 
     @pytest.mark.parametrize("scene", ["run", "lift", "start", "stop", "lower_brake", "release", "winding"])
     def test_a_hook_so_high_that_no_rope_is_free(self, scene: str) -> None:
@@ -192,7 +192,7 @@ class TestScenes:
 
     def test_a_layer_that_is_never_wound(self) -> None:
         data = changed(CRANE, scenes=[{"type": "winding"}])
-        assert "never climbs to layer 2" in faulty(data, "scenes", 0).message
+        assert "never reaches layer 2" in faulty(data, "scenes", 0).message
 
     def test_a_curve_that_the_motor_has_not(self) -> None:
         data = changed(PAPER, scenes=[{"type": "start", "profile": {"shape": "curve"}}])
