@@ -68,7 +68,9 @@ class TestRopeAndDrum:
         assert "high enough for 5 layers, not 6" in faulty(data, "drum", "layers").message
 
     def test_a_flange_lower_than_the_rope(self) -> None:
-        assert "high enough for 0 layers" in faulty(changed(PAPER, drum__flange_height="10 mm"), "drum", "layers").message
+        assert (
+            "high enough for 0 layers" in faulty(changed(PAPER, drum__flange_height="10 mm"), "drum", "layers").message
+        )
 
     def test_layers_need_flanges(self) -> None:
         found = faulty(changed(PAPER, drum__flange_height=None), "drum", "layers")

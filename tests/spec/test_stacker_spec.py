@@ -66,7 +66,12 @@ def test_a_template_is_sound(word: str) -> None:
         ),
         (OVERHEAD, {"bridge_travel__ramp_rise": "1 s"}, ("bridge_travel", "ramp_rise"), "no ramp"),
         (RACK, {"travel__braking_rise": "1 s"}, ("travel", "braking_rise"), "no `braking_force`"),
-        (RACK, {"hoisting__rope__falls": 3, "hoisting__rope__ropes": 2}, ("hoisting", "rope", "falls"), "cannot be divided"),
+        (
+            RACK,
+            {"hoisting__rope__falls": 3, "hoisting__rope__ropes": 2},
+            ("hoisting", "rope", "falls"),
+            "be divided",
+        ),
         (RACK, {"hoisting__rope__efficiency": 0.9, "hoisting__rope__sheave_efficiency": 0.9}, None, "not both"),
         (RACK, {"hoisting__rope__area": "60 mm^2"}, ("hoisting", "rope"), "`length` is missing"),
         (RACK, {"hoisting__drive": {"largest_force": "5 kN"}}, ("hoisting", "drive"), "reduced_mass"),
